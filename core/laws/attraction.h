@@ -1,0 +1,61 @@
+#pragma once
+
+#include "core/laws/constants.h"
+#include "core/laws/pack.h"
+
+namespace pastefit {
+
+/// Attraction laws: how hard two grains pull on each other, and how that changes with distance.
+/// Each is a type with one function
+///     force(constants, overlap d <= 0, size scale s = 2 R*/R_ref) -> {force [N], |dF/dd| [N/m]},
+/// where F/s^2 is a function of d/s, so that grains of other sizes follow the scaling rule of coarse graining.
+/// To add one: a type here, a value of BridgeShape, a row in core/step/kernels.h and its constants in constants.cpp.
+
+template <class Real>
+struct Pull {
+  Real force, slope;
+};
+
+struct NoAttraction {
+  static constexpr bool present = false;
+};
+
+/// F = a d^2 + b d + c (Platzer & Fimbinger 2022); with a = 0 also the straight line.
+struct PolynomialAttraction {
+  static constexpr bool present = true;
+  template <class Real>
+  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
+    const Real slope = Real(k.bridge_a) * d + Real(k.bridge_b) * s;
+    const Real tangent = slope + Real(k.bridge_a) * d;
+    return {slope * d + Real(k.bridge_c) * s * s, larger(tangent, -tangent)};
+  }
+};
+
+/// F = c exp(3 d/|d_c|). The exponent lies in [-3, 0]: the eighth power of a Taylor series of order 11 is exact to
+/// 1e-14.
+struct ExponentialAttraction {
+  static constexpr bool present = true;
+  template <class Real>
+  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
+    const Real x = larger(Real(k.bridge_b) * d / s, Real(-3.0)) * Real(0.125);
+    Real sum(1.0);
+    for (int n = 11; n > 0; --n) sum = Real(1.0) + x * Real(1.0 / n) * sum;
+    const Real second = sum * sum, fourth = second * second;
+    const Real force = Real(k.bridge_c) * s * s * fourth * fourth;
+    return {force, force * Real(k.bridge_b) / s};
+  }
+};
+
+/// F = c/(1 + 1.05 S + 2.5 S^2), S = gap sqrt(R/V): liquid bridge between equal spheres (Willett et al. 2000).
+struct CapillaryAttraction {
+  static constexpr bool present = true;
+  template <class Real>
+  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
+    const Real gap = -d / s;
+    const Real share = Real(1.0) / (Real(1.0) + (Real(k.bridge_b) + Real(k.bridge_a) * gap) * gap);
+    const Real force = Real(k.bridge_c) * s * s * share;
+    return {force, force * share * (Real(k.bridge_b) + Real(2 * k.bridge_a) * gap) / s};
+  }
+};
+
+}  // namespace pastefit

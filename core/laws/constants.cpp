@@ -1,0 +1,95 @@
+#include "core/laws/constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pastefit {
+
+namespace {
+
+double shear_modulus(double youngs_modulus, double poissons_ratio) {
+  return youngs_modulus / (2 * (1 + poissons_ratio));
+}
+
+void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double nu2, double restitution) {
+  const double e_star = 1 / ((1 - nu1 * nu1) / e1 + (1 - nu2 * nu2) / e2);
+  const double g_star = 1 / ((2 - nu1) / shear_modulus(e1, nu1) + (2 - nu2) / shear_modulus(e2, nu2));
+  pair.hertz = 4.0 / 3.0 * e_star;
+  pair.normal_stiffness = 2 * e_star;
+  pair.tangential_ratio = 4 * g_star / e_star;
+  pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
+}
+
+void set_attraction(PairConstants& pair, const ContactModel& grains, double radius, double share, double shells) {
+  const Bridge& bridge = grains.bridge;
+  const double at_touch = attraction_at_touch(bridge, radius);
+  pair.cohesion = share * grains.cohesion_n.value_or(at_touch);
+  if (bridge.shape == BridgeShape::none || share == 0) return;
+  pair.bridge_c = share * at_touch;
+  pair.rupture_gap = rupture_gap(bridge, radius);
+  pair.formation_gap = bridge.formation == BridgeFormation::film ? shells * bridge.offset_m : 0.0;
+  switch (bridge.shape) {
+    case BridgeShape::polynomial:
+      pair.bridge_a = share * bridge.a_n_m2;
+      pair.bridge_b = share * bridge.b_n_m;
+      break;
+    case BridgeShape::linear:
+      pair.bridge_b = pair.bridge_c / pair.rupture_gap;
+      break;
+    case BridgeShape::exponential:
+      pair.bridge_b = 3 / pair.rupture_gap;
+      break;
+    case BridgeShape::capillary:
+      pair.bridge_a = 2.5 * radius / bridge.liquid_volume_m3;
+      pair.bridge_b = 1.05 * std::sqrt(radius / bridge.liquid_volume_m3);
+      break;
+    case BridgeShape::none:
+      break;
+  }
+}
+
+}  // namespace
+
+double damping_ratio(double restitution) {
+  const double ln = std::log(restitution);
+  return -ln / std::sqrt(ln * ln + std::numbers::pi * std::numbers::pi);
+}
+
+double attraction_at_touch(const Bridge& bridge, double radius) {
+  if (bridge.shape == BridgeShape::none) return 0;
+  if (bridge.shape != BridgeShape::capillary) return bridge.c_n;
+  return 2 * std::numbers::pi * radius * bridge.surface_tension_n_m * std::cos(bridge.contact_angle_rad);
+}
+
+double rupture_gap(const Bridge& bridge, double radius) {
+  if (bridge.shape == BridgeShape::none) return 0;
+  if (bridge.shape != BridgeShape::capillary) return -bridge.d_c_m;
+  // Willett et al. 2000, Langmuir 16:9396, equal spheres.
+  const double root = std::cbrt(bridge.liquid_volume_m3);
+  return (1 + 0.5 * bridge.contact_angle_rad) * (root + 0.1 * root * root / radius);
+}
+
+PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) {
+  PairConstants pair;
+  set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, grains.youngs_modulus_pa, grains.poissons_ratio,
+              grains.restitution);
+  pair.friction = grains.friction;
+  pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
+  pair.rolling_friction = grains.rolling_friction;
+  set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
+  return pair;
+}
+
+PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, double reference_radius_m) {
+  PairConstants pair;
+  set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, wall.youngs_modulus_pa, wall.poissons_ratio,
+              wall.restitution);
+  pair.friction = wall.friction;
+  pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
+  pair.rolling_friction = wall.rolling_friction;
+  set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
+  return pair;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/rigs/materials.h"
+
+namespace pastefit {
+
+/// What a contact law needs to know of a pair of surfaces, computed once per pair before a run.
+/// Lengths and forces of the attraction are those of a pair of reference grains; see `Bridge` for other sizes.
+struct PairConstants {
+  double hertz = 0;                ///< 4/3 E* [Pa]
+  double normal_stiffness = 0;     ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
+  double tangential_ratio = 0;     ///< S_t / S_n = 4 G*/E*
+  double damping = 0;              ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
+  double friction = 0;             ///< Coulomb coefficient
+  bool friction_of_total = false;  ///< limit mu N with N the total normal force instead of the elastic repulsion
+  double rolling_friction = 0;     ///< mu_r
+  double cohesion = 0;             ///< constant attraction in overlap [N]
+  double bridge_a = 0;             ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
+  double bridge_c = 0;       ///< attraction at touch [N]
+  double rupture_gap = 0;    ///< -d_c [m]
+  double formation_gap = 0;  ///< gap at which a bridge forms [m]
+};
+
+/// Grain against grain. `reference_radius_m` is the radius the bridge's numbers belong to.
+/// Source of the elastic constants: Hertz; Mindlin; damping Tsuji et al. in the form of physics conventions
+/// beta = -ln e / sqrt(ln^2 e + pi^2).
+PairConstants grain_pair(const ContactModel& grains, double reference_radius_m);
+
+/// Grain against wall: the wall's own friction, restitution and rolling, and its share of the grains' attraction.
+/// A wall carries no liquid shell: a bridge to it forms at the offset of one grain.
+PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, double reference_radius_m);
+
+/// Damping factor beta of a restitution 0 < e <= 1.
+double damping_ratio(double restitution);
+
+/// Attraction at touch [N] and rupture gap [m] of a bridge of any shape between two reference grains.
+double attraction_at_touch(const Bridge& bridge, double reference_radius_m);
+double rupture_gap(const Bridge& bridge, double reference_radius_m);
+
+}  // namespace pastefit

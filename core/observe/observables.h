@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pastefit {
+
+/// One reading of a test. The name carries test step and unit, e.g. "step1.height_mm";
+/// it is the key in laboratory files, results and residuals alike, so the value is in the unit the name says.
+struct Observable {
+  std::string name;
+  double value = 0;
+};
+
+/// Readings in the order in which they were taken.
+class Observables {
+ public:
+  void set(std::string_view name, double value);
+  std::optional<double> find(std::string_view name) const;
+  const std::vector<Observable>& all() const { return readings_; }
+
+ private:
+  std::vector<Observable> readings_;
+};
+
+}  // namespace pastefit

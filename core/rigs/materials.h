@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace pastefit {
+
+/// How a grain's radius is drawn.
+enum class SizeDistribution { mono, uniform, normal };
+
+/// Grain radii of a simulation.
+/// mono: every grain has `radius_m`. uniform: between `smallest_m` and `largest_m`.
+/// normal: mean `radius_m`, `standard_deviation_m`, values outside [smallest_m, largest_m] are drawn again.
+struct GrainSizes {
+  SizeDistribution distribution = SizeDistribution::mono;
+  double radius_m = 0.008;  ///< mean radius
+  double standard_deviation_m = 0;
+  double smallest_m = 0.008;
+  double largest_m = 0.008;
+};
+
+/// How the attraction of a liquid bridge falls with distance; all have the value c at touch.
+enum class BridgeShape {
+  none,         ///< no attraction across a gap
+  polynomial,   ///< a d^2 + b d + c
+  linear,       ///< falls in a straight line to zero at d_c
+  exponential,  ///< c exp(3 d/|d_c|), cut at d_c
+  capillary     ///< liquid bridge of two equal spheres, Willett et al. 2000
+};
+
+/// When a liquid bridge comes into being; it lives until the gap exceeds -d_c.
+enum class BridgeFormation {
+  film,  ///< when the liquid shells touch: gap <= o_i + o_j
+  touch  ///< when the grains themselves touch: gap <= 0
+};
+
+/// Attraction across the gap between two grains of the reference radius (the mean radius of the scene).
+/// F(d) = a d^2 + b d + c for d_c <= d <= 0 (d < 0 is a gap), zero beyond.
+/// Other pairs scale with s = 2 R*/R_ref: a stays, b s, c s^2, d_c s, offset s.
+/// Requirements (polynomial): c > 0, b >= 0, b + 2 a d_c >= 0, F(d_c) >= 0, d_c < 0.
+/// Source: Platzer & Fimbinger, BHM 167 (2022) 61-65.
+struct Bridge {
+  BridgeShape shape = BridgeShape::none;
+  BridgeFormation formation = BridgeFormation::film;
+  double a_n_m2 = 0;               ///< [N/m^2]
+  double b_n_m = 0;                ///< [N/m]
+  double c_n = 0;                  ///< [N], attraction at touch
+  double d_c_m = 0;                ///< [m], overlap at rupture, negative
+  double offset_m = 0;             ///< thickness of the liquid shell on each grain [m]
+  double liquid_volume_m3 = 0;     ///< capillary only
+  double surface_tension_n_m = 0;  ///< capillary only
+  double contact_angle_rad = 0;    ///< capillary only
+};
+
+/// How rolling is resisted.
+enum class RollingModel {
+  none,
+  spring_dashpot,  ///< elastic-plastic spring and dashpot, Ai et al. 2011 (EPSD)
+  constant_torque  ///< mu_r N R* against the relative spin, regularised near rest
+};
+
+/// What the friction limit mu N is taken of.
+enum class FrictionBasis {
+  elastic,  ///< the elastic repulsion (cohesion strengthens friction)
+  total     ///< the whole normal force, never below zero
+};
+
+/// Grain against grain.
+struct ContactModel {
+  double youngs_modulus_pa = 2e6;
+  double poissons_ratio = 0.3;
+  double restitution = 0.3;
+  double friction = 0.5;
+  double rolling_friction = 0.1;
+  RollingModel rolling = RollingModel::spring_dashpot;
+  FrictionBasis friction_basis = FrictionBasis::elastic;
+  std::optional<double> cohesion_n;  ///< constant attraction in overlap [N] at the reference radius; empty: bridge.c_n
+  Bridge bridge;
+};
+
+/// Grain against a wall; the wall is made of stiff material unless said otherwise.
+struct WallContact {
+  double youngs_modulus_pa = 1e9;
+  double poissons_ratio = 0.3;
+  double restitution = 0.3;
+  double friction = 0.5;
+  double rolling_friction = 0.1;
+  double cohesion_factor = 0;  ///< share of the grains' cohesion and bridge force that acts on this wall
+};
+
+}  // namespace pastefit

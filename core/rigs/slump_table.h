@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/result.h"
+#include "core/rigs/materials.h"
+
+namespace pastefit {
+
+/// An open frustum that stands on the table, wide end down.
+struct Mould {
+  double base_radius_m = 0.100;
+  double top_radius_m = 0.065;
+  double height_m = 0.200;
+};
+
+/// Inner volume of the mould [m^3]: pi h (r_b^2 + r_b r_t + r_t^2)/3.
+double volume_m3(const Mould& mould);
+
+/// The hinged plate of the flow table on which the mould stands, centred under it.
+/// The plate is square; its hinge is the edge at x = -length/2, its free edge the one at x = +length/2.
+struct DropPlate {
+  double length_m = 0.700;
+  double mass_kg = 16.0;
+  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop
+  double lift_duration_s = 0.5;  ///< time the plate takes to turn up to the stop
+};
+
+/// Which point of the heap the laboratory calls its height.
+enum class HeightReading {
+  axis,    ///< mean over the probe disc at the mould's axis (ASTM C143: displaced centre of the top)
+  highest  ///< the highest point of the body (EN 12350-2)
+};
+
+/// How heights are read from the heap.
+struct Reading {
+  HeightReading height = HeightReading::axis;
+  double probe_diameter_m = 0.040;
+};
+
+/// The slump test as one value: apparatus, material, grains, contact model.
+/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): turn the plate up, let it fall once.
+struct SlumpTable {
+  Mould mould;
+  double lift_velocity_m_s = 0.1;
+  double table_length_m = 0.700;  ///< side of the square table (and of the plate)
+  std::optional<DropPlate> drop;
+  Reading reading;
+
+  double bulk_density_kg_m3 = 2300;  ///< of the fresh material in the mould; the grain density follows from the fill
+  GrainSizes grains;
+  ContactModel contact;
+  WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
+  WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
+
+  std::uint64_t packing_seed = 1;
+};
+
+/// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
+/// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.
+Faults validate(const SlumpTable& test);
+
+}  // namespace pastefit

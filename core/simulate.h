@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/observe/observables.h"
+#include "core/result.h"
+#include "core/rigs/slump_table.h"
+
+namespace pastefit {
+
+class World;
+
+/// The grains in the mould after filling and strike-off; depends on mould, grain sizes and packing seed only.
+struct Packing;
+
+/// Where a run is, handed to the caller between blocks of steps.
+struct Moment {
+  std::string_view phase;
+  double time_s = 0;
+  std::int64_t step = 0;
+  const World* world = nullptr;
+};
+
+/// What the caller may ask of a run besides its answer.
+struct RunOptions {
+  std::optional<double> time_step_s;         ///< fixed step instead of the one the scene asks for
+  std::int64_t step_limit = 20'000'000;      ///< a run beyond it fails with `step_limit`
+  double watch_interval_s = 0.01;            ///< simulated time between two calls of `watch`
+  std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
+  std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
+};
+
+/// How the run went.
+struct RunSummary {
+  std::int64_t particles = 0;
+  std::int64_t steps = 0;
+  std::int64_t particle_steps = 0;
+  double time_step_s = 0;  ///< mean over the run
+  double simulated_s = 0;
+  bool settled = false;     ///< every rest phase ended by its criterion, not by its cap
+  double energy_error = 0;  ///< unexplained energy over energy put in
+};
+
+/// Readings of a run, or the reason why there are none.
+struct Outcome {
+  Observables observables;
+  RunSummary run;
+  std::optional<Failure> failure;
+};
+
+/// Fills and strikes off the mould of `test`. The packing may serve every run with the same mould, sizes and seed.
+std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
+
+/// Runs the slump test. Same test, options and program: same bits.
+/// Requirement: `validate(test)` is empty. Never throws for bad physics: see `Outcome::failure`.
+Outcome simulate(const SlumpTable& test, const RunOptions& options = {});
+
+/// The names of all readings the test will have, in order (with or without step 2).
+std::vector<std::string> observable_names(const SlumpTable& test);
+
+}  // namespace pastefit

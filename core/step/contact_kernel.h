@@ -1,0 +1,184 @@
+// Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set and the pack's width.
+// Everything here lives in that namespace or is inlined: see core/laws/pack.h.
+
+#include "core/laws/contact.h"
+#include "core/laws/pack.h"
+#include "core/step/kernels.h"
+
+namespace pastefit::PASTEFIT_ISA {
+
+namespace {
+
+constexpr int kWidth = PASTEFIT_WIDTH;
+using Real = Pack<kWidth>;
+using Vector = BasicVec3<Real>;
+
+/// One grain per lane.
+struct Grains {
+  Vector position, velocity, spin;
+  Real radius, damping_rate;
+};
+
+/// Rows of the lanes' grains, turned into packs.
+PASTEFIT_INLINE Grains gather(const KernelTask& task, const std::int32_t* index) {
+  alignas(64) double m[8][kWidth];
+  alignas(64) double s[3][kWidth];
+  for (int lane = 0; lane < kWidth; ++lane) {
+    const Motion& motion = task.motion[index[lane]];
+    m[0][lane] = motion.position.x;
+    m[1][lane] = motion.position.y;
+    m[2][lane] = motion.position.z;
+    m[3][lane] = motion.radius;
+    m[4][lane] = motion.velocity.x;
+    m[5][lane] = motion.velocity.y;
+    m[6][lane] = motion.velocity.z;
+    m[7][lane] = motion.damping_rate;
+    const Spin& spin = task.spin[index[lane]];
+    s[0][lane] = spin.velocity.x;
+    s[1][lane] = spin.velocity.y;
+    s[2][lane] = spin.velocity.z;
+  }
+  Grains g;
+  g.position = {Real::load(m[0]), Real::load(m[1]), Real::load(m[2])};
+  g.radius = Real::load(m[3]);
+  g.velocity = {Real::load(m[4]), Real::load(m[5]), Real::load(m[6])};
+  g.damping_rate = Real::load(m[7]);
+  g.spin = {Real::load(s[0]), Real::load(s[1]), Real::load(s[2])};
+  return g;
+}
+
+PASTEFIT_INLINE Vector load(const double* const columns[3], std::int32_t k) {
+  return {Real::load(columns[0] + k), Real::load(columns[1] + k), Real::load(columns[2] + k)};
+}
+
+PASTEFIT_INLINE void store(double* const columns[3], std::int32_t k, const Vector& v) {
+  v.x.store(columns[0] + k);
+  v.y.store(columns[1] + k);
+  v.z.store(columns[2] + k);
+}
+
+PASTEFIT_INLINE void add(Load& load, const double (&rows)[8][kWidth], int lane, double sign) {
+  load.force.x += sign * rows[0][lane];
+  load.force.y += sign * rows[1][lane];
+  load.force.z += sign * rows[2][lane];
+  load.damping += rows[3][lane];
+  load.torque.x += rows[4][lane];
+  load.torque.y += rows[5][lane];
+  load.torque.z += rows[6][lane];
+  load.stiffness += rows[7][lane];
+}
+
+/// Memory columns of batch k in and out; roll only where the rolling law has memory.
+template <class Rolling>
+PASTEFIT_INLINE Memory<Real> recall(const ContactView& c, std::int32_t k) {
+  Memory<Real> memory;
+  memory.slip = pastefit::PASTEFIT_ISA::load(c.slip, k);
+  if constexpr (Rolling::present) {
+    if constexpr (Rolling::elastic) memory.roll = pastefit::PASTEFIT_ISA::load(c.roll, k);
+  }
+  memory.contact_radius = Real::load(c.contact_radius + k);
+  memory.bridge = Real::load(c.bridge + k);
+  return memory;
+}
+
+template <class Attraction, class Rolling>
+PASTEFIT_INLINE void remember(const ContactView& c, std::int32_t k, const Memory<Real>& memory) {
+  store(c.slip, k, memory.slip);
+  if constexpr (Rolling::present) {
+    if constexpr (Rolling::elastic) store(c.roll, k, memory.roll);
+  }
+  memory.contact_radius.store(c.contact_radius + k);
+  if constexpr (Attraction::present) memory.bridge.store(c.bridge + k);
+}
+
+template <class Attraction, class Rolling>
+void pair_kernel(const KernelTask& task) {
+  const ContactView& c = task.contacts;
+  for (std::int32_t k = 0; k < c.count; k += kWidth) {
+    const Grains a = gather(task, c.i + k), b = gather(task, c.j + k);
+    const Vector between = b.position - a.position;
+    const Real square = larger(dot(between, between), Real(1e-200));
+    const Real distance = square_root(square);
+
+    Meeting<Real> meeting;
+    meeting.normal = (Real(1.0) / distance) * between;
+    meeting.overlap = a.radius + b.radius - distance;
+    const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
+    const Real lever_a = a.radius - half_depth, lever_b = b.radius - half_depth;
+    meeting.velocity = a.velocity - b.velocity + cross(lever_a * a.spin + lever_b * b.spin, meeting.normal);
+    meeting.spin = a.spin - b.spin;
+    meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
+    meeting.root_radius = Real::load(c.root_radius + k);
+    meeting.root_mass = Real::load(c.root_mass + k);
+    meeting.inverse_mass = Real::load(c.inverse_mass + k);
+    meeting.size_scale = Real::load(c.size_scale + k);
+    meeting.neighbour_damping = a.damping_rate + b.damping_rate;
+
+    Memory<Real> memory = recall<Rolling>(c, k);
+    const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
+    remember<Attraction, Rolling>(c, k, memory);
+
+    const Vector force = action.traction - action.push * meeting.normal;
+    const Vector turning = cross(meeting.normal, action.traction);
+    const Vector torque_a = lever_a * turning + action.moment;
+    const Vector torque_b = lever_b * turning - action.moment;
+    alignas(64) double rows_a[8][kWidth], rows_b[8][kWidth];
+    const Real* const parts_a[8] = {&force.x,    &force.y,    &force.z,    &action.damping,
+                                    &torque_a.x, &torque_a.y, &torque_a.z, &action.stiffness};
+    const Real* const parts_b[8] = {&force.x,    &force.y,    &force.z,    &action.damping,
+                                    &torque_b.x, &torque_b.y, &torque_b.z, &action.stiffness};
+    for (int p = 0; p < 8; ++p) {
+      parts_a[p]->store(rows_a[p]);
+      parts_b[p]->store(rows_b[p]);
+    }
+    for (int lane = 0; lane < kWidth; ++lane) {
+      add(task.load[c.i[k + lane]], rows_a, lane, 1.0);
+      add(task.load[c.j[k + lane]], rows_b, lane, -1.0);
+    }
+  }
+}
+
+template <class Attraction, class Rolling>
+void wall_kernel(const KernelTask& task) {
+  const ContactView& c = task.contacts;
+  const WallView& w = task.wall;
+  for (std::int32_t k = 0; k < c.count; k += kWidth) {
+    const Grains a = gather(task, c.i + k);
+    Meeting<Real> meeting;
+    meeting.normal = pastefit::PASTEFIT_ISA::load(w.normal, k);
+    meeting.overlap = Real::load(w.overlap + k);
+    const Real lever = a.radius - larger(meeting.overlap, Real(0.0));
+    meeting.velocity =
+        a.velocity - pastefit::PASTEFIT_ISA::load(w.wall_velocity, k) + cross(lever * a.spin, meeting.normal);
+    meeting.spin = a.spin;
+    meeting.twist = Real(0.5) * dot(a.spin, meeting.normal);
+    meeting.root_radius = Real::load(c.root_radius + k);
+    meeting.root_mass = Real::load(c.root_mass + k);
+    meeting.inverse_mass = Real::load(c.inverse_mass + k);
+    meeting.size_scale = Real::load(c.size_scale + k);
+    meeting.neighbour_damping = a.damping_rate;
+
+    Memory<Real> memory = recall<Rolling>(c, k);
+    const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
+    remember<Attraction, Rolling>(c, k, memory);
+
+    store(w.force, k, action.traction - action.push * meeting.normal);
+    store(w.moment, k, lever * cross(meeting.normal, action.traction) + action.moment);
+    action.damping.store(w.damping + k);
+    action.stiffness.store(w.stiffness + k);
+  }
+}
+
+}  // namespace
+
+#define PASTEFIT_ROW(kind, attraction) \
+  { kind<attraction, NoRolling>, kind<attraction, SpringDashpotRolling>, kind<attraction, ConstantTorqueRolling> }
+
+const KernelTable kernels = {
+    {PASTEFIT_ROW(pair_kernel, NoAttraction), PASTEFIT_ROW(pair_kernel, PolynomialAttraction),
+     PASTEFIT_ROW(pair_kernel, ExponentialAttraction), PASTEFIT_ROW(pair_kernel, CapillaryAttraction)},
+    {PASTEFIT_ROW(wall_kernel, NoAttraction), PASTEFIT_ROW(wall_kernel, PolynomialAttraction),
+     PASTEFIT_ROW(wall_kernel, ExponentialAttraction), PASTEFIT_ROW(wall_kernel, CapillaryAttraction)},
+    PASTEFIT_ISA_NAME};
+
+}  // namespace pastefit::PASTEFIT_ISA

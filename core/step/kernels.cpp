@@ -1,0 +1,31 @@
+#include "core/step/kernels.h"
+
+namespace pastefit {
+
+const KernelTable& kernels_of_this_processor() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return avx512::kernels;
+  if (__builtin_cpu_supports("avx2")) return avx2::kernels;
+  return sse2::kernels;
+}
+
+int attraction_index(BridgeShape shape) {
+  switch (shape) {
+    case BridgeShape::none:
+      return 0;
+    case BridgeShape::polynomial:
+    case BridgeShape::linear:
+      return 1;
+    case BridgeShape::exponential:
+      return 2;
+    case BridgeShape::capillary:
+      return 3;
+  }
+  return 0;
+}
+
+int rolling_index(RollingModel rolling) {
+  return static_cast<int>(rolling);
+}
+
+}  // namespace pastefit

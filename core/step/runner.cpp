@@ -1,0 +1,124 @@
+#include "core/step/runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+/// What rest is judged by.
+struct Pose {
+  double speed = 0;          ///< root mean square [m/s]
+  double top = 0;            ///< highest point [m]
+  double mean_height = 0;    ///< [m]
+  double mean_distance = 0;  ///< from the axis [m]
+};
+
+Pose pose_of(const Particles& particles) {
+  Pose pose;
+  const double n = std::max(particles.count(), 1);
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    const Motion& m = particles.motion[i];
+    pose.speed += dot(m.velocity, m.velocity);
+    pose.top = std::max(pose.top, m.position.z + m.radius);
+    pose.mean_height += m.position.z / n;
+    pose.mean_distance += std::sqrt(m.position.x * m.position.x + m.position.y * m.position.y) / n;
+  }
+  pose.speed = std::sqrt(pose.speed / n);
+  return pose;
+}
+
+double largest_change(const Pose& a, const Pose& b) {
+  return std::max({std::fabs(a.top - b.top), std::fabs(a.mean_height - b.mean_height),
+                   std::fabs(a.mean_distance - b.mean_distance)});
+}
+
+// Readings of a heap that still changes by more than this in one window mean nothing.
+constexpr double kStillFlowing = 0.1;  // of the mean radius
+
+}  // namespace
+
+Runner::Runner(World& world, const RunOptions& options, const StepOptions& steps)
+    : world_(world), options_(options), stepper_(world, steps) {
+  summary_.particles = world.particles.count();
+  summary_.settled = true;
+}
+
+std::optional<Failure> Runner::tell(std::string_view phase) {
+  if (!options_.watch || world_.time < next_watch_) return {};
+  next_watch_ = world_.time + options_.watch_interval_s;
+  if (options_.watch({phase, world_.time, world_.step, &world_})) return {};
+  return Failure{FailureReason::stopped,     std::string(phase), world_.step, world_.time, -1, 0, 0,
+                 "the run was asked to stop"};
+}
+
+std::optional<Failure> Runner::run(std::string_view phase, double duration_s, const Drive& drive,
+                                   const std::function<bool(const World&)>& done) {
+  const double end = world_.time + duration_s;
+  while (world_.time < end) {
+    if (auto problem = tell(phase)) return problem;
+    if (auto problem = stepper_.step(drive)) {
+      problem->phase = phase;
+      return problem;
+    }
+    ++summary_.steps;
+    summary_.particle_steps += world_.particles.count();
+    if (summary_.steps >= options_.step_limit)
+      return Failure{FailureReason::step_limit,
+                     std::string(phase),
+                     world_.step,
+                     world_.time,
+                     -1,
+                     static_cast<double>(summary_.steps),
+                     static_cast<double>(options_.step_limit),
+                     "the bound on the number of steps was reached; allow more steps or choose softer grains"};
+    if (done && done(world_)) break;
+  }
+  return {};
+}
+
+Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion) {
+  const double radius = world_.reference_radius;
+  const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
+  Wait wait;
+  Pose before = pose_of(world_.particles);
+  for (double waited = 0; waited < cap_s; waited += criterion.window_s) {
+    wait.failure = run(phase, criterion.window_s);
+    if (wait.failure) return wait;
+    const Pose now = pose_of(world_.particles);
+    wait.change = largest_change(now, before);
+    wait.rested = now.speed < slow && wait.change < criterion.change_over_radius * radius;
+    if (wait.rested) return wait;
+    before = now;
+  }
+  return wait;
+}
+
+std::optional<Failure> Runner::settle(std::string_view phase, double cap_s, const RestCriterion& criterion) {
+  const Wait wait = wait_for_rest(phase, cap_s, criterion);
+  if (wait.failure || wait.rested) return wait.failure;
+  summary_.settled = false;
+  const double limit = kStillFlowing * world_.reference_radius;
+  if (wait.change < limit) return {};
+  return Failure{FailureReason::never_settled,
+                 std::string(phase),
+                 world_.step,
+                 world_.time,
+                 -1,
+                 wait.change,
+                 limit,
+                 "the heap still moved when the time allowed was over; raise friction, rolling friction or strength"};
+}
+
+std::optional<Failure> Runner::relax(std::string_view phase, double cap_s, const RestCriterion& criterion) {
+  return wait_for_rest(phase, cap_s, criterion).failure;
+}
+
+const RunSummary& Runner::summary() {
+  summary_.simulated_s = world_.time;
+  summary_.time_step_s = summary_.steps > 0 ? world_.time / static_cast<double>(summary_.steps) : 0;
+  return summary_;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,252 @@
+#include "core/step/stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kStepsPerSelection = 10;  // selections are a tenth of the work of a step; see README
+constexpr double kSmallestMargin = 0.01;   // of the mean radius
+constexpr double kLargestMargin = 0.2;
+constexpr double kGrowth = 1.05;       // a step may grow by 5 % between two selections
+constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it
+
+ContactView view(Contacts& c) {
+  ContactView v{};
+  v.i = c.i.data();
+  v.j = c.j.data();
+  v.root_radius = c.root_radius.data();
+  v.root_mass = c.root_mass.data();
+  v.inverse_mass = c.inverse_mass.data();
+  v.size_scale = c.size_scale.data();
+  for (int k = 0; k < 3; ++k) {
+    v.slip[k] = c.slip[k].data();
+    v.roll[k] = c.roll[k].data();
+  }
+  v.contact_radius = c.contact_radius.data();
+  v.bridge = c.bridge.data();
+  v.count = static_cast<std::int32_t>(c.i.size());
+  return v;
+}
+
+double speed_of(const Wall& wall) {
+  // The farthest point of a turning wall is not known here; walls that turn are plates of at most a few metres.
+  double reach = 0;
+  if (const auto* plate = std::get_if<Plate>(&wall.shape))
+    reach = norm(plate->centre - wall.pivot) + plate->half_length + plate->half_width;
+  return norm(wall.velocity) + norm(wall.angular_velocity) * reach;
+}
+
+}  // namespace
+
+Stepper::Stepper(World& world, const StepOptions& options)
+    : world_(world), options_(options), kernels_(kernels_of_this_processor()) {
+  smallest_radius_ = smallest_mass_ = 1e300;
+  for (std::int32_t i = 0; i < world.particles.count(); ++i) {
+    smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
+    smallest_mass_ = std::min(smallest_mass_, world.particles.mass(i));
+  }
+}
+
+std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& drive) {
+  if (auto problem = maintain_lists()) return problem;
+  compute_forces();
+  if (pierced_ >= 0)
+    return failure(
+        FailureReason::grain_lost, world_.particles.identity[pierced_], options_.overlap_limit, options_.overlap_limit,
+        "a grain is pressed into a wall by more than the allowed share of its radius; take stiffer grains or a "
+        "smaller step");
+  const double dt = next_time_step();
+  if (drive) drive(world_, dt);
+  integrate(dt);
+  for (Wall& wall : world_.walls) move(wall, dt);
+  world_.time += dt;
+  ++world_.step;
+  dt_ = dt;
+  return {};
+}
+
+std::optional<Failure> Stepper::maintain_lists() {
+  double fastest = fastest_;
+  for (const Wall& wall : world_.walls) fastest = std::max(fastest, speed_of(wall));
+  const double moved = fastest * dt_;
+  used_margin_ += 2 * moved;
+  moved_since_listed_ += moved;
+  if (runaway_ >= 0) {
+    const double speed = norm(world_.particles.motion[runaway_].velocity);
+    const bool finite = std::isfinite(speed);
+    return failure(finite ? FailureReason::runaway_speed : FailureReason::non_finite,
+                   world_.particles.identity[runaway_], finite ? speed : 0, kRunawaySpeed,
+                   finite
+                       ? "a grain is faster than anything in the test can make it; take a smaller step or less stiff "
+                         "or less cohesive grains"
+                       : "a velocity is not a number; take a smaller step");
+  }
+  if (lists_valid_ && used_margin_ <= margin_) return {};
+
+  Particles& particles = world_.particles;
+  const double radius = world_.reference_radius;
+  const double skin = options_.skin * radius;
+  margin_ = std::clamp(2 * fastest * dt_ * kStepsPerSelection, kSmallestMargin * radius, kLargestMargin * radius);
+  if (lists_valid_ && 2 * moved_since_listed_ > skin - margin_) {
+    double farthest = 0;
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Vec3 shift = particles.motion[i].position - listed_position_[i];
+      farthest = std::max(farthest, dot(shift, shift));
+    }
+    moved_since_listed_ = std::sqrt(farthest);
+    lists_valid_ = 2 * moved_since_listed_ <= skin - margin_;
+  }
+  if (!lists_valid_) {
+    const std::vector<std::int32_t> new_place =
+        rebuild(particles, world_.contacts, world_.candidates, world_.reach(), skin);
+    for (Wall& wall : world_.walls) renumber(wall, new_place);
+    listed_position_.resize(particles.count());
+    for (std::int32_t i = 0; i < particles.count(); ++i) listed_position_[i] = particles.motion[i].position;
+    moved_since_listed_ = 0;
+    lists_valid_ = true;
+  }
+  const Deepest deepest =
+      select_contacts(particles, world_.candidates, world_.contacts, scratch_, world_.reach(), margin_);
+  for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), margin_);
+  used_margin_ = 0;
+  health_ = {fastest_, deepest.overlap, deepest.grain};
+  if (deepest.overlap > options_.overlap_limit)
+    return failure(FailureReason::excessive_overlap, particles.identity[deepest.grain], deepest.overlap,
+                   options_.overlap_limit,
+                   "two grains overlap by more than the allowed share of a radius; stiffer grains or less cohesion");
+  return {};
+}
+
+void Stepper::compute_forces() {
+  const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
+  KernelTask task{};
+  task.motion = world_.particles.motion.data();
+  task.spin = world_.particles.spin.data();
+  task.load = world_.particles.load.data();
+  task.contacts = view(world_.contacts);
+  task.pair = world_.grain_pair;
+  task.dt = dt_;
+  kernels_.pair[attraction][rolling](task);
+  for (Wall& wall : world_.walls) act_on_wall(wall);
+}
+
+void Stepper::act_on_wall(Wall& wall) {
+  WallContacts& touching = wall.touching;
+  const std::int32_t n = touching.contacts.count;
+  wall.force = wall.torque = {};
+  if (n == 0) return;
+  Particles& particles = world_.particles;
+  for (std::int32_t k = 0; k < n; ++k) {
+    const Motion& grain = particles.motion[touching.contacts.i[k]];
+    const Nearest point = nearest(wall.shape, grain.position);
+    touching.normal[0][k] = point.direction.x;
+    touching.normal[1][k] = point.direction.y;
+    touching.normal[2][k] = point.direction.z;
+    touching.overlap[k] = grain.radius - point.distance;
+    if (touching.overlap[k] > options_.overlap_limit * grain.radius) pierced_ = touching.contacts.i[k];
+    const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
+    const Vec3 velocity = wall.velocity + cross(wall.angular_velocity, arm);
+    touching.wall_velocity[0][k] = velocity.x;
+    touching.wall_velocity[1][k] = velocity.y;
+    touching.wall_velocity[2][k] = velocity.z;
+  }
+
+  KernelTask task{};
+  task.motion = particles.motion.data();
+  task.spin = particles.spin.data();
+  task.contacts = view(touching.contacts);
+  for (int c = 0; c < 3; ++c) {
+    task.wall.normal[c] = touching.normal[c].data();
+    task.wall.wall_velocity[c] = touching.wall_velocity[c].data();
+    task.wall.force[c] = touching.force[c].data();
+    task.wall.moment[c] = touching.moment[c].data();
+  }
+  task.wall.overlap = touching.overlap.data();
+  task.wall.damping = touching.damping.data();
+  task.wall.stiffness = touching.stiffness.data();
+  task.pair = wall.pair;
+  task.dt = dt_;
+  const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
+  kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)](task);
+
+  for (std::int32_t k = 0; k < n; ++k) {
+    const std::int32_t i = touching.contacts.i[k];
+    Load& load = particles.load[i];
+    const Vec3 force{touching.force[0][k], touching.force[1][k], touching.force[2][k]};
+    load.force += force;
+    load.torque += Vec3{touching.moment[0][k], touching.moment[1][k], touching.moment[2][k]};
+    load.damping += touching.damping[k];
+    // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
+    load.stiffness += 0.5 * touching.stiffness[k];
+    wall.force += -force;
+    const Motion& grain = particles.motion[i];
+    const Vec3 normal{touching.normal[0][k], touching.normal[1][k], touching.normal[2][k]};
+    const Vec3 arm = grain.position + (grain.radius - touching.overlap[k]) * normal - wall.pivot;
+    wall.torque += cross(arm, -force);
+  }
+}
+
+/// Stable step of the leapfrog: 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the larger of normal
+/// and 3.5 times tangential stiffness of a contact). Then impacts: the shortest Hertz collision at the present largest
+/// speed takes `impact_resolution` steps; and bridges: none is crossed in fewer than `bridge_resolution` steps.
+double Stepper::next_time_step() {
+  if (options_.fixed_step_s) return *options_.fixed_step_s;
+  double stiffest = 0;
+  for (std::int32_t i = 0; i < world_.particles.count(); ++i)
+    stiffest = std::max(stiffest, world_.particles.load[i].stiffness * world_.particles.spin[i].inverse_mass);
+  double limit = stiffest > 0 ? options_.safety * std::sqrt(2 / stiffest) : 1e300;
+  const double speed = std::max(fastest_, 0.01);
+  const double effective_mass = 0.5 * smallest_mass_, effective_radius = 0.5 * smallest_radius_;
+  const double e_star = 0.5 * world_.grain_pair.normal_stiffness;
+  const double collision =
+      2.87 * std::pow(effective_mass * effective_mass / (effective_radius * e_star * e_star * speed), 0.2);
+  limit = std::min(limit, collision / options_.impact_resolution);
+  if (world_.attraction != BridgeShape::none && world_.grain_pair.rupture_gap > 0)
+    limit = std::min(limit, world_.grain_pair.rupture_gap * smallest_radius_ / world_.reference_radius /
+                                (options_.bridge_resolution * speed));
+  return dt_ > 0 ? std::min(limit, kGrowth * dt_) : limit;
+}
+
+void Stepper::integrate(double dt) {
+  Particles& particles = world_.particles;
+  const double kick = 0.5 * (dt_ + dt);  // from the half step before to the half step after
+  const double fall = kick * world_.gravity;
+  double fastest = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    Motion& motion = particles.motion[i];
+    Spin& spin = particles.spin[i];
+    Load& load = particles.load[i];
+    const double lightness = spin.inverse_mass;
+    motion.velocity += (kick * lightness) * load.force;
+    motion.velocity.z -= fall;
+    motion.position += dt * motion.velocity;
+    motion.damping_rate = load.damping * lightness;
+    const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
+    spin.velocity += (kick * inverse_inertia) * load.torque;
+    const double square = dot(motion.velocity, motion.velocity);
+    // Written so that a value that is not a number counts as beyond the bound.
+    if (!(square < kRunawaySpeed * kRunawaySpeed)) runaway_ = i;
+    fastest = std::max(fastest, square);
+    load = {};
+  }
+  particles.load[particles.count()] = {};
+  fastest_ = std::sqrt(fastest);
+}
+
+Failure Stepper::failure(FailureReason reason, std::int64_t grain, double value, double limit,
+                         std::string message) const {
+  Failure f;
+  f.reason = reason;
+  f.step = world_.step;
+  f.time_s = world_.time;
+  f.grain = grain;
+  f.value = value;
+  f.limit = limit;
+  f.message = std::move(message);
+  return f;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/result.h"
+#include "core/step/kernels.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// How steps are taken.
+struct StepOptions {
+  std::optional<double> fixed_step_s;  ///< empty: the step follows from stiffness, impacts and bridges
+  double safety = 0.8;                 ///< share of the stable step
+  double impact_resolution = 15;       ///< steps in the shortest Hertz collision
+  double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
+  double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
+  double skin = 0.4;                   ///< skin of the candidate list over the mean radius
+};
+
+/// What the last steps showed; renewed at every selection of contacts.
+struct Health {
+  double fastest = 0;  ///< [m/s]
+  double deepest = 0;  ///< overlap over the smaller radius
+  std::int32_t deepest_grain = -1;
+};
+
+/// Carries a world through time: lists, forces, integration, step size, health.
+///
+/// Leapfrog: velocities live half a step before positions; the first step is a half kick. Work that is not needed in
+/// every step is done when a bound on what can have moved is used up: contacts are selected from the candidates, and
+/// the candidates listed anew.
+class Stepper {
+ public:
+  Stepper(World& world, const StepOptions& options);
+
+  /// One time step. `drive` sets the walls' velocities for it, knowing the loads on them and the step.
+  /// Returns the step [s], or why the run cannot go on.
+  std::optional<Failure> step(const std::function<void(World&, double)>& drive);
+
+  /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
+  void forget_lists() { lists_valid_ = false; }
+
+  double time_step() const { return dt_; }
+  const Health& health() const { return health_; }
+
+ private:
+  std::optional<Failure> maintain_lists();
+  void compute_forces();
+  void act_on_wall(Wall& wall);
+  void integrate(double dt);
+  double next_time_step();
+  Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
+
+  World& world_;
+  StepOptions options_;
+  const KernelTable& kernels_;
+  Contacts scratch_;
+  std::vector<Vec3> listed_position_;
+
+  bool lists_valid_ = false;
+  double margin_ = 0;              ///< gap closure the selected contacts allow for
+  double used_margin_ = 0;         ///< bound on what has been used of it
+  double moved_since_listed_ = 0;  ///< bound on any displacement since the candidates were listed
+
+  double dt_ = 0;              ///< step that led to the present positions; 0 before the first
+  double fastest_ = 0;         ///< largest speed of a grain at the last step
+  std::int32_t pierced_ = -1;  ///< a grain too deep in a wall
+  std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
+  double smallest_radius_ = 0, smallest_mass_ = 0;
+  Health health_;
+};
+
+}  // namespace pastefit

@@ -1,0 +1,50 @@
+#include "core/world/particles.h"
+
+#include <cassert>
+#include <numbers>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kFarAway = 1e6;  // [m]; the dummy never comes near a grain
+
+template <class T>
+void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, std::vector<T>& scratch) {
+  scratch = values;
+  for (std::size_t k = 0; k < order.size(); ++k) values[k] = scratch[order[k]];
+}
+
+}  // namespace
+
+Particles make_particles(const std::vector<Vec3>& centres, const std::vector<double>& radii, double density_kg_m3) {
+  assert(centres.size() == radii.size());
+  Particles particles;
+  particles.density_kg_m3 = density_kg_m3;
+  const std::size_t n = centres.size();
+  particles.motion.resize(n + 1);
+  particles.spin.resize(n + 1);
+  particles.load.resize(n + 1);
+  particles.identity.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double r = radii[i];
+    particles.motion[i] = {centres[i], r, {}, 0};
+    particles.spin[i] = {{}, 1 / (4.0 / 3.0 * std::numbers::pi * r * r * r * density_kg_m3)};
+    particles.identity[i] = static_cast<std::int32_t>(i);
+  }
+  particles.motion[n].position = {kFarAway, kFarAway, kFarAway};
+  return particles;
+}
+
+void reorder(Particles& particles, const std::vector<std::int32_t>& order) {
+  std::vector<Motion> motion;
+  std::vector<Spin> spin;
+  std::vector<Load> load;
+  std::vector<std::int32_t> identity;
+  permute(particles.motion, order, motion);
+  permute(particles.spin, order, spin);
+  permute(particles.load, order, load);
+  permute(particles.identity, order, identity);
+}
+
+}  // namespace pastefit

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace pastefit {
+
+/// What a contact reads of a grain: one cache line, 64 bytes. Hot.
+struct alignas(64) Motion {
+  Vec3 position;            ///< [m]
+  double radius = 0;        ///< [m]
+  Vec3 velocity;            ///< at the half step before `position` [m/s]
+  double damping_rate = 0;  ///< sum of c/m over the grain's contacts at the last step [1/s]
+};
+
+/// 32 bytes. Hot.
+struct alignas(32) Spin {
+  Vec3 velocity;            ///< angular, at the half step before [rad/s]
+  double inverse_mass = 0;  ///< [1/kg]
+};
+
+/// What the contacts of a step add up to on a grain: one cache line, 64 bytes. Hot; zero between steps.
+struct alignas(64) Load {
+  Vec3 force;            ///< [N]
+  double damping = 0;    ///< sum of c, 3.5 c_t of the contacts [N s/m]
+  Vec3 torque;           ///< [N m]
+  double stiffness = 0;  ///< sum of k, 3.5 k_t of the contacts [N/m]
+};
+
+/// Spheres as a structure of arrays, kept in spatial order. One more element than grains: the last one is a dummy far
+/// away with no mass effect, on which the padding of contact batches acts.
+struct Particles {
+  std::vector<Motion> motion;
+  std::vector<Spin> spin;
+  std::vector<Load> load;
+  std::vector<std::int32_t> identity;  ///< unchanged when grains are sorted
+  double density_kg_m3 = 0;
+
+  std::int32_t count() const { return static_cast<std::int32_t>(identity.size()); }
+  double mass(std::int32_t i) const { return 1 / spin[i].inverse_mass; }
+};
+
+/// Grains at rest with these centres and radii; identities are 0 .. n-1.
+Particles make_particles(const std::vector<Vec3>& centres, const std::vector<double>& radii, double density_kg_m3);
+
+/// Arranges the grains so that new place k holds what was at `order[k]`.
+void reorder(Particles& particles, const std::vector<std::int32_t>& order);
+
+}  // namespace pastefit

@@ -1,0 +1,111 @@
+#include "core/world/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kOnSurface = 1e-12;  // [m]; closer than this the direction is taken from the shape, not from the point
+
+Nearest towards(const Vec3& from, const Vec3& to, const Vec3& fallback) {
+  const Vec3 between = to - from;
+  const double distance = norm(between);
+  if (distance < kOnSurface) return {fallback, distance};
+  return {(1 / distance) * between, distance};
+}
+
+Nearest nearest_on(const Plane& plane, const Vec3& p) {
+  return {-plane.normal, dot(p - plane.point, plane.normal)};
+}
+
+Nearest nearest_on(const Plate& plate, const Vec3& p) {
+  const Vec3 from_centre = p - plate.centre;
+  const double u = std::clamp(dot(from_centre, plate.along), -plate.half_length, plate.half_length);
+  const double v = std::clamp(dot(from_centre, plate.across), -plate.half_width, plate.half_width);
+  return towards(p, plate.centre + u * plate.along + v * plate.across, -cross(plate.along, plate.across));
+}
+
+/// In the plane of axis and grain the shell is a straight line from the lower rim to the upper one.
+Nearest nearest_on(const Shell& shell, const Vec3& p) {
+  const Vec3 q = p - shell.base;
+  const double rho = std::sqrt(q.x * q.x + q.y * q.y);
+  const Vec3 outward = rho > kOnSurface ? Vec3{q.x / rho, q.y / rho, 0} : Vec3{1, 0, 0};
+  const double run = shell.top_radius - shell.base_radius;
+  const double share = std::clamp(
+      ((rho - shell.base_radius) * run + q.z * shell.height) / (run * run + shell.height * shell.height), 0.0, 1.0);
+  const double reach = shell.base_radius + share * run;
+  return towards(p, shell.base + reach * outward + Vec3{0, 0, share * shell.height}, outward);
+}
+
+Vec3 turn_about_y(const Vec3& a, double sine, double cosine) {
+  return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x};
+}
+
+}  // namespace
+
+Nearest nearest(const Shape& shape, const Vec3& centre) {
+  return std::visit([&](const auto& s) { return nearest_on(s, centre); }, shape);
+}
+
+void move(Wall& wall, double dt) {
+  const Vec3 shift = dt * wall.velocity;
+  const double angle = dt * wall.angular_velocity.y;
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const auto carry = [&](Vec3& point) { point = wall.pivot + turn_about_y(point - wall.pivot, sine, cosine) + shift; };
+  if (auto* plane = std::get_if<Plane>(&wall.shape)) {
+    carry(plane->point);
+    plane->normal = turn_about_y(plane->normal, sine, cosine);
+  } else if (auto* plate = std::get_if<Plate>(&wall.shape)) {
+    carry(plate->centre);
+    plate->along = turn_about_y(plate->along, sine, cosine);
+    plate->across = turn_about_y(plate->across, sine, cosine);
+  } else if (auto* shell = std::get_if<Shell>(&wall.shape)) {
+    shell->base += shift;
+  }
+  wall.pivot += shift;
+}
+
+void select_contacts(const Particles& particles, Wall& wall, const Reach& reach, double margin) {
+  WallContacts& touching = wall.touching;
+  // Both lists are in the order of the grains: one pass merges memory into the new list.
+  Contacts kept;
+  std::int32_t old = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    while (old < touching.contacts.count && touching.contacts.i[old] < i) ++old;
+    const bool known = old < touching.contacts.count && touching.contacts.i[old] == i;
+    const Motion& grain = particles.motion[i];
+    const double scale = grain.radius / reach.reference_radius;
+    const bool bridged = known && touching.contacts.bridge[old] > 0;
+    const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
+    if (nearest(wall.shape, grain.position).distance >= grain.radius + gap * scale + margin) continue;
+    if (known)
+      kept.append(touching.contacts, old);
+    else
+      kept.append(i, i, grain.radius, particles.mass(i), scale, {});
+  }
+  kept.pad(particles.count());
+  touching.contacts = std::move(kept);
+  const std::size_t n = touching.contacts.i.size();
+  for (auto* columns : {&touching.normal, &touching.wall_velocity, &touching.force, &touching.moment})
+    for (auto& column : *columns) column.assign(n, 0.0);
+  touching.overlap.assign(n, -1.0);
+  touching.damping.assign(n, 0.0);
+  touching.stiffness.assign(n, 0.0);
+}
+
+void renumber(Wall& wall, const std::vector<std::int32_t>& new_place) {
+  Contacts& contacts = wall.touching.contacts;
+  std::vector<std::int32_t> order(contacts.count);
+  for (std::int32_t k = 0; k < contacts.count; ++k) {
+    contacts.i[k] = contacts.j[k] = new_place[contacts.i[k]];
+    order[k] = k;
+  }
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return contacts.i[a] < contacts.i[b]; });
+  Contacts sorted;
+  for (const std::int32_t k : order) sorted.append(contacts, k);
+  contacts = std::move(sorted);
+}
+
+}  // namespace pastefit

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/laws/constants.h"
+#include "core/vec3.h"
+#include "core/world/aligned.h"
+#include "core/world/contacts.h"
+
+namespace pastefit {
+
+/// Infinite plane through `point`; grains are on the side `normal` points to. One-sided: a grain deep in it is still
+/// pushed out.
+struct Plane {
+  Vec3 point;
+  Vec3 normal{0, 0, 1};
+};
+
+/// Flat rectangle without thickness, solid from both sides, with its four edges.
+/// `along` and `across` are orthogonal unit vectors in its plane.
+struct Plate {
+  Vec3 centre;
+  Vec3 along{1, 0, 0}, across{0, 1, 0};
+  double half_length = 0, half_width = 0;  ///< along, across [m]
+};
+
+/// Side of a frustum without thickness, axis vertical through `base`; solid from both sides, with both rims.
+/// A cylinder has two equal radii.
+struct Shell {
+  Vec3 base;  ///< centre of the lower rim
+  double base_radius = 0, top_radius = 0, height = 0;
+};
+
+using Shape = std::variant<Plane, Plate, Shell>;
+
+/// The nearest point of a wall as a grain sees it: unit vector from the grain's centre to it, and its distance.
+/// Behind a one-sided plane the distance is negative.
+struct Nearest {
+  Vec3 direction;
+  double distance = 0;
+};
+Nearest nearest(const Shape& shape, const Vec3& centre);
+
+/// Contacts of grains with one wall; columns beside those of `Contacts` (whose j is unused).
+struct WallContacts {
+  Contacts contacts;
+  std::array<Column<double>, 3> normal, wall_velocity;
+  Column<double> overlap;
+  std::array<Column<double>, 3> force, moment;  ///< of the wall on the grain, written by the kernel
+  Column<double> damping, stiffness;
+};
+
+/// A boundary: shape, surface, rigid motion, and what the grains do to it.
+struct Wall {
+  std::string name;
+  Shape shape;
+  PairConstants pair;
+  Vec3 velocity;          ///< of the point `pivot` [m/s]
+  Vec3 angular_velocity;  ///< about `pivot` [rad/s]
+  Vec3 pivot;
+  Vec3 force;   ///< of the grains on the wall at the last step [N]
+  Vec3 torque;  ///< about `pivot` [N m]
+  WallContacts touching;
+};
+
+/// Moves the wall by its own rigid motion over `dt`. Rotation is about the y axis through `pivot` only.
+void move(Wall& wall, double dt);
+
+/// Lists the grains that touch the wall or may do so while no gap shrinks by more than `margin`.
+void select_contacts(const Particles& particles, Wall& wall, const Reach& reach, double margin);
+
+/// Gives the wall's contacts the grains' new places.
+void renumber(Wall& wall, const std::vector<std::int32_t>& new_place);
+
+}  // namespace pastefit

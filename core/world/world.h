@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/laws/constants.h"
+#include "core/rigs/materials.h"
+#include "core/world/contacts.h"
+#include "core/world/particles.h"
+#include "core/world/walls.h"
+
+namespace pastefit {
+
+inline constexpr double kGravity = 9.81;  ///< [m/s^2], downwards along z
+
+/// What exists: grains, walls, their contacts, and the moment they are at.
+class World {
+ public:
+  Particles particles;
+  Contacts contacts;
+  Candidates candidates;
+  std::vector<Wall> walls;
+  PairConstants grain_pair;
+  BridgeShape attraction = BridgeShape::none;
+  RollingModel rolling = RollingModel::none;
+  double reference_radius = 1;  ///< mean radius: the size the bridge's numbers belong to [m]
+  double gravity = kGravity;
+
+  double time = 0;  ///< [s]
+  std::int64_t step = 0;
+
+  Reach reach() const { return {grain_pair.formation_gap, grain_pair.rupture_gap, reference_radius}; }
+};
+
+/// Sets the laws of a contact model between grains; walls are given theirs by `wall_pair`.
+void set_contact_model(World& world, const ContactModel& model, double reference_radius);
+
+}  // namespace pastefit
