@@ -14,7 +14,7 @@ namespace {
 constexpr double kLoosest = 2.15;   // spacing of the starting lattice over the largest radius
 constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
-constexpr double kPackingFriction = 0.2;  // between that of a rodded and a poured fill
+constexpr double kPackingFriction = 0.5;  // a looser fill than a rodded one: a dense one is brittle (see README)
 constexpr double kLidSpeed = 0.2;         // [m/s]
 constexpr double kFillCap = 4.0;          // [s]
 

@@ -42,7 +42,7 @@ double speed_of(const Wall& wall) {
 }  // namespace
 
 Stepper::Stepper(World& world, const StepOptions& options)
-    : world_(world), options_(options), kernels_(kernels_of_this_processor()) {
+    : world_(world), options_(options), kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);

@@ -17,6 +17,7 @@ struct StepOptions {
   double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
   double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
   double skin = 0.4;                   ///< skin of the candidate list over the mean radius
+  const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 
 /// What the last steps showed; renewed at every selection of contacts.

@@ -1,0 +1,149 @@
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/card/calibration_card.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/progress_line.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/search/evaluator.h"
+#include "calibrate/search/strategy.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+struct CalibrateOptions {
+  std::string study;
+  std::string out;
+  bool resume = false;
+  bool force = false;
+  int threads = 0;
+  int budget = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+const std::string kCard = "card.json";
+const std::string kSummary = "summary.txt";
+const std::string kStore = "evaluations.sqlite";
+const std::vector<std::string> kResults = {kCard, kSummary, kStore, kStore + "-wal", kStore + "-shm"};
+
+constexpr std::uintmax_t kSpace = 16u << 20;             // card, summary, SQLite's own files
+constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
+
+std::atomic<bool> stop_requested = false;
+
+extern "C" void request_stop(int) {
+  stop_requested = true;
+}
+
+/// The first Ctrl-C ends with the best so far; the second one kills, as usual.
+void listen_for_stop() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string lab_file_of(const std::string& study_file) {
+  Faults faults;
+  const auto document = read_json(study_file, faults);
+  return document ? document->value("lab", "") : "";
+}
+
+std::vector<std::string> readings_of(const Study& study) {
+  std::vector<std::string> names;
+  for (const auto& measurement : study.lab.measurements) names.push_back(measurement.observable);
+  return names;
+}
+
+/// Card and summary, to the folder and to the person.
+int deliver(const Card& card, const OutputFolder& folder) {
+  const auto summary = summary_of(card);
+  auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
+  if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
+  std::printf("\n%s", summary.c_str());
+  if (!faults.empty()) return report(faults, kFailed);
+  std::printf("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
+              folder.file(kStore).c_str());
+  return kDone;
+}
+
+int calibrate(const CalibrateOptions& options) {
+  const auto read = read_study(options.study);
+  if (!read.ok()) return report(read.faults());
+  const auto& study = read.value();
+  auto search_options = study.search;
+  if (options.budget > 0) search_options.budget_simulations = options.budget;
+  if (options.seed) search_options.seed = *options.seed;
+  if (const auto faults = validate(search_options, free_count(study)); !faults.empty())
+    return report(in_file(faults, options.study));
+
+  const auto budget = search_options.budget_simulations;
+  const auto earlier = options.force    ? EarlierResult::replace
+                       : options.resume ? EarlierResult::resume
+                                        : EarlierResult::refuse;
+  auto folder = OutputFolder::open(options.out, kResults, earlier,
+                                   kSpace + static_cast<std::uintmax_t>(budget) * kSpaceOfEvaluation);
+  if (!folder.ok()) return report(folder.faults());
+  if (options.force) folder.value().clear(kResults);
+  auto store = Store::open(folder.value().file(kStore), {study.hash, study.lab.hash, program_identity()});
+  if (!store.ok()) return report(store.faults());
+
+  listen_for_stop();
+  std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
+              budget, store.value().size());
+  ProgressLine line(budget);
+  EvaluatorOptions evaluator;
+  evaluator.threads = options.threads;
+  evaluator.budget = budget;
+  evaluator.stop = &stop_requested;
+  evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
+  SimulationObjective objective(study, store.value(), evaluator);
+  const auto calibration = search(
+      objective, search_options, [&](const Progress& progress) { line.show(progress); }, readings_of(study));
+  line.end();
+
+  if (const auto faults = objective.store_faults(); !faults.empty()) return report(faults, kFailed);
+  const auto counts = objective.counts();
+  if (calibration.best.point.size() == 0 || calibration.best.failed) {
+    std::fprintf(stderr, "pastefit: no material to report: %s\n", calibration.reason.c_str());
+    for (const auto& [reason, count] : counts.failures)
+      std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
+    std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.value().file(kStore).c_str());
+    return kFailed;
+  }
+  return deliver(
+      card_of(study, calibration, search_options, store.value(), counts, options.study, lab_file_of(options.study)),
+      folder.value());
+}
+
+}  // namespace
+
+Command add_calibrate(CLI::App& verb) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  verb.add_option("STUDY", options->study, "study file")->required();
+  verb.add_option("--out", options->out, "folder for " + kCard + ", " + kSummary + " and " + kStore)
+      ->required()
+      ->type_name("DIR");
+  auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
+  verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
+  verb.add_option("--threads", options->threads, "simulations at the same time; default: one for each core")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");
+  return [options] { return calibrate(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,68 @@
+#include <cstdio>
+#include <exception>
+#include <set>
+#include <string>
+
+#include "calibrate/cli/commands.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/json_reader.h"
+
+namespace pastefit {
+
+int report(const Faults& faults, int status) {
+  std::fprintf(stderr, "pastefit: %s\n%s\n",
+               faults.size() == 1 ? "one fault" : (std::to_string(faults.size()) + " faults").c_str(),
+               message_of(faults).c_str());
+  return status;
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
+  program.set_version_flag("--version", "pastefit " + program_version());
+  program.require_subcommand(1);
+  program.fallthrough(false);
+
+  struct Verb {
+    const char* name;
+    const char* meaning;
+    Command (*add)(CLI::App&);
+  };
+  constexpr Verb kVerbs[] = {
+      {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
+      {"simulate", "run the test of a study, card, laboratory or rig file once", add_simulate},
+      {"template", "print a commented starting file", add_template}};
+  std::set<std::string, std::less<>> names;
+  for (const auto& verb : kVerbs) names.emplace(verb.name);
+  if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {
+    const auto near = nearest(argv[1], names);
+    return report(
+        {{argv[1], "is not a verb of pastefit", near ? "did you mean '" + *near + "'?" : "see pastefit --help"}});
+  }
+  Command chosen;
+  for (const auto& verb : kVerbs) {
+    auto* app = program.add_subcommand(verb.name, verb.meaning);
+    app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
+  }
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = program.exit(error);
+    return status == 0 ? kDone : kBadInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+}  // namespace pastefit
+
+int main(int argc, char** argv) {
+  try {
+    return pastefit::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
+    return 70;
+  }
+}

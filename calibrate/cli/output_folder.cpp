@@ -1,0 +1,69 @@
+#include "calibrate/cli/output_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "calibrate/card/atomic_file.h"
+
+namespace pastefit {
+
+namespace fs = std::filesystem;
+
+Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vector<std::string>& results,
+                                        EarlierResult earlier, std::uintmax_t space_bytes) {
+  const std::string where = "--out " + folder.string();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Fault{where, "cannot be made: " + error.message(), "choose a folder that can be written"};
+
+  if (earlier == EarlierResult::refuse)
+    for (const auto& name : results)
+      if (fs::exists(folder / name, error))
+        return Fault{where, "holds an earlier result (" + name + ")",
+                     "choose another folder, go on with --resume where there is one, or replace it with --force"};
+
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0) return Fault{where, std::strerror(errno), "choose a folder that can be read and written"};
+  OutputFolder out(folder, lock);
+  if (::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return Fault{where, "is in use by another run of pastefit", "wait for it, or choose another folder"};
+
+  const auto space = fs::space(folder, error);
+  if (!error && space.available < space_bytes)
+    return Fault{where, "has " + std::to_string(space.available >> 20) + " MB of free space",
+                 "at least " + std::to_string((space_bytes >> 20) + 1) + " MB; free some, or choose another disk"};
+
+  const auto probe = out.file(".pastefit-probe");
+  auto faults = write_atomically(probe, std::string(4096, '.'));
+  fs::remove(probe, error);
+  if (!faults.empty()) {
+    faults[0].where = where;
+    return faults;
+  }
+  return out;
+}
+
+OutputFolder::OutputFolder(OutputFolder&& other) noexcept
+    : folder_(std::move(other.folder_)), lock_(std::exchange(other.lock_, -1)) {}
+
+OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
+  std::swap(folder_, other.folder_);
+  std::swap(lock_, other.lock_);
+  return *this;
+}
+
+OutputFolder::~OutputFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::clear(const std::vector<std::string>& names) const {
+  std::error_code error;
+  for (const auto& name : names) fs::remove(file(name), error);
+}
+
+}  // namespace pastefit

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace pastefit {
+
+/// What to do with the result that a folder already holds.
+enum class EarlierResult { refuse, resume, replace };
+
+/// A folder that was checked before anything runs: it exists, can be written, has space, and belongs to this process
+/// until the object is gone. Nothing in it is changed by opening.
+class OutputFolder {
+ public:
+  /// `results`: names of the files whose presence makes an earlier result. `space_bytes`: free space that is needed.
+  /// Errors: cannot be made or written, too little space, holds an earlier result (`refuse`), in use by another run.
+  static Result<OutputFolder> open(const std::filesystem::path& folder, const std::vector<std::string>& results,
+                                   EarlierResult earlier, std::uintmax_t space_bytes);
+
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&& other) noexcept;
+  ~OutputFolder();
+
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+
+  /// Removes these files.
+  void clear(const std::vector<std::string>& names) const;
+
+ private:
+  OutputFolder(std::filesystem::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+}  // namespace pastefit

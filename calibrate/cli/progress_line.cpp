@@ -1,0 +1,72 @@
+#include "calibrate/cli/progress_line.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "calibrate/report/format.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr std::chrono::milliseconds kRewrite{100};
+constexpr std::chrono::seconds kPlain{5};
+
+}  // namespace
+
+ProgressLine::ProgressLine(int budget) : terminal_(isatty(STDOUT_FILENO) == 1), budget_(budget) {}
+
+void ProgressLine::show(const Progress& progress) {
+  const std::lock_guard lock(mutex_);
+  const bool new_phase = progress.phase != phase_;
+  phase_ = progress.phase;
+  best_misfit_mm_ = progress.best_misfit_mm;
+  print(new_phase);
+}
+
+void ProgressLine::show(const EvaluationCounts& counts) {
+  const std::lock_guard lock(mutex_);
+  counts_ = counts;
+  print(false);
+}
+
+std::string ProgressLine::text() const {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double rate = elapsed > 0 ? counts_.simulated / elapsed : 0;
+  const int done = counts_.simulated + counts_.answered;
+  int failed = 0;
+  for (const auto& [reason, count] : counts_.failures) failed += count;
+
+  std::string line = format("%-12s %d of %d simulations", phase_.c_str(), done, budget_);
+  if (counts_.answered > 0) line += format(" (%d known)", counts_.answered);
+  if (failed > 0) line += format(", %d failed", failed);
+  line += best_misfit_mm_ < 0 ? ", no misfit yet" : format(", best misfit %.2f mm", best_misfit_mm_);
+  line += format(", %.2f a second", rate);
+  if (rate > 0) line += format(", at most %.0f s left", std::max(0, budget_ - done) / rate);
+  return line;
+}
+
+void ProgressLine::print(bool now) {
+  const auto time = Clock::now();
+  if (!now && time - printed_ < (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain))) return;
+  const auto line = text();
+  if (line == last_) return;
+  printed_ = time;
+  last_ = line;
+  if (terminal_)
+    std::printf("\r%s\033[K", line.c_str());
+  else
+    std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+void ProgressLine::end() {
+  const std::lock_guard lock(mutex_);
+  print(true);
+  if (terminal_ && !last_.empty()) std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace pastefit

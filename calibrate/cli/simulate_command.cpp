@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/scene.h"
+#include "calibrate/report/vtk.h"
+#include "calibrate/store/outcome_json.h"
+#include "core/simulate.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+namespace {
+
+struct SimulateOptions {
+  std::string file;
+  std::vector<std::string> settings;
+  std::optional<std::uint64_t> seed;
+  std::string out;
+  bool force = false;
+  bool json = false;
+  std::optional<double> vtk_interval_s;
+};
+
+const std::string kResult = "outcome.json";
+const std::string kSeries = "grains";
+constexpr std::uintmax_t kSpace = 64u << 20;  // a picture of 100,000 grains takes some 10 MB
+
+GrainFrame frame_of(const Moment& moment) {
+  GrainFrame frame;
+  frame.time_s = moment.time_s;
+  const auto& particles = moment.world->particles;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    const auto& motion = particles.motion[static_cast<std::size_t>(i)];
+    frame.positions_m.push_back(motion.position);
+    frame.velocities_m_s.push_back(motion.velocity);
+    frame.radii_m.push_back(motion.radius);
+  }
+  return frame;
+}
+
+nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
+  const auto& run = outcome.run;
+  nlohmann::ordered_json out;
+  out["observables"] = to_json(outcome.observables);
+  out["run"] = {{"particles", run.particles},
+                {"steps", run.steps},
+                {"time_step_s", run.time_step_s},
+                {"simulated_s", run.simulated_s},
+                {"wall_s", wall_s},
+                {"particle_steps_per_s", wall_s > 0 ? static_cast<double>(run.particle_steps) / wall_s : 0},
+                {"settled", run.settled},
+                {"failure", to_json(outcome.failure)}};
+  return out;
+}
+
+void print_table(const Outcome& outcome, double wall_s) {
+  for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.4f\n", name.c_str(), value);
+  const auto& run = outcome.run;
+  std::printf(
+      "%lld grains, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+      static_cast<long long>(run.particles), static_cast<long long>(run.steps), run.time_step_s, run.simulated_s,
+      wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+      run.settled || outcome.failure ? "" : "; the heap was not quite at rest when its time was over");
+}
+
+int simulate_file(const SimulateOptions& options) {
+  auto scene = read_scene(options.file, options.settings);
+  if (!scene.ok()) return report(scene.faults());
+  auto test = std::move(scene).value();
+  if (options.seed) test.packing_seed = *options.seed;
+  if (options.vtk_interval_s && options.out.empty())
+    return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
+
+  std::optional<OutputFolder> folder;
+  std::optional<VtkSeries> series;
+  if (!options.out.empty()) {
+    auto opened = OutputFolder::open(options.out, {kResult, kSeries + ".pvd"},
+                                     options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
+    if (!opened.ok()) return report(opened.faults());
+    folder = std::move(opened).value();
+    if (options.vtk_interval_s) series.emplace(options.out, kSeries);
+  }
+
+  RunOptions run;
+  Faults unwritten;
+  if (series) {
+    run.watch_interval_s = *options.vtk_interval_s;
+    run.watch = [&](const Moment& moment) {
+      if (moment.world) unwritten = series->add(frame_of(moment));
+      return unwritten.empty();
+    };
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto outcome = simulate(test, run);
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!unwritten.empty()) return report(unwritten, kFailed);
+
+  const auto text = json_of(outcome, wall_s).dump(2) + "\n";
+  if (options.json)
+    std::fputs(text.c_str(), stdout);
+  else
+    print_table(outcome, wall_s);
+  if (folder) {
+    if (const auto faults = write_atomically(folder->file(kResult), text); !faults.empty())
+      return report(faults, kFailed);
+    if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
+    if (!options.json && series) std::printf("wrote %s\n", series->index().c_str());
+  }
+  if (!outcome.failure) return kDone;
+  const auto& failure = *outcome.failure;
+  std::fprintf(stderr, "pastefit: the simulation failed: %s in %s at %.4g s (step %lld): %s\n",
+               std::string(name_of(failure.reason)).c_str(), failure.phase.c_str(), failure.time_s,
+               static_cast<long long>(failure.step), failure.message.c_str());
+  return kFailed;
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& verb) {
+  const auto options = std::make_shared<SimulateOptions>();
+  verb.add_option("FILE", options->file, "study, card, laboratory or rig file")->required();
+  verb.add_option("--set", options->settings,
+                  "PATH=VALUE, changes the file's content for this run, e.g. parameters.strength_pa=3000 or "
+                  "grains.radius_mm=6; may be given again")
+      ->type_name("PATH=VALUE")
+      ->take_all();
+  verb.add_option("--seed", options->seed, "seed of the random packing");
+  verb.add_option("--out", options->out, "folder for " + kResult + " and the ParaView series")->type_name("DIR");
+  verb.add_flag("--force", options->force, "replace an earlier result in DIR");
+  verb.add_flag("--json", options->json, "print the outcome as JSON");
+  verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  return [options] { return simulate_file(*options); };
+}
+
+}  // namespace pastefit

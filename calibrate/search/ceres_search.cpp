@@ -1,0 +1,278 @@
+#include "calibrate/search/ceres_search.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace pastefit {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The simulations as Ceres sees them; keeps the books and never lets it see a failure.
+class Residuals : public ceres::CostFunction {
+ public:
+  Residuals(Objective& objective, std::span<const std::uint64_t> packings, const CeresOptions& options)
+      : objective_(objective), packings_(packings), options_(options) {
+    mutable_parameter_block_sizes()->push_back(objective.parameters());
+    set_num_residuals(objective.residuals());
+    if (options.loss == Loss::huber) loss_ = std::make_unique<ceres::HuberLoss>(options.loss_scale);
+    if (options.loss == Loss::cauchy) loss_ = std::make_unique<ceres::CauchyLoss>(options.loss_scale);
+  }
+
+  /// Exceptions of the objective must not cross Ceres, which is not written for them; they are kept and thrown later.
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const UnitPoint point = Eigen::Map<const Eigen::VectorXd>(parameters[0], objective_.parameters());
+    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
+    try {
+      answer(point, r);
+      if (jacobians != nullptr && jacobians[0] != nullptr) {
+        Eigen::Map<RowMajor> jacobian(jacobians[0], num_residuals(), objective_.parameters());
+        differentiate(point, r, jacobian);
+        if (loss_) bend_columns(r, jacobian);
+      }
+      if (loss_) bend(r);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      end(SearchStatus::failed, "the objective threw");
+      r.setConstant(penalty());
+      if (jacobians != nullptr && jacobians[0] != nullptr) {
+        std::fill_n(jacobians[0], num_residuals() * objective_.parameters(), 0.0);
+      }
+    }
+    return true;
+  }
+
+  /// Residuals of a point: the simulated ones, or the same penalty in each if it failed or may no longer be asked.
+  void answer(const UnitPoint& asked, Eigen::Ref<Eigen::VectorXd> residuals) const {
+    if (asked.size() == last_.point.size() && asked == last_.point) {
+      residuals = last_.residuals;
+      return;
+    }
+    residuals.setConstant(penalty());
+    if (!asked.allFinite() || !may_ask(1)) return;
+    const UnitPoint point = asked.cwiseMax(0.0).cwiseMin(1.0);
+    const Response response = objective_.evaluate({&point, 1}, packings_).at(0);
+    keep(response);
+    if (!is_feasible(response)) return;
+    residuals = response.residuals;
+    last_ = response;
+    if (options_.goal_mm > 0 && response.misfit_mm <= options_.goal_mm) {
+      end(SearchStatus::converged, "the goal is met");
+    }
+  }
+
+  void end(SearchStatus status, std::string reason) const {
+    if (ended_) return;
+    ended_ = true;
+    run_.status = status;
+    run_.reason = std::move(reason);
+  }
+
+  bool ended() const { return ended_; }
+  int blind_columns() const { return blind_columns_; }
+  const SearchRun& run() const { return run_; }
+  const std::exception_ptr& thrown() const { return thrown_; }
+
+ private:
+  double penalty() const { return std::sqrt(2 * (2 * worst_ + 1) / std::max(1, num_residuals())); }
+
+  bool may_ask(int points) const {
+    if (objective_.stop_requested()) end(SearchStatus::stopped, "a stop was requested");
+    if (run_.evaluations + points > options_.evaluations) end(SearchStatus::budget_spent, "all evaluations are used");
+    if (objective_.budget_left() < points * static_cast<int>(packings_.size())) {
+      end(SearchStatus::budget_spent, "the budget of simulations is spent");
+    }
+    return !ended_;
+  }
+
+  void keep(const Response& response) const {
+    ++run_.evaluations;
+    if (is_feasible(response)) {
+      worst_ = std::max(worst_, response.misfit);
+    } else {
+      ++run_.failures;
+    }
+    const bool both_feasible = is_feasible(response) && is_feasible(run_.best);
+    const bool better = both_feasible ? cost(response) < cost(run_.best) : is_better(response, run_.best);
+    if (better) run_.best = response;
+  }
+
+  double cost(const Response& response) const {
+    if (!loss_) return response.misfit;
+    Eigen::VectorXd residuals = response.residuals;
+    bend(residuals);
+    return 0.5 * residuals.squaredNorm();
+  }
+
+  /// Replaces each residual r by sign(r) sqrt(rho(r^2)). Ceres would apply its loss to the norm of all of them, because
+  /// one simulation answers all, and a single bad measurement would then take the good ones with it.
+  void bend(Eigen::Ref<Eigen::VectorXd> residuals) const {
+    for (double& r : residuals) {
+      double rho[3];
+      loss_->Evaluate(r * r, rho);
+      r = std::copysign(std::sqrt(rho[0]), r);
+    }
+  }
+
+  /// The Jacobian of the bent residuals: rho'(r^2) r/sqrt(rho(r^2)) times the row.
+  void bend_columns(const Eigen::VectorXd& residuals, Eigen::Ref<RowMajor> jacobian) const {
+    for (Eigen::Index k = 0; k < residuals.size(); ++k) {
+      double rho[3];
+      loss_->Evaluate(residuals[k] * residuals[k], rho);
+      if (rho[0] > 0) jacobian.row(k) *= rho[1] * std::abs(residuals[k]) / std::sqrt(rho[0]);
+    }
+  }
+
+  void differentiate(const UnitPoint& point, const Eigen::VectorXd& centre, Eigen::Ref<RowMajor> jacobian) const {
+    jacobian.setZero();
+    std::vector<Eigen::Index> open(static_cast<std::size_t>(point.size()));
+    for (std::size_t k = 0; k < open.size(); ++k) open[k] = static_cast<Eigen::Index>(k);
+    // First towards the farther border, where the whole step fits; then the ways around a failure.
+    for (const double share : {1.0, -1.0, 0.25, -0.25}) {
+      std::vector<UnitPoint> probes;
+      std::vector<Eigen::Index> columns;
+      for (const Eigen::Index k : open) {
+        const double inward = point[k] <= 0.5 ? 1 : -1;
+        UnitPoint probe = point;
+        probe[k] = std::clamp(point[k] + inward * share * options_.difference_step, 0.0, 1.0);
+        if (std::abs(probe[k] - point[k]) < 0.1 * options_.difference_step) continue;
+        probes.push_back(std::move(probe));
+        columns.push_back(k);
+      }
+      if (probes.empty()) continue;
+      if (!may_ask(static_cast<int>(probes.size()))) return;
+      const std::vector<Response> responses = objective_.evaluate(probes, packings_);
+      for (std::size_t p = 0; p < responses.size(); ++p) {
+        const Response& response = responses[p];
+        keep(response);
+        if (!is_feasible(response)) continue;
+        const Eigen::Index k = columns[p];
+        jacobian.col(k) = (response.residuals - centre) / (response.point[k] - point[k]);
+        std::erase(open, k);
+      }
+      if (open.empty()) return;
+    }
+    blind_columns_ = std::max(blind_columns_, static_cast<int>(open.size()));
+  }
+
+  Objective& objective_;
+  std::span<const std::uint64_t> packings_;
+  const CeresOptions& options_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  // Ceres' evaluation is const by its signature; the books are not.
+  mutable SearchRun run_;
+  mutable Response last_;     // Ceres asks an accepted point twice: for the residuals, then for the Jacobian
+  mutable double worst_ = 0;  // largest feasible misfit so far
+  mutable int blind_columns_ = 0;
+  mutable bool ended_ = false;
+  mutable std::exception_ptr thrown_;
+};
+
+/// Ends the solve between iterations, where Ceres allows it.
+class Watch : public ceres::IterationCallback {
+ public:
+  Watch(const Residuals& residuals, const CeresOptions& options) : residuals_(residuals), options_(options) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    if (iteration.iteration > 0 && iteration.step_is_successful && iteration.cost_change <= options_.noise) {
+      residuals_.end(SearchStatus::converged, "the last step improved the fit by no more than the noise");
+    }
+    if (iteration.iteration > 0 && iteration.step_norm < options_.step_tolerance) {
+      residuals_.end(SearchStatus::stalled, "the steps became shorter than the tolerance");
+    }
+    return residuals_.ended() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Residuals& residuals_;
+  const CeresOptions& options_;
+};
+
+void solve(Residuals& residuals, UnitPoint& x, const CeresOptions& options) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&residuals, nullptr, x.data());
+  for (int k = 0; k < x.size(); ++k) {
+    problem.SetParameterLowerBound(x.data(), k, 0);
+    problem.SetParameterUpperBound(x.data(), k, 1);
+  }
+  Watch watch(residuals, options);
+  ceres::Solver::Options solver;
+  solver.trust_region_strategy_type =
+      options.trust_region == TrustRegion::dogleg ? ceres::DOGLEG : ceres::LEVENBERG_MARQUARDT;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.num_threads = 1;
+  solver.max_num_iterations = options.evaluations;
+  // Ceres' line search at the bounds would ask a Jacobian for every trial.
+  solver.max_num_line_search_step_size_iterations = 0;
+  solver.initial_trust_region_radius = 10;
+  solver.function_tolerance = 1e-9;
+  solver.parameter_tolerance = 0.1 * options.step_tolerance;
+  solver.logging_type = ceres::SILENT;
+  solver.callbacks.push_back(&watch);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (residuals.ended()) return;
+  if (summary.termination_type == ceres::CONVERGENCE) {
+    residuals.end(SearchStatus::converged, "the gradient or the steps are below the tolerance");
+  } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
+    residuals.end(SearchStatus::budget_spent, "all iterations are used");
+  } else {
+    residuals.end(SearchStatus::failed, "Ceres ended with: " + summary.message);
+  }
+}
+
+}  // namespace
+
+double noise_step(double noise, double curvature) {
+  return std::clamp(curvature > 0 ? 2 * std::sqrt(noise / curvature) : 0.5, 0.01, 0.5);
+}
+
+Faults validate(const CeresOptions& options) {
+  Faults faults;
+  const auto demand = [&](bool holds, const char* where, double value, const char* remedy) {
+    if (!holds) faults.push_back({where, std::to_string(value), remedy});
+  };
+  demand(options.loss_scale > 0, "loss_scale", options.loss_scale, "above 0");
+  demand(options.difference_step > 0 && options.difference_step <= 0.5, "difference_step", options.difference_step,
+         "above 0, at most 0.5");
+  demand(options.step_tolerance > 0, "step_tolerance", options.step_tolerance, "above 0");
+  demand(options.evaluations > 0, "evaluations", options.evaluations, "at least 1");
+  demand(options.noise >= 0, "noise", options.noise, "0 or more");
+  return faults;
+}
+
+SearchRun search_ceres(Objective& objective, std::span<const std::uint64_t> packings, const UnitPoint& start,
+                       const CeresOptions& options) {
+  const bool inside =
+      start.size() == objective.parameters() && (start.array() >= 0).all() && (start.array() <= 1).all();
+  if (!inside || packings.empty() || !validate(options).empty()) {
+    throw std::logic_error("search_ceres: start outside the unit cube, no packings, or options that are not valid");
+  }
+  Residuals residuals(objective, packings, options);
+  Eigen::VectorXd at_start(objective.residuals());
+  residuals.answer(start, at_start);
+  if (!residuals.ended() && !is_feasible(residuals.run().best)) {
+    residuals.end(SearchStatus::failed, "the start fails: begin at a point that has an answer");
+  }
+  UnitPoint x = start;
+  if (!residuals.ended()) solve(residuals, x, options);
+  if (residuals.thrown()) std::rethrow_exception(residuals.thrown());
+  SearchRun run = residuals.run();
+  if (residuals.blind_columns() > 0) {
+    run.reason +=
+        "; up to " + std::to_string(residuals.blind_columns()) + " parameters were held where all probes failed";
+    if (run.status == SearchStatus::converged && run.best.misfit_mm > options.goal_mm)
+      run.status = SearchStatus::stalled;
+  }
+  return run;
+}
+
+}  // namespace pastefit

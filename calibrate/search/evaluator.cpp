@@ -1,0 +1,296 @@
+#include "calibrate/search/evaluator.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so a stop is obeyed at once
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_length(std::string_view observable) {
+  return observable.ends_with("_mm");
+}
+
+/// The worst miss a heap can have, in the measurement's unit.
+double worst_miss(const Measurement& measurement, const Mould& mould) {
+  if (is_length(measurement.observable)) return std::max(std::abs(measurement.value), 1000 * mould.height_m);
+  return std::max(std::abs(measurement.value), 10 * measurement.standard_deviation);
+}
+
+Failure stopped(std::string message) {
+  Failure failure;
+  failure.reason = FailureReason::stopped;
+  failure.message = std::move(message);
+  return failure;
+}
+
+/// The reading that should be there and is not, or is no number.
+std::optional<Failure> missing_reading(const Study& study, const Outcome& outcome) {
+  for (const auto& measurement : study.lab.measurements) {
+    const auto value = outcome.observables.find(measurement.observable);
+    if (value && std::isfinite(*value)) continue;
+    Failure failure;
+    failure.reason = FailureReason::non_finite;
+    failure.phase = "reading";
+    failure.step = outcome.run.steps;
+    failure.time_s = outcome.run.simulated_s;
+    failure.value = value.value_or(std::numeric_limits<double>::quiet_NaN());
+    failure.message = "The run gave no reading of " + measurement.observable + "; look at its heap with --vtk.";
+    return failure;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+/// One simulation that a batch needs, once, however many of its points ask for it.
+struct SimulationObjective::Task {
+  SlumpTable test;
+  StoredEvaluation evaluation;
+};
+
+SimulationObjective::SimulationObjective(const Study& study, Store& store, EvaluatorOptions options)
+    : study_(study), store_(store), options_(std::move(options)) {
+  if (options_.threads <= 0) options_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (options_.budget <= 0) options_.budget = study.search.budget_simulations;
+  if (study.weights.size() != study.lab.measurements.size())
+    throw std::logic_error("a study needs one weight for each measurement");
+  for (const auto& measurement : study.lab.measurements)
+    if (!(measurement.standard_deviation > 0))
+      throw std::logic_error("the standard deviation of " + measurement.observable + " must be positive");
+}
+
+int SimulationObjective::parameters() const {
+  return free_count(study_);
+}
+
+int SimulationObjective::residuals() const {
+  return static_cast<int>(study_.lab.measurements.size());
+}
+
+int SimulationObjective::budget_left() const {
+  const std::lock_guard lock(mutex_);
+  return std::max(0, options_.budget - static_cast<int>(asked_.size()));
+}
+
+bool SimulationObjective::stop_requested() const {
+  if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
+  const std::lock_guard lock(mutex_);
+  return !store_faults_.empty();
+}
+
+EvaluationCounts SimulationObjective::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+Faults SimulationObjective::store_faults() const {
+  const std::lock_guard lock(mutex_);
+  return store_faults_;
+}
+
+std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
+                                                    std::span<const std::uint64_t> packings) {
+  std::map<std::string, Task> tasks;
+  std::vector<std::string> keys;  // point by point, packing by packing
+  std::vector<Task*> unknown;
+  for (const auto& point : points) {
+    if (point.size() != parameters() || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1)
+      throw std::logic_error("a candidate must lie in the unit cube over the free parameters");
+    const auto values = values_at(study_, point);
+    for (const auto seed : packings) {
+      keys.push_back(evaluation_key(store_.identity(), values, seed));
+      const auto [task, added] = tasks.try_emplace(keys.back());
+      if (!added) continue;
+      if (auto known = store_.find(keys.back())) {
+        task->second.evaluation = std::move(*known);
+        count(task->second.evaluation, true);
+        continue;
+      }
+      task->second.test = test_with(study_, values, seed);
+      auto& evaluation = task->second.evaluation;
+      evaluation.key = keys.back();
+      evaluation.point.assign(point.begin(), point.end());
+      evaluation.values = values;
+      evaluation.packing = seed;
+      evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
+      unknown.push_back(&task->second);
+    }
+  }
+  run_all(unknown);
+
+  std::vector<Response> responses;
+  auto key = keys.begin();
+  for (const auto& point : points) {
+    std::vector<Evaluation> evaluations;
+    for (std::size_t i = 0; i < packings.size(); ++i)
+      evaluations.push_back(evaluation_of(point, tasks.at(*key++).evaluation));
+    responses.push_back(response_of(std::move(evaluations)));
+  }
+
+  const std::lock_guard lock(mutex_);
+  for (const auto& response : responses)
+    if (!response.failed && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
+      counts_.best_misfit_mm = response.misfit_mm;
+  if (options_.observer) options_.observer(counts_);
+  return responses;
+}
+
+/// A plain pool: candidates are independent and take seconds each, so threads that live for one batch cost nothing.
+void SimulationObjective::run_all(std::vector<Task*>& tasks) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr error;
+  const auto work = [&] {
+    for (std::size_t i; (i = next++) < tasks.size() && !stop_requested();) {
+      try {
+        run(*tasks[i]);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        error = std::current_exception();
+        next = tasks.size();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < std::min<std::size_t>(tasks.size(), static_cast<std::size_t>(options_.threads)); ++i)
+    threads.emplace_back(work);
+  work();
+  for (auto& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+void SimulationObjective::run(Task& task) {
+  RunOptions options;
+  options.packing = packing(task.evaluation.packing);
+  if (stop_requested()) return;
+
+  bool by_user = false;
+  const auto start = Clock::now();
+  options.watch_interval_s = kWatchInterval;
+  options.watch = [&](const Moment&) {
+    by_user = by_user || stop_requested();
+    return !by_user && seconds_since(start) < options_.wall_limit_s;
+  };
+  auto outcome = options_.simulator.run(task.test, options);
+  if (by_user) return;
+
+  auto& evaluation = task.evaluation;
+  if (outcome.failure && outcome.failure->reason == FailureReason::stopped)
+    outcome.failure->message = "The simulation took longer than its limit; use coarser or softer grains.";
+  evaluation.failure = outcome.failure ? outcome.failure : missing_reading(study_, outcome);
+  if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
+  evaluation.run = outcome.run;
+  evaluation.wall_s = seconds_since(start);
+
+  auto faults = store_.add(evaluation);
+  if (!faults.empty()) {
+    const std::lock_guard lock(mutex_);
+    store_faults_ = std::move(faults);
+    return;
+  }
+  count(evaluation, false);
+}
+
+void SimulationObjective::count(const StoredEvaluation& evaluation, bool from_store) {
+  const std::lock_guard lock(mutex_);
+  if (!asked_.insert(evaluation.key).second) return;
+  ++(from_store ? counts_.answered : counts_.simulated);
+  if (evaluation.failure) ++counts_.failures[evaluation.failure->reason];
+  if (options_.observer) options_.observer(counts_);
+}
+
+std::shared_ptr<const Packing> SimulationObjective::packing(std::uint64_t seed) {
+  std::promise<std::shared_ptr<const Packing>> promise;
+  std::shared_future<std::shared_ptr<const Packing>> future;
+  bool ours = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [entry, added] = packings_.try_emplace(seed);
+    if (added) entry->second = promise.get_future().share();
+    future = entry->second;
+    ours = added;
+  }
+  if (ours) {
+    try {
+      // The middle of the search space, not the candidate at hand: whoever asks first must not matter.
+      const UnitPoint middle = UnitPoint::Constant(parameters(), 0.5);
+      const auto start = Clock::now();
+      RunOptions options;
+      options.watch_interval_s = kWatchInterval;
+      options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
+      promise.set_value(options_.simulator.fill(test_with(study_, values_at(study_, middle), seed), options));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return future.get();
+}
+
+Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const {
+  Evaluation out;
+  out.point = point;
+  out.packing = stored.packing;
+  out.failure = stored.failure;
+  if (!out.failure)
+    for (const auto& measurement : study_.lab.measurements)
+      out.observables.push_back(stored.observables.find(measurement.observable).value());
+  return out;
+}
+
+Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) const {
+  const auto& measurements = study_.lab.measurements;
+  const auto count = static_cast<Eigen::Index>(measurements.size());
+  const auto packings = static_cast<double>(evaluations.size());
+  Response out;
+  out.observables = Eigen::VectorXd::Zero(count);
+  double failure_factor = 2;
+  for (const auto& evaluation : evaluations) {
+    out.packings.push_back(evaluation.packing);
+    if (evaluation.failure) {
+      out.failed = true;
+      const double time = evaluation.failure->time_s;
+      failure_factor += 1 / (1 + (std::isfinite(time) ? std::max(0.0, time) : 0.0)) / packings;
+      continue;
+    }
+    for (Eigen::Index i = 0; i < count; ++i)
+      out.observables[i] += evaluation.observables[static_cast<std::size_t>(i)] / packings;
+  }
+  if (!evaluations.empty()) out.point = evaluations.front().point;
+  out.evaluations = std::move(evaluations);
+
+  out.residuals = Eigen::VectorXd::Zero(count);
+  double squares_mm = 0;
+  int lengths = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& measurement = measurements[static_cast<std::size_t>(i)];
+    const double weight = study_.weights[static_cast<std::size_t>(i)].weight;
+    if (out.failed)
+      out.observables[i] = measurement.value + failure_factor * worst_miss(measurement, study_.lab.test.mould);
+    const double miss = out.observables[i] - measurement.value;
+    out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
+    if (weight > 0 && is_length(measurement.observable)) {
+      squares_mm += miss * miss;
+      ++lengths;
+    }
+  }
+  out.misfit = 0.5 * out.residuals.squaredNorm();
+  out.misfit_mm = lengths > 0 ? std::sqrt(squares_mm / lengths) : std::sqrt(2 * out.misfit);
+  return out;
+}
+
+}  // namespace pastefit

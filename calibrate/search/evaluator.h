@@ -1,0 +1,95 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+#include "calibrate/store/store.h"
+#include "calibrate/study/study.h"
+#include "core/simulate.h"
+
+namespace pastefit {
+
+/// What an evaluation asks of the engine. A test may put a quick function in the engine's place.
+struct Simulator {
+  std::function<std::shared_ptr<const Packing>(const SlumpTable&, const RunOptions&)> fill = fill_mould;
+  std::function<Outcome(const SlumpTable&, const RunOptions&)> run = simulate;
+};
+
+/// Tally of the evaluations one objective was asked for; each is counted once, however often it was asked.
+struct EvaluationCounts {
+  int simulated = 0;                      ///< finished now
+  int answered = 0;                       ///< known to the store from an earlier session
+  std::map<FailureReason, int> failures;  ///< of both, by reason
+  double best_misfit_mm = -1;             ///< of the candidates that did not fail; negative: none yet
+};
+
+struct EvaluatorOptions {
+  int threads = 0;                          ///< simulations at the same time; 0: one for each core
+  int budget = 0;                           ///< evaluations in all, known ones included; 0: the study's budget
+  double wall_limit_s = 600;                ///< a simulation that takes longer fails with `stopped`
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
+  std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
+  Simulator simulator;
+};
+
+/// The objective of a study: candidates are simulated in parallel, and every finished simulation is stored before its
+/// answer is used. Known ones are answered from the store, so that a search that runs again takes the same way.
+///
+/// The mould is filled once for each packing seed and shared by all candidates: the fill does not depend on what is
+/// fitted.
+///
+/// A candidate of which a packing failed answers as if every measurement had been missed by `factor` times the worst
+/// miss a heap can have (the mould's height for lengths, the measured value or ten standard deviations for others),
+///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
+/// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
+///
+/// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
+/// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
+/// answer that may depend on the machine's load.
+///
+/// Requirements: `study` and `store` outlive the objective; every measurement has a standard deviation > 0.
+/// Limits: a batch that exceeds the budget is answered in full; the search looks at `budget_left` before it asks.
+/// Errors: throws std::logic_error for points outside the unit cube. A full disk: `store_faults`, and a stop request.
+class SimulationObjective : public Objective {
+ public:
+  SimulationObjective(const Study& study, Store& store, EvaluatorOptions options);
+
+  int parameters() const override;
+  int residuals() const override;  ///< one per measurement; zero where the weight is zero
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  int budget_left() const override;
+  bool stop_requested() const override;
+
+  EvaluationCounts counts() const;
+  Faults store_faults() const;  ///< empty unless an evaluation could not be stored
+
+ private:
+  struct Task;
+
+  void run(Task& task);
+  void run_all(std::vector<Task*>& tasks);
+  void count(const StoredEvaluation& evaluation, bool from_store);
+  std::shared_ptr<const Packing> packing(std::uint64_t seed);
+  Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
+  Response response_of(std::vector<Evaluation> evaluations) const;
+
+  const Study& study_;
+  Store& store_;
+  EvaluatorOptions options_;
+
+  mutable std::mutex mutex_;  // guards what follows
+  std::map<std::uint64_t, std::shared_future<std::shared_ptr<const Packing>>> packings_;
+  std::unordered_set<std::string> asked_;
+  EvaluationCounts counts_;
+  Faults store_faults_;
+};
+
+}  // namespace pastefit

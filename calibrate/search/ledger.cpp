@@ -1,0 +1,109 @@
+#include "calibrate/search/ledger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pastefit {
+
+Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress)
+    : objective_(objective), progress_(progress), at_start_(objective.budget_left()) {
+  budget_ = std::min(options.budget_simulations, at_start_);
+}
+
+int Ledger::budget_left() const {
+  return std::max(0, budget_ - simulations() - held_back_);
+}
+
+std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  std::vector<Response> responses = objective_.evaluate(points, packings);
+  // What a stop cuts off counts as failed; it says nothing about the point.
+  if (objective_.stop_requested()) return responses;
+  if (packings.size() == 1) {
+    for (const Response& response : responses) keep_single(response);
+  } else {
+    for (const std::uint64_t packing : packings) {
+      for (const Response& response : objective_.evaluate(points, {&packing, 1})) keep_single(response);
+    }
+  }
+  history_.insert(history_.end(), responses.begin(), responses.end());
+  for (const Response& response : responses) {
+    if (!is_feasible(response) || packings.size() < best_packings_) continue;
+    if (packings.size() > best_packings_ || response.misfit_mm < best_misfit_mm_) {
+      best_misfit_mm_ = response.misfit_mm;
+      best_packings_ = packings.size();
+    }
+  }
+  report();
+  return responses;
+}
+
+void Ledger::enter(std::string_view phase) {
+  phase_ = phase;
+  report();
+}
+
+void Ledger::report() const {
+  if (progress_) progress_({phase_, simulations(), budget_, best_misfit_mm_});
+}
+
+void Ledger::keep_single(const Response& response) {
+  const bool known = std::any_of(singles_.begin(), singles_.end(), [&](const Response& single) {
+    return single.packings == response.packings && single.point == response.point;
+  });
+  if (!known) singles_.push_back(response);
+}
+
+std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings) const {
+  Response best;
+  for (const Response& response : history_) {
+    if (is_feasible(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
+      best = response;
+    }
+  }
+  if (best.point.size() == 0) return std::nullopt;
+  return best;
+}
+
+int Ledger::failures() const {
+  return static_cast<int>(
+      std::count_if(singles_.begin(), singles_.end(), [](const auto& s) { return !is_feasible(s); }));
+}
+
+bool Ledger::any_feasible() const {
+  return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
+}
+
+std::vector<Reach> reach_of(std::span<const Response> singles, int readings) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Reach> reach;
+  for (int k = 0; k < readings; ++k) {
+    Reach one{infinity, -infinity, true, true, 0};
+    double squares = 0;
+    int freedom = 0;
+    for (const Response& single : singles) {
+      if (!is_feasible(single)) continue;
+      one.lowest = std::min(one.lowest, single.observables[k]);
+      one.highest = std::max(one.highest, single.observables[k]);
+      one.all_above = one.all_above && single.residuals[k] > 0;
+      one.all_below = one.all_below && single.residuals[k] < 0;
+      // Pooled: deviations from the mean of the same point's packings.
+      double sum = 0;
+      int count = 0;
+      for (const Response& other : singles) {
+        if (!is_feasible(other) || other.point != single.point) continue;
+        sum += other.observables[k];
+        ++count;
+      }
+      if (count < 2) continue;
+      squares += std::pow(single.observables[k] - sum / count, 2) * count / (count - 1.0);
+      ++freedom;
+    }
+    if (freedom > 0) one.packing_noise = std::sqrt(squares / freedom);
+    if (one.lowest > one.highest) one = Reach{};
+    reach.push_back(one);
+  }
+  return reach;
+}
+
+}  // namespace pastefit

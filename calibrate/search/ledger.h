@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/search/strategy.h"
+
+namespace pastefit {
+
+/// The objective as the strategy lends it to its optimisers: it keeps every answer, holds back the simulations of the
+/// next confirmation, and tells the caller where the search is.
+class Ledger : public Objective {
+ public:
+  Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
+
+  int parameters() const override { return objective_.parameters(); }
+  int residuals() const override { return objective_.residuals(); }
+  bool stop_requested() const override { return objective_.stop_requested(); }
+  int budget_left() const override;  ///< without what is held back
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+
+  void hold_back(int simulations) { held_back_ = simulations; }
+  void enter(std::string_view phase);
+
+  /// Best answer on exactly these packings.
+  std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
+  const std::vector<Response>& history() const { return history_; }
+  const std::vector<Response>& singles() const { return singles_; }  ///< one for each simulation
+  int simulations() const { return at_start_ - objective_.budget_left(); }
+  int failures() const;
+  bool any_feasible() const;
+
+ private:
+  void keep_single(const Response& response);
+  void report() const;
+
+  Objective& objective_;
+  const std::function<void(const Progress&)>& progress_;
+  int at_start_ = 0;
+  int budget_ = 0;
+  int held_back_ = 0;
+  std::string_view phase_;
+  double best_misfit_mm_ = -1;
+  std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
+  std::vector<Response> history_;
+  std::vector<Response> singles_;
+};
+
+/// What the simulations did with each reading.
+std::vector<Reach> reach_of(std::span<const Response> singles, int readings);
+
+}  // namespace pastefit

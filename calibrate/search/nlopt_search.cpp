@@ -1,0 +1,306 @@
+#include "calibrate/search/nlopt_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <nlopt.hpp>
+#include <stdexcept>
+
+namespace pastefit {
+namespace {
+
+constexpr int no_limit = 1'000'000;
+constexpr int most_refused = 100;        // points that are not a number before the run is given up
+constexpr int most_late_calls = 10'000;  // questions after the stop before the algorithm is left by force
+
+/// To add an algorithm: one row.
+struct AlgorithmRow {
+  std::string_view name;
+  nlopt::algorithm algorithm;
+  int fewest, most;  ///< coordinates it can search
+};
+
+constexpr std::array algorithms = {
+    AlgorithmRow{"direct", nlopt::GN_DIRECT, 1, no_limit},
+    AlgorithmRow{"direct_l", nlopt::GN_DIRECT_L, 1, no_limit},
+    AlgorithmRow{"direct_l_rand", nlopt::GN_DIRECT_L_RAND, 1, no_limit},
+    AlgorithmRow{"direct_noscal", nlopt::GN_DIRECT_NOSCAL, 1, no_limit},
+    AlgorithmRow{"direct_l_noscal", nlopt::GN_DIRECT_L_NOSCAL, 1, no_limit},
+    AlgorithmRow{"direct_l_rand_noscal", nlopt::GN_DIRECT_L_RAND_NOSCAL, 1, no_limit},
+    AlgorithmRow{"orig_direct", nlopt::GN_ORIG_DIRECT, 1, no_limit},
+    AlgorithmRow{"orig_direct_l", nlopt::GN_ORIG_DIRECT_L, 1, no_limit},
+    AlgorithmRow{"crs2_lm", nlopt::GN_CRS2_LM, 1, no_limit},
+    AlgorithmRow{"isres", nlopt::GN_ISRES, 1, no_limit},
+    AlgorithmRow{"esch", nlopt::GN_ESCH, 1, no_limit},
+    AlgorithmRow{"mlsl", nlopt::GN_MLSL, 2, no_limit},
+    AlgorithmRow{"mlsl_lds", nlopt::GN_MLSL_LDS, 2, no_limit},
+    AlgorithmRow{"ags", nlopt::GN_AGS, 1, 5},
+    AlgorithmRow{"cobyla", nlopt::LN_COBYLA, 1, no_limit},
+    AlgorithmRow{"bobyqa", nlopt::LN_BOBYQA, 2, no_limit},
+    AlgorithmRow{"newuoa_bound", nlopt::LN_NEWUOA_BOUND, 2, no_limit},
+    AlgorithmRow{"praxis", nlopt::LN_PRAXIS, 2, no_limit},
+    AlgorithmRow{"nelder_mead", nlopt::LN_NELDERMEAD, 1, no_limit},
+    AlgorithmRow{"sbplx", nlopt::LN_SBPLX, 1, no_limit},
+};
+
+const AlgorithmRow* find_algorithm(std::string_view name) {
+  const auto row = std::find_if(algorithms.begin(), algorithms.end(), [&](const auto& r) { return r.name == name; });
+  return row == algorithms.end() ? nullptr : &*row;
+}
+
+/// Stands between NLopt and the objective: answers every question with a bounded number and keeps the books.
+class Answerer {
+ public:
+  Answerer(Objective& objective, std::span<const std::uint64_t> packings, const NloptOptions& options)
+      : objective_(objective), packings_(packings), options_(options) {}
+
+  /// The bounded number for a point; after the end always the worst one.
+  double answer(const UnitPoint& asked) {
+    if (ended_) {
+      ++late_calls_;
+      return 2;
+    }
+    if (!asked.allFinite()) {
+      if (++refused_ >= most_refused) end(SearchStatus::stalled, "the algorithm asked for points that are not numbers");
+      return 2;
+    }
+    if (objective_.stop_requested()) return end(SearchStatus::stopped, "a stop was requested");
+    if (run_.evaluations >= options_.evaluations) return end(SearchStatus::budget_spent, "all evaluations are used");
+    if (objective_.budget_left() < static_cast<int>(packings_.size())) {
+      return end(SearchStatus::budget_spent, "the budget of simulations is spent");
+    }
+    const UnitPoint point = asked.cwiseMax(0.0).cwiseMin(1.0);
+    const Response response = objective_.evaluate({&point, 1}, packings_).at(0);
+    if (run_.evaluations == 0) scale_ = std::isfinite(response.misfit) && response.misfit > 0 ? response.misfit : 1;
+    keep(response);
+    if (is_feasible(response) && options_.goal_mm > 0 && response.misfit_mm <= options_.goal_mm) {
+      end(SearchStatus::converged, "the goal is met");
+    }
+    if (options_.patience > 0 && since_improvement_ >= options_.patience) {
+      end(SearchStatus::stalled,
+          "the last " + std::to_string(options_.patience) + " points brought no improvement beyond the noise");
+    }
+    return bounded(response);
+  }
+
+  /// Checks a claim of convergence: asks both neighbours of the best point along each coordinate, all at once, and
+  /// believes the claim if all answer and none is better. Simplices collapse at bounds and beside failures, and models
+  /// built on a failure shrink where nothing is least, so that an algorithm's own test is no evidence.
+  void check_claim() {
+    const UnitPoint& best = run_.best.point;
+    std::vector<UnitPoint> neighbours;
+    for (Eigen::Index k = 0; k < best.size(); ++k) {
+      for (const double step : {-options_.initial_step / 4, options_.initial_step / 4}) {
+        UnitPoint neighbour = best;
+        neighbour[k] = std::clamp(best[k] + step, 0.0, 1.0);
+        neighbours.push_back(std::move(neighbour));
+      }
+    }
+    const auto points = static_cast<int>(neighbours.size());
+    if (objective_.stop_requested()) return (void)end(SearchStatus::stopped, "a stop was requested");
+    if (run_.evaluations + points > options_.evaluations ||
+        objective_.budget_left() < points * static_cast<int>(packings_.size())) {
+      return (void)end(SearchStatus::stalled, "the algorithm claims to have converged; no budget was left to check it");
+    }
+    const double claimed = run_.best.misfit;
+    const int failures = run_.failures;
+    for (const Response& response : objective_.evaluate(neighbours, packings_)) keep(response);
+    if (run_.failures > failures) {
+      end(SearchStatus::stalled, "the algorithm claims to have converged, but points beside fail");
+    } else if (run_.best.misfit < claimed - options_.noise) {
+      end(SearchStatus::stalled, "the algorithm claims to have converged, but a point beside is better");
+    } else {
+      end(SearchStatus::converged, "no step beyond the tolerance, and no point beside, is better");
+    }
+  }
+
+  /// Ends the run; the first reason counts. Returns the number for the question that is open.
+  double end(SearchStatus status, std::string reason) {
+    if (!ended_) {
+      ended_ = true;
+      run_.status = status;
+      run_.reason = std::move(reason);
+    }
+    return 2;
+  }
+
+  bool ended() const { return ended_; }
+  int late_calls() const { return late_calls_; }
+  const SearchRun& run() const { return run_; }
+
+ private:
+  double bounded(const Response& response) const {
+    const bool graded = std::isfinite(response.misfit) && response.misfit >= 0;
+    const double share = graded ? response.misfit / (response.misfit + scale_) : 1;
+    return is_feasible(response) ? share : 1 + share;
+  }
+
+  void keep(const Response& response) {
+    ++run_.evaluations;
+    if (!is_feasible(response)) ++run_.failures;
+    const bool first = is_feasible(response) && !is_feasible(run_.best);
+    if (first || (is_feasible(response) && response.misfit < mark_ - options_.noise)) {
+      mark_ = response.misfit;
+      since_improvement_ = 0;
+    } else {
+      ++since_improvement_;
+    }
+    if (is_better(response, run_.best)) run_.best = response;
+  }
+
+  Objective& objective_;
+  std::span<const std::uint64_t> packings_;
+  const NloptOptions& options_;
+  SearchRun run_;
+  double scale_ = 1;           // misfit of the start: the middle of the bounded range
+  double mark_ = 0;            // misfit the next improvement is measured against
+  int since_improvement_ = 0;  // points
+  int refused_ = 0;
+  int late_calls_ = 0;
+  bool ended_ = false;
+};
+
+/// What NLopt's callback carries. The objective's exceptions cross NLopt in here, because NLopt would forget their
+/// type.
+struct Question {
+  Answerer& answerer;
+  nlopt::opt& optimiser;
+  Eigen::Index dimension;
+  std::exception_ptr thrown;
+};
+
+double ask(unsigned, const double* x, double*, void* data) {
+  Question& question = *static_cast<Question*>(data);
+  double value = 2;
+  try {
+    value = question.answerer.answer(Eigen::Map<const Eigen::VectorXd>(x, question.dimension));
+  } catch (...) {
+    question.thrown = std::current_exception();
+    question.answerer.end(SearchStatus::failed, "the objective threw");
+  }
+  if (question.answerer.ended()) question.optimiser.force_stop();
+  if (question.answerer.late_calls() > most_late_calls) throw nlopt::forced_stop();
+  return value;
+}
+
+void configure(nlopt::opt& optimiser, const AlgorithmRow& row, unsigned dimension, const NloptOptions& options) {
+  optimiser.set_lower_bounds(0.0);
+  optimiser.set_upper_bounds(1.0);
+  optimiser.set_xtol_abs(options.step_tolerance);
+  optimiser.set_initial_step(options.initial_step);
+  optimiser.set_maxeval(options.evaluations + 1);
+  const bool evolves = row.algorithm == nlopt::GN_CRS2_LM || row.algorithm == nlopt::GN_ISRES;
+  if (evolves) {
+    // NLopt's own choice, ten or twenty a coordinate, would spend a small budget on the first generation.
+    const unsigned generations = 5;
+    const unsigned share = static_cast<unsigned>(options.evaluations) / generations;
+    optimiser.set_population(std::clamp(share, dimension + 2, 10 * (dimension + 1)));
+  }
+  if (row.algorithm == nlopt::GN_MLSL || row.algorithm == nlopt::GN_MLSL_LDS) {
+    nlopt::opt local(nlopt::LN_BOBYQA, dimension);
+    local.set_xtol_abs(options.step_tolerance);
+    local.set_initial_step(options.initial_step);
+    optimiser.set_local_optimizer(local);
+  }
+}
+
+/// Translates NLopt's word into ours; the first end that was noted counts.
+void translate(nlopt::result result, Answerer& answerer) {
+  switch (result) {
+    case nlopt::SUCCESS:
+    case nlopt::STOPVAL_REACHED:
+    case nlopt::FTOL_REACHED:
+    case nlopt::XTOL_REACHED:
+      if (!answerer.ended()) answerer.check_claim();
+      return;
+    case nlopt::MAXEVAL_REACHED:
+    case nlopt::MAXTIME_REACHED:
+      answerer.end(SearchStatus::budget_spent, "all evaluations are used");
+      return;
+    case nlopt::ROUNDOFF_LIMITED:
+      answerer.end(SearchStatus::stalled, "rounding errors kept the algorithm from going on");
+      return;
+    case nlopt::FORCED_STOP:
+      answerer.end(SearchStatus::stopped, "the algorithm was stopped");
+      return;
+    default:
+      answerer.end(SearchStatus::failed, "the algorithm refused the problem");
+  }
+}
+
+void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOptions& options) {
+  const AlgorithmRow& row = *find_algorithm(options.algorithm);
+  // Some algorithms cannot search a line: they get further coordinates that nothing depends on.
+  const int dimension = std::max(static_cast<int>(start.size()), row.fewest);
+  nlopt::opt optimiser(row.algorithm, static_cast<unsigned>(dimension));
+  configure(optimiser, row, static_cast<unsigned>(dimension), options);
+  Question question{answerer, optimiser, start.size(), nullptr};
+  optimiser.set_min_objective(ask, &question);
+  nlopt::srand(static_cast<unsigned long>(options.seed));
+  std::vector<double> x(static_cast<std::size_t>(dimension), 0.5);
+  std::copy(start.begin(), start.end(), x.begin());
+  nlopt::result result = nlopt::FAILURE;
+  try {
+    double least = 0;
+    result = optimiser.optimize(x, least);
+  } catch (const nlopt::forced_stop&) {
+    result = nlopt::FORCED_STOP;
+  } catch (const nlopt::roundoff_limited&) {
+    result = nlopt::ROUNDOFF_LIMITED;
+  } catch (const std::exception&) {
+    result = optimiser.last_optimize_result();
+  }
+  if (question.thrown) std::rethrow_exception(question.thrown);
+  translate(result, answerer);
+}
+
+}  // namespace
+
+std::vector<std::string_view> nlopt_algorithm_names() {
+  std::vector<std::string_view> names;
+  for (const AlgorithmRow& row : algorithms) names.push_back(row.name);
+  return names;
+}
+
+Faults validate(const NloptOptions& options, int dimension) {
+  Faults faults;
+  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
+    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
+  };
+  const AlgorithmRow* row = find_algorithm(options.algorithm);
+  std::string known;
+  for (const AlgorithmRow& each : algorithms) known += (known.empty() ? "" : ", ") + std::string(each.name);
+  demand(row != nullptr, "algorithm", "\"" + options.algorithm + "\" is not known", "one of " + known);
+  demand(row == nullptr || dimension <= row->most, "algorithm",
+         options.algorithm + " cannot search " + std::to_string(dimension) + " parameters",
+         "fix parameters, or take an algorithm without that bound, e.g. crs2_lm");
+  demand(options.evaluations > 0, "evaluations", std::to_string(options.evaluations), "at least 1");
+  demand(options.initial_step > 0 && options.initial_step <= 0.5, "initial_step", std::to_string(options.initial_step),
+         "above 0, at most 0.5");
+  demand(options.step_tolerance > 0, "step_tolerance", std::to_string(options.step_tolerance), "above 0");
+  demand(options.noise >= 0, "noise", std::to_string(options.noise), "0 or more");
+  demand(options.patience >= 0, "patience", std::to_string(options.patience), "0 or more");
+  return faults;
+}
+
+SearchRun search_nlopt(Objective& objective, std::span<const std::uint64_t> packings, const UnitPoint& start,
+                       const NloptOptions& options) {
+  const int parameters = objective.parameters();
+  const bool inside = start.size() == parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
+  if (!inside || packings.empty() || !validate(options, parameters).empty()) {
+    throw std::logic_error("search_nlopt: start outside the unit cube, no packings, or options that are not valid");
+  }
+  Answerer answerer(objective, packings, options);
+  answerer.answer(start);
+  if (!answerer.ended()) run_algorithm(answerer, start, options);
+  SearchRun run = answerer.run();
+  const bool interrupted = run.status == SearchStatus::stopped || run.evaluations == 0;
+  if (!is_feasible(run.best) && !interrupted) {
+    run.status = SearchStatus::failed;
+    run.reason = "every point that was asked failed";
+  }
+  return run;
+}
+
+}  // namespace pastefit

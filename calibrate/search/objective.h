@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace pastefit {
+
+/// A point of the unit cube over the study's free parameters.
+using UnitPoint = Eigen::VectorXd;
+
+/// One finished simulation of a candidate on one packing.
+struct Evaluation {
+  UnitPoint point;
+  std::uint64_t packing = 0;
+  std::vector<double> observables;  ///< in the order of the study's measurements; empty after a failure
+  std::optional<Failure> failure;
+};
+
+/// What a candidate answers on a set of packings: the mean over them, against the laboratory.
+struct Response {
+  UnitPoint point;
+  std::vector<std::uint64_t> packings;
+  std::vector<Evaluation> evaluations;  ///< one per packing
+  Eigen::VectorXd observables;  ///< mean over the packings
+  Eigen::VectorXd residuals;    ///< sqrt(weight) (mean - measured)/standard deviation; finite, graded if it failed
+  double misfit = 0;            ///< half the squared norm of the residuals: what is minimised; always finite
+  double misfit_mm = 0;         ///< root mean square difference of the fitted lengths [mm]
+  bool failed = false;          ///< some packing ended in a failure
+};
+
+/// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
+/// Guarantee: the answer depends on (point, packings) only, not on threads, order or what was asked before.
+class Objective {
+ public:
+  virtual ~Objective() = default;
+  virtual int parameters() const = 0;
+  virtual int residuals() const = 0;
+  /// Answers all points on the same packings; the answers are in the order of the points.
+  /// Points outside the unit cube are a programming error (checked).
+  virtual std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) = 0;
+  /// Simulations still allowed by the budget. A point on a packing counts once, however often it is asked.
+  virtual int budget_left() const = 0;
+  /// True when the user or a limit asked to stop: a search then returns its best so far.
+  virtual bool stop_requested() const = 0;
+};
+
+}  // namespace pastefit

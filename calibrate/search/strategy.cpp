@@ -1,0 +1,301 @@
+#include "calibrate/search/strategy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "calibrate/search/ceres_search.h"
+#include "calibrate/search/ledger.h"
+#include "calibrate/search/nlopt_search.h"
+#include "calibrate/search/screening.h"
+#include "calibrate/search/surrogate.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
+constexpr double same_point = 0.01;     // proposals closer than this bring nothing new [unit cube]
+constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// The strategy's state; each phase is one function.
+class Search {
+ public:
+  Search(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress,
+         std::span<const std::string> readings)
+      : objective_(objective), options_(options), ledger_(objective, options, progress), readings_(readings) {}
+
+  Calibration run() {
+    common_ = fresh_packings(options_.packings);
+    ledger_.hold_back(options_.confirmation_packings);
+    screen();
+    while (ledger_.any_feasible() && may_go_on()) {
+      if (!look_for_candidate()) break;
+      refine();
+      if (ledger_.stop_requested() || confirm()) break;
+    }
+    return conclude();
+  }
+
+ private:
+  /// Packing seeds that no simulation of this search has used.
+  std::vector<std::uint64_t> fresh_packings(int count) {
+    std::vector<std::uint64_t> packings;
+    for (int k = 0; k < count; ++k) packings.push_back(options_.seed * 1000 + ++packings_used_);
+    return packings;
+  }
+
+  bool affordable(std::size_t packings) const { return ledger_.budget_left() >= static_cast<int>(packings); }
+  bool may_go_on() const { return !ledger_.stop_requested() && affordable(common_.size()); }
+
+  void screen() {
+    ledger_.enter("screening");
+    const std::span<const std::uint64_t> first(common_.data(), 1);
+    int asked = 0;
+    // If everything fails, further points of the same sequence look elsewhere, while half of the budget lasts.
+    while (!ledger_.any_feasible() && !ledger_.stop_requested()) {
+      const int count = std::min(options_.screening, ledger_.budget_left());
+      if (count < 1 || asked > options_.budget_simulations / 2) return;
+      const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
+      ledger_.evaluate(std::span(points).last(static_cast<std::size_t>(count)), first);
+      asked += count;
+    }
+  }
+
+  /// The best starting point known, on whatever packings.
+  UnitPoint best_point() const {
+    if (const auto best = ledger_.best_on(common_)) return best->point;
+    Response best;
+    for (const Response& single : ledger_.singles()) {
+      if (is_feasible(single) && is_better(single, best)) best = single;
+    }
+    return best.point;
+  }
+
+  bool goal_is_met() const {
+    const auto best = ledger_.best_on(common_);
+    return best && best->misfit_mm <= goal_share * options_.tolerance_mm;
+  }
+
+  /// Brings candidates on the common packings; false if not a single one could be had.
+  bool look_for_candidate() {
+    ledger_.enter("search");
+    if (options_.strategy == "default") {
+      propose_and_try();
+    } else {
+      NloptOptions nlopt;
+      nlopt.algorithm = options_.strategy;
+      nlopt.evaluations = std::max(1, ledger_.budget_left() / static_cast<int>(2 * common_.size()));
+      nlopt.goal_mm = goal_share * options_.tolerance_mm;
+      nlopt.step_tolerance = same_point;
+      nlopt.seed = options_.seed;
+      search_nlopt(ledger_, common_, best_point(), nlopt);
+    }
+    return ledger_.best_on(common_).has_value();
+  }
+
+  void propose_and_try() {
+    int fruitless = 0;
+    while (!goal_is_met() && may_go_on() && fruitless < fruitless_proposals) {
+      Surrogate surrogate(ledger_.singles());
+      const UnitPoint proposal = propose(surrogate, best_point());
+      const bool known = std::any_of(ledger_.history().begin(), ledger_.history().end(), [&](const Response& seen) {
+        return seen.packings == common_ && (seen.point - proposal).lpNorm<Eigen::Infinity>() < same_point;
+      });
+      if (known) return;
+      const auto before = ledger_.best_on(common_);
+      const Response response = ledger_.evaluate({&proposal, 1}, common_).at(0);
+      const bool better = is_feasible(response) && (!before || response.misfit < before->misfit - noise());
+      fruitless = better ? 0 : fruitless + 1;
+    }
+  }
+
+  /// Misfit that the noise of the packings makes by itself on the common set, as far as it is known.
+  double noise() const {
+    double squares = 0;
+    int freedom = 0;
+    const auto& singles = ledger_.singles();
+    for (std::size_t i = 0; i < singles.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (!is_feasible(singles[i]) || !is_feasible(singles[j]) || singles[i].point != singles[j].point) continue;
+        squares += (singles[i].residuals - singles[j].residuals).squaredNorm() / 2;
+        ++freedom;
+      }
+    }
+    return freedom > 0 ? 0.5 * squares / freedom / static_cast<double>(common_.size()) : 0;
+  }
+
+  /// Probe for Ceres: long enough to show against the noise. A residual that goes through its range once, saturated at
+  /// both ends, has a curvature of about four times the range.
+  double probe_length() const {
+    const double infinity = std::numeric_limits<double>::infinity();
+    Eigen::ArrayXd least = Eigen::ArrayXd::Constant(objective_.residuals(), infinity), most = -least;
+    for (const Response& single : ledger_.singles()) {
+      if (!is_feasible(single)) continue;
+      least = least.min(single.residuals.array());
+      most = most.max(single.residuals.array());
+    }
+    const double deviation = std::sqrt(2 * noise() / objective_.residuals());
+    return noise_step(deviation, 4 * (most - least).maxCoeff());
+  }
+
+  void refine() {
+    if (goal_is_met() || !may_go_on()) return;
+    ledger_.enter("refinement");
+    CeresOptions ceres;
+    ceres.goal_mm = goal_share * options_.tolerance_mm;
+    ceres.difference_step = probe_length();
+    ceres.step_tolerance = same_point;
+    ceres.noise = noise();
+    search_ceres(ledger_, common_, best_point(), ceres);
+  }
+
+  /// Asks the candidate on fresh packings; true if it holds. If not, they join the common packings.
+  bool confirm() {
+    ledger_.enter("confirmation");
+    ledger_.hold_back(0);
+    const Response candidate = ledger_.best_on(common_).value();
+    const std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
+    const Response confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+    if (ledger_.stop_requested()) return false;
+    ++result_.rounds;
+    std::vector<std::uint64_t> joined = common_;
+    joined.insert(joined.end(), fresh.begin(), fresh.end());
+    const Response evidence = ledger_.evaluate({&candidate.point, 1}, joined).at(0);
+    const bool holds = is_feasible(confirmation) && confirmation.misfit_mm <= options_.tolerance_mm;
+    if (holds || result_.confirmation.point.size() == 0 || is_better(evidence, result_.best)) {
+      result_.best = evidence;
+      result_.search = candidate;
+      result_.confirmation = confirmation;
+    }
+    confirmed_ = holds;
+    if (!holds) common_ = joined;
+    ledger_.hold_back(options_.confirmation_packings);
+    return holds;
+  }
+
+  Calibration conclude() {
+    if (result_.best.point.size() == 0 && ledger_.any_feasible()) {
+      result_.search = ledger_.best_on(common_).value_or(Response{});
+      if (result_.search.point.size() == 0) {
+        for (const Response& seen : ledger_.history()) {
+          if (is_feasible(seen) && is_better(seen, result_.search)) result_.search = seen;
+        }
+      }
+      result_.best = result_.search;
+    }
+    result_.history = ledger_.history();
+    result_.simulations = ledger_.simulations();
+    result_.failures = ledger_.failures();
+    result_.reach = reach_of(ledger_.singles(), objective_.residuals());
+    explain();
+    return std::move(result_);
+  }
+
+  std::string reading(std::size_t k) const {
+    return k < readings_.size() ? readings_[k] : "reading " + std::to_string(k + 1);
+  }
+
+  void explain() {
+    const std::string spent = " (" + std::to_string(result_.simulations) + " simulations).";
+    const std::string packings = std::to_string(options_.confirmation_packings) + " fresh packings";
+    if (confirmed_) {
+      result_.status = CalibrationStatus::confirmed;
+      result_.reason = "The candidate misses the laboratory by " + number(result_.confirmation.misfit_mm) + " mm on " +
+                       packings + ", within the tolerance of " + number(options_.tolerance_mm) + " mm" + spent;
+    } else if (ledger_.stop_requested()) {
+      result_.status = CalibrationStatus::stopped;
+      result_.reason = "The search was stopped; the best so far is given" + spent;
+    } else if (!ledger_.any_feasible()) {
+      result_.status = CalibrationStatus::failed;
+      result_.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
+    } else {
+      result_.status = CalibrationStatus::unconfirmed;
+      const Response& told = result_.confirmation.point.size() > 0 ? result_.confirmation : result_.best;
+      result_.reason = "The best candidate misses the laboratory by " + number(told.misfit_mm) +
+                       " mm, more than the tolerance of " + number(options_.tolerance_mm) + " mm" + spent;
+      for (std::size_t k = 0; k < result_.reach.size(); ++k) {
+        const Reach& reach = result_.reach[k];
+        result_.reason += " " + reading(k) + " went from " + number(reach.lowest) + " to " + number(reach.highest);
+        if (reach.all_above || reach.all_below) {
+          result_.status = CalibrationStatus::out_of_reach;
+          result_.reason += std::string(", always ") + (reach.all_above ? "above" : "below") +
+                            " the laboratory: the model cannot reach it within these bounds";
+        }
+        result_.reason += ".";
+      }
+    }
+  }
+
+  Objective& objective_;
+  const SearchOptions& options_;
+  Ledger ledger_;
+  std::span<const std::string> readings_;
+  std::vector<std::uint64_t> common_;  // every candidate is compared on these
+  std::uint64_t packings_used_ = 0;
+  bool confirmed_ = false;
+  Calibration result_;
+};
+
+}  // namespace
+
+std::string_view name_of(CalibrationStatus status) {
+  switch (status) {
+    case CalibrationStatus::confirmed:
+      return "confirmed";
+    case CalibrationStatus::unconfirmed:
+      return "unconfirmed";
+    case CalibrationStatus::out_of_reach:
+      return "out_of_reach";
+    case CalibrationStatus::stopped:
+      return "stopped";
+    case CalibrationStatus::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+std::vector<std::string_view> strategy_names() {
+  std::vector<std::string_view> names = nlopt_algorithm_names();
+  names.insert(names.begin(), "default");
+  return names;
+}
+
+Faults validate(const SearchOptions& options, int parameters) {
+  Faults faults;
+  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
+    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
+  };
+  demand(parameters >= 1, "parameters", "none is free", "free at least one");
+  if (options.strategy != "default") {
+    NloptOptions nlopt;
+    nlopt.algorithm = options.strategy;
+    for (Fault fault : validate(nlopt, parameters)) {
+      demand(false, "search.strategy", fault.what, "default, or " + fault.remedy);
+    }
+  }
+  demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
+  demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
+  demand(options.confirmation_packings >= 1, "search.confirmation_packings",
+         std::to_string(options.confirmation_packings), "at least 1");
+  demand(options.tolerance_mm > 0, "search.tolerance_mm", number(options.tolerance_mm), "above 0");
+  const int least = options.screening + options.packings + options.confirmation_packings;
+  demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
+         "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
+  return faults;
+}
+
+Calibration search(Objective& objective, const SearchOptions& options,
+                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings) {
+  if (!validate(options, objective.parameters()).empty()) throw std::logic_error("search: options that are not valid");
+  return Search(objective, options, progress, readings).run();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/search/search_run.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// How a calibration ended.
+enum class CalibrationStatus {
+  confirmed,     ///< the best candidate meets the laboratory within the tolerance on fresh packings
+  unconfirmed,   ///< it does not, and the budget is spent or the search is at its end
+  out_of_reach,  ///< some reading lies beyond everything the model did in these bounds
+  stopped,       ///< the user or a limit asked for it; the best so far is given
+  failed         ///< no candidate could be simulated
+};
+
+/// The status as it is stored and printed, e.g. "out_of_reach".
+std::string_view name_of(CalibrationStatus status);
+
+/// Where a search is, for a person who waits.
+struct Progress {
+  std::string_view phase;      ///< "screening", "search", "refinement", "confirmation"
+  int simulations = 0;         ///< done
+  int budget = 0;              ///< allowed in all
+  double best_misfit_mm = -1;  ///< of the best candidate so far; negative: none yet
+};
+
+/// What the model did with one reading in all simulations that ended well.
+struct Reach {
+  double lowest = 0, highest = 0;  ///< of one simulation, in the reading's unit
+  bool all_above = false;          ///< every simulation read more than the laboratory
+  bool all_below = false;          ///< every simulation read less
+  double packing_noise = 0;        ///< standard deviation from packing to packing, same parameters; 0: not seen
+};
+
+/// What a search brought.
+struct Calibration {
+  Response best;          ///< the reported candidate on every packing it was simulated on
+  Response search;        ///< the same on the common packings it was found with
+  Response confirmation;  ///< the same on fresh packings that the search had not used; no point if never confirmed
+  CalibrationStatus status = CalibrationStatus::failed;
+  std::string reason;             ///< one or more sentences for a person
+  std::vector<Response> history;  ///< every answer, in the order of asking, each point with its set of packings
+  std::vector<Reach> reach;       ///< one for each reading
+  int simulations = 0;            ///< spent
+  int failures = 0;               ///< of them failed
+  int rounds = 0;                 ///< confirmations
+};
+
+/// Names of the strategies: "default" and every NLopt algorithm.
+std::vector<std::string_view> strategy_names();
+
+/// Everything wrong with the options of a search over so many parameters; empty: fit to run.
+Faults validate(const SearchOptions& options, int parameters);
+
+/// Calibrates: finds the candidate that meets the laboratory, and confirms it on packings the search has not used.
+///   1. Screening: space-filling points on one packing, all at once.
+///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
+///      point of least expected misfit, which is simulated on the common packings, until the goal is met or nothing
+///      new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
+///      screening point, with half of what is left of the budget.
+///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
+///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
+///      packings join the common set, and the search goes on from 2 with what they taught.
+/// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
+/// packings too. The budget for a confirmation is kept back all along.
+/// Requirements: `validate(options, objective.parameters())` is empty.
+/// `readings`: names for the reason, in the order of the observables; may be left empty.
+/// The way depends on the answers only: the same answers, the same calibration.
+/// Errors: in the status. Throws what the objective throws, and std::logic_error if a requirement is broken.
+Calibration search(Objective& objective, const SearchOptions& options,
+                   const std::function<void(const Progress&)>& progress = {},
+                   std::span<const std::string> readings = {});
+
+}  // namespace pastefit

@@ -1,0 +1,12 @@
+# Writes `output`, a header with a hash of everything under `source` that decides what a simulation answers.
+file(GLOB_RECURSE sources ${source}/core/*.h ${source}/core/*.cpp ${source}/core/CMakeLists.txt)
+list(APPEND sources ${source}/calibrate/study/parameters.cpp)
+list(SORT sources)
+set(text "${flags}")
+foreach(file IN LISTS sources)
+  file(SHA256 ${file} hash)
+  string(APPEND text ${hash})
+endforeach()
+string(SHA256 fingerprint "${text}")
+string(SUBSTRING ${fingerprint} 0 16 fingerprint)
+file(WRITE ${output} "#define PASTEFIT_ENGINE_SOURCES \"${fingerprint}\"\n")

@@ -1,0 +1,96 @@
+#include "calibrate/store/outcome_json.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace pastefit {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+ordered_json number_to_json(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+double number_from_json(const json& in) {
+  if (in.is_number()) return in.get<double>();
+  const auto text = in.get<std::string>();
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf") return std::numeric_limits<double>::infinity();
+  if (text == "-inf") return -std::numeric_limits<double>::infinity();
+  throw std::invalid_argument("'" + text + "' is not a number");
+}
+
+ordered_json to_json(const Observables& observables) {
+  auto out = ordered_json::object();
+  for (const auto& [name, value] : observables.all()) out[name] = number_to_json(value);
+  return out;
+}
+
+ordered_json to_json(const std::optional<Failure>& failure) {
+  if (!failure) return nullptr;
+  return {{"reason", name_of(failure->reason)},
+          {"phase", failure->phase},
+          {"step", failure->step},
+          {"time_s", number_to_json(failure->time_s)},
+          {"grain", failure->grain},
+          {"value", number_to_json(failure->value)},
+          {"limit", number_to_json(failure->limit)},
+          {"message", failure->message}};
+}
+
+ordered_json to_json(const RunSummary& run, double wall_s) {
+  return {{"particles", run.particles},
+          {"steps", run.steps},
+          {"particle_steps", run.particle_steps},
+          {"time_step_s", number_to_json(run.time_step_s)},
+          {"simulated_s", number_to_json(run.simulated_s)},
+          {"wall_s", number_to_json(wall_s)},
+          {"settled", run.settled},
+          {"energy_error", number_to_json(run.energy_error)}};
+}
+
+Observables observables_from_json(const ordered_json& in) {
+  Observables out;
+  for (const auto& [name, value] : in.items()) out.set(name, number_from_json(value));
+  return out;
+}
+
+std::optional<Failure> failure_from_json(const json& in) {
+  if (in.is_null()) return std::nullopt;
+  Failure out;
+  const auto reason = in.at("reason").get<std::string>();
+  int index = 0;
+  while (name_of(static_cast<FailureReason>(index)) != reason) {
+    if (static_cast<FailureReason>(index) == FailureReason::stopped)
+      throw std::invalid_argument("'" + reason + "' is not a reason of failure");
+    ++index;
+  }
+  out.reason = static_cast<FailureReason>(index);
+  out.phase = in.at("phase").get<std::string>();
+  out.step = in.at("step").get<std::int64_t>();
+  out.time_s = number_from_json(in.at("time_s"));
+  out.grain = in.at("grain").get<std::int64_t>();
+  out.value = number_from_json(in.at("value"));
+  out.limit = number_from_json(in.at("limit"));
+  out.message = in.at("message").get<std::string>();
+  return out;
+}
+
+RunSummary run_from_json(const json& in) {
+  RunSummary out;
+  out.particles = in.at("particles").get<std::int64_t>();
+  out.steps = in.at("steps").get<std::int64_t>();
+  out.particle_steps = in.at("particle_steps").get<std::int64_t>();
+  out.time_step_s = number_from_json(in.at("time_step_s"));
+  out.simulated_s = number_from_json(in.at("simulated_s"));
+  out.settled = in.at("settled").get<bool>();
+  out.energy_error = number_from_json(in.at("energy_error"));
+  return out;
+}
+
+}  // namespace pastefit

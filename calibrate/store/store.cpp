@@ -1,0 +1,265 @@
+#include "calibrate/store/store.h"
+
+#include <sqlite3.h>
+
+#include <bit>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "calibrate/store/outcome_json.h"
+#include "calibrate/study/content_hash.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr int kSchemaVersion = 1;
+constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
+
+using Row = std::vector<std::string>;
+
+/// A connection that closes itself; errors of SQLite travel as exceptions up to the functions of Store.
+class Database {
+ public:
+  explicit Database(const std::filesystem::path& file) {
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    const int status = sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr);
+    if (status != SQLITE_OK) {
+      const std::string message = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
+      sqlite3_close(handle_);
+      throw std::runtime_error(message);
+    }
+    sqlite3_busy_timeout(handle_, 2000);
+  }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+  ~Database() { sqlite3_close(handle_); }
+
+  /// Runs one statement with text parameters; answers all rows as text.
+  std::vector<Row> run(const std::string& sql, const Row& parameters = {}) {
+    sqlite3_stmt* raw = nullptr;
+    check(sqlite3_prepare_v2(handle_, sql.c_str(), -1, &raw, nullptr));
+    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(raw, sqlite3_finalize);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      check(sqlite3_bind_text(raw, static_cast<int>(i) + 1, parameters[i].data(),
+                              static_cast<int>(parameters[i].size()), SQLITE_STATIC));
+    std::vector<Row> rows;
+    int status;
+    while ((status = sqlite3_step(raw)) == SQLITE_ROW) {
+      Row row;
+      for (int column = 0; column < sqlite3_column_count(raw); ++column) {
+        const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(raw, column));
+        row.emplace_back(text ? text : "");
+      }
+      rows.push_back(std::move(row));
+    }
+    if (status != SQLITE_DONE) check(status);
+    return rows;
+  }
+
+  int number(const std::string& sql) { return std::stoi(run(sql).at(0).at(0)); }
+
+ private:
+  void check(int status) {
+    if (status != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(handle_));
+  }
+  sqlite3* handle_ = nullptr;
+};
+
+/// All or nothing: rolls back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  ~Transaction() {
+    if (committed_) return;
+    try {
+      database_.run("ROLLBACK");
+    } catch (const std::exception&) {
+      // SQLite has rolled back by itself (full disk); there is nothing left to undo.
+    }
+  }
+  void commit() {
+    database_.run("COMMIT");
+    committed_ = true;
+  }
+
+ private:
+  Database& database_;
+  bool committed_ = false;
+};
+
+std::string text_of(const std::vector<double>& numbers) {
+  auto json = nlohmann::ordered_json::array();
+  for (const double number : numbers) json.push_back(number_to_json(number));
+  return json.dump();
+}
+
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const auto& number : nlohmann::json::parse(text)) numbers.push_back(number_from_json(number));
+  return numbers;
+}
+
+void create(Database& database, const StoreIdentity& identity) {
+  Transaction transaction(database);
+  database.run("CREATE TABLE identity (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
+  database.run(
+      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE, point TEXT NOT NULL,"
+      " parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL, failure TEXT NOT NULL,"
+      " run TEXT NOT NULL)");
+  database.run("INSERT INTO identity VALUES ('study', ?), ('lab', ?), ('program', ?)",
+               {identity.study, identity.lab, identity.program});
+  database.run("PRAGMA application_id = " + std::to_string(kApplicationId));
+  database.run("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  transaction.commit();
+}
+
+const std::string kStartAnew = "choose another output folder, or start anew with --force";
+
+/// What keeps a non-empty database from being a store of these inputs.
+Faults differences(Database& database, const std::string& file, const StoreIdentity& identity) {
+  if (database.number("PRAGMA application_id") != kApplicationId)
+    return {{file, "is a database, but not a store of evaluations", "choose another output folder"}};
+  if (const int version = database.number("PRAGMA user_version"); version != kSchemaVersion)
+    return {{file,
+             "has schema version " + std::to_string(version) + ", this program reads version " +
+                 std::to_string(kSchemaVersion),
+             "resume with the program that wrote it; or " + kStartAnew}};
+  if (const auto verdict = database.run("PRAGMA quick_check(1)").at(0).at(0); verdict != "ok")
+    return {{file, "is damaged: " + verdict, "restore it from a copy; or " + kStartAnew}};
+  Faults faults;
+  const auto compare = [&](const std::string& name, const std::string& ours, const std::string& remedy) {
+    const auto rows = database.run("SELECT value FROM identity WHERE name = ?", {name});
+    const std::string theirs = rows.empty() ? "" : rows[0][0];
+    if (theirs != ours)
+      faults.push_back({file + ": " + name, "evaluations belong to '" + theirs + "', not to '" + ours + "'",
+                        remedy + "; or " + kStartAnew});
+  };
+  compare("study", identity.study, "resume with the study file as it was (--budget raises the number of simulations)");
+  compare("lab", identity.lab, "resume with the laboratory file as it was");
+  compare("program", identity.program, "resume with the program that wrote it");
+  return faults;
+}
+
+StoredEvaluation evaluation_of(const Row& row) {
+  StoredEvaluation out;
+  out.key = row.at(0);
+  out.point = numbers_of(row.at(1));
+  out.values = numbers_of(row.at(2));
+  out.packing = std::stoull(row.at(3));
+  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(4)));
+  out.failure = failure_from_json(nlohmann::json::parse(row.at(5)));
+  const auto run = nlohmann::json::parse(row.at(6));
+  out.run = run_from_json(run);
+  out.wall_s = number_from_json(run.at("wall_s"));
+  return out;
+}
+
+}  // namespace
+
+std::string evaluation_key(const StoreIdentity& identity, std::span<const double> values, std::uint64_t packing) {
+  std::string text;
+  const auto add_word = [&](std::uint64_t word) {
+    for (int shift = 0; shift < 64; shift += 8) text += static_cast<char>(word >> shift);
+  };
+  for (const auto* part : {&identity.study, &identity.lab, &identity.program}) {
+    add_word(part->size());
+    text += *part;
+  }
+  for (const double value : values) add_word(std::bit_cast<std::uint64_t>(value));
+  add_word(packing);
+  return content_hash(text);
+}
+
+/// Everything is held in memory too: a search asks for known points often, and a damaged row shows when the store is
+/// opened instead of in the middle of a run. A record is about 1 kB.
+struct Store::State {
+  State(const std::filesystem::path& path, StoreIdentity who)
+      : file(path.string()), identity(std::move(who)), database(path) {}
+
+  std::string file;
+  StoreIdentity identity;
+  Database database;
+  mutable std::mutex mutex;
+  std::vector<StoredEvaluation> evaluations;
+  std::unordered_map<std::string, std::size_t> index;
+};
+
+Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity& identity) {
+  try {
+    auto state = std::make_unique<State>(file, identity);
+    auto& database = state->database;
+    const bool fresh =
+        database.number("SELECT count(*) FROM sqlite_master") == 0 && database.number("PRAGMA user_version") == 0;
+    if (!fresh) {
+      if (auto faults = differences(database, file.string(), identity); !faults.empty()) return faults;
+    }
+    // Only now is the file known to be ours; changing the journal mode writes to its header.
+    database.run("PRAGMA journal_mode = WAL");
+    database.run("PRAGMA synchronous = FULL");
+    if (fresh) create(database, identity);
+    for (const auto& row : database.run("SELECT key, point, parameter_values, packing, observables, failure, run"
+                                        " FROM evaluations ORDER BY sequence")) {
+      auto evaluation = evaluation_of(row);
+      state->index.emplace(evaluation.key, state->evaluations.size());
+      state->evaluations.push_back(std::move(evaluation));
+    }
+    return Store(std::move(state));
+  } catch (const std::exception& error) {
+    return Fault{file.string(), std::string("cannot be used as the store of evaluations: ") + error.what(),
+                 "a writable place, free of other files of that name; or " + kStartAnew};
+  }
+}
+
+const StoreIdentity& Store::identity() const {
+  return state_->identity;
+}
+
+std::optional<StoredEvaluation> Store::find(std::string_view key) const {
+  const std::lock_guard lock(state_->mutex);
+  const auto found = state_->index.find(std::string(key));
+  if (found == state_->index.end()) return std::nullopt;
+  return state_->evaluations[found->second];
+}
+
+Faults Store::add(const StoredEvaluation& evaluation) {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->index.contains(evaluation.key)) return {};
+  try {
+    Transaction transaction(state_->database);
+    state_->database.run(
+        "INSERT INTO evaluations (key, point, parameter_values, packing, observables, failure, run)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?)",
+        {evaluation.key, text_of(evaluation.point), text_of(evaluation.values), std::to_string(evaluation.packing),
+         to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
+         to_json(evaluation.run, evaluation.wall_s).dump()});
+    transaction.commit();
+  } catch (const std::exception& error) {
+    return {{state_->file, std::string("the evaluation could not be stored: ") + error.what(),
+             "free space on the disk and go on with --resume"}};
+  }
+  state_->index.emplace(evaluation.key, state_->evaluations.size());
+  state_->evaluations.push_back(evaluation);
+  return {};
+}
+
+std::vector<StoredEvaluation> Store::all() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->evaluations;
+}
+
+std::size_t Store::size() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->evaluations.size();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,166 @@
+#include "calibrate/study/json_document.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "calibrate/study/fault_text.h"
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t deepest_nesting = 32;      // our files need 4; the bound keeps recursive writers safe
+constexpr std::size_t largest_file = 16u << 20;  // bytes; a laboratory file has some kilobytes
+
+std::string line_and_column(std::string_view text, std::size_t bytes_read) {
+  const std::string_view read = text.substr(0, bytes_read);
+  const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+  const std::size_t line_end = read.rfind('\n');
+  const std::size_t column = line_end == std::string_view::npos ? read.size() : read.size() - line_end - 1;
+  return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::size_t>(column, 1));
+}
+
+/// The parser's own words, without its error number and place.
+std::string complaint(const json::exception& error) {
+  std::string text = error.what();
+  text.erase(0, text.find("] ") + 2);
+  if (const std::size_t column = text.find(", column "); column != std::string::npos)
+    text.erase(0, text.find(": ", column) + 2);
+  // The parser shows control characters as <U+001B>, but bytes that are no text as they are.
+  std::erase_if(text, [](unsigned char byte) { return byte >= 0x80; });
+  return text;
+}
+
+/// First pass over the text: is it JSON, and does a key stand twice? (The document type keeps the last one silently.)
+class SyntaxCheck final : public nlohmann::json_sax<json> {
+ public:
+  SyntaxCheck(std::string_view text, Faults& faults) : text_(text), faults_(faults) {}
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return open(false); }
+  bool start_array(std::size_t) override { return open(true); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    level.key = name;
+    if (!level.keys.insert(name).second)
+      faults_.push_back({place(), "the key stands twice in one object", "keep the one that is meant"});
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&, const json::exception& error) override {
+    faults_.push_back({line_and_column(text_, position), "not JSON: " + complaint(error), "correct the text there"});
+    return false;
+  }
+
+ private:
+  struct Level {
+    bool array = false;
+    std::size_t elements = 0;
+    std::string key;
+    std::set<std::string> keys;
+  };
+
+  bool value() {
+    if (!levels_.empty()) ++levels_.back().elements;
+    return true;
+  }
+
+  bool open(bool array) {
+    value();
+    if (levels_.size() == deepest_nesting) {
+      faults_.push_back({place(), "nested deeper than " + std::to_string(deepest_nesting) + " levels",
+                         "no file of pastefit needs that: check the brackets"});
+      return false;
+    }
+    levels_.push_back({array, 0, {}, {}});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  std::string place() const {
+    std::string path;
+    for (const Level& level : levels_)
+      path = level.array ? path + "[" + std::to_string(level.elements - (level.elements > 0)) + "]"
+                         : joined(path, printable(level.key));
+    return path;
+  }
+
+  std::string_view text_;
+  Faults& faults_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+std::optional<json> parse_json(std::string_view text, Faults& faults) {
+  SyntaxCheck check(text, faults);
+  if (!json::sax_parse(text.begin(), text.end(), &check, json::input_format_t::json, true, true)) return std::nullopt;
+  return json::parse(text.begin(), text.end(), nullptr, false, true);
+}
+
+std::optional<json> read_json(const std::filesystem::path& file, Faults& faults) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    faults.push_back({file.string(), "there is no such file", "check the path"});
+    return std::nullopt;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  std::array<char, 65536> block;
+  while (text.size() <= largest_file && (stream.read(block.data(), block.size()) || stream.gcount() > 0))
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  if (std::filesystem::is_directory(file, error) || stream.bad() || !stream.eof()) {
+    const bool too_large = text.size() > largest_file;
+    faults.push_back({file.string(), too_large ? "larger than 16 MB" : "cannot be read",
+                      too_large ? "give a file of pastefit" : "give a readable file"});
+    return std::nullopt;
+  }
+  Faults found;
+  std::optional<json> document = parse_json(text, found);
+  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
+  return document;
+}
+
+bool has_format(const json& document, std::string_view expected, Faults& faults) {
+  const std::string remedy = "write \"format\": " + in_quotes(expected);
+  if (!document.is_object()) {
+    faults.push_back({"", "the file holds " + text_of(document), "an object { ... } with " + remedy});
+    return false;
+  }
+  const auto format = document.find("format");
+  if (format == document.end()) {
+    faults.push_back({"format", "is missing", remedy});
+    return true;
+  }
+  if (format->is_string() && format->get_ref<const std::string&>() == expected) return true;
+  faults.push_back({"format", "is " + text_of(*format), remedy + ", or give the file that is meant"});
+  return !(format->is_string() && format->get_ref<const std::string&>().starts_with("pastefit-"));
+}
+
+std::string text_of(const json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "a list";
+  if (value.is_null()) return "null";
+  if (value.is_string()) return "the text " + in_quotes(value.get_ref<const std::string&>());
+  return value.dump();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,193 @@
+#include "calibrate/study/json_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+using Words = std::set<std::string, std::less<>>;
+
+constexpr double largest_whole = 9007199254740992;  // 2^53: whole numbers are exact in a double up to here
+
+std::string listed(const Words& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + in_quotes(word);
+  return list;
+}
+
+}  // namespace
+
+std::string text_of(const Range& range) {
+  const bool below = range.smallest > std::numeric_limits<double>::lowest();
+  const bool above = range.largest < std::numeric_limits<double>::max();
+  if (!below && !above) return "a number";
+  if (!below) return "a number of at most " + shown(range.largest);
+  if (!above) return (range.open ? "a number above " : "a number of at least ") + shown(range.smallest);
+  if (range.open) return "a number above " + shown(range.smallest) + " and at most " + shown(range.largest);
+  return "a number from " + shown(range.smallest) + " to " + shown(range.largest);
+}
+
+ObjectReader::ObjectReader(const json& value, std::string place, Faults& faults)
+    : object_(value), place_(std::move(place)), faults_(faults) {}
+
+ObjectReader::~ObjectReader() {
+  for (const auto& [key, value] : object_.items()) {
+    if (known_.contains(key)) continue;
+    const std::optional<std::string> near = nearest(key, known_);
+    faults_.push_back({joined(place_, printable(key)), std::string(unknown_key),
+                       near ? "did you mean " + in_quotes(*near) + "?" : "known here: " + listed(known_)});
+  }
+}
+
+bool ObjectReader::has(std::string_view key) const {
+  return object_.contains(key);
+}
+
+std::string ObjectReader::place(std::string_view key) const {
+  return joined(place_, key);
+}
+
+void ObjectReader::fault(std::string_view key, std::string what, std::string remedy) {
+  faults_.push_back({place(key), std::move(what), std::move(remedy)});
+}
+
+bool ObjectReader::number(std::string_view key, double& target, const Range& range, Need need, double per_si) {
+  const json* value = find(key, need);
+  if (!value || !check_number(place(key), *value, range)) return false;
+  target = value->get<double>() / per_si;
+  return true;
+}
+
+bool ObjectReader::nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  if (!value->is_null() && !check_number(place(key), *value, range)) return false;
+  target.reset();
+  if (!value->is_null()) target = value->get<double>();
+  return true;
+}
+
+bool ObjectReader::integer(std::string_view key, int& target, int smallest, int largest, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  const double number = value->is_number() ? value->get<double>() : 0.5;
+  if (number != std::floor(number) || number < smallest || number > largest) {
+    fault(key, "is " + text_of(*value),
+          "a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest));
+    return false;
+  }
+  target = static_cast<int>(number);
+  return true;
+}
+
+bool ObjectReader::integer(std::string_view key, std::uint64_t& target, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  if (value->is_number_unsigned()) {
+    target = value->get<std::uint64_t>();
+    return true;
+  }
+  const double number = value->is_number_float() ? value->get<double>() : -1;
+  if (number < 0 || number != std::floor(number) || number > largest_whole) {
+    fault(key, "is " + text_of(*value), "a whole number of at least 0");
+    return false;
+  }
+  target = static_cast<std::uint64_t>(number);
+  return true;
+}
+
+bool ObjectReader::text(std::string_view key, std::string& target, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  if (!value->is_string()) {
+    fault(key, "is " + text_of(*value), "a text in quotes");
+    return false;
+  }
+  target = value->get<std::string>();
+  return true;
+}
+
+bool ObjectReader::flag(std::string_view key, bool& target, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  if (!value->is_boolean()) {
+    fault(key, "is " + text_of(*value), "true or false");
+    return false;
+  }
+  target = value->get<bool>();
+  return true;
+}
+
+bool ObjectReader::numbers(std::string_view key, std::vector<double>& target, const Range& range, Need need,
+                           std::size_t least, std::size_t most) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  const bool any_length = most == 0;
+  if (!value->is_array() || value->size() < least || (!any_length && value->size() > most)) {
+    const std::string count = std::to_string(least);
+    fault(key, "is " + (value->is_array() ? "a list of " + std::to_string(value->size()) : text_of(*value)),
+          most == least ? "a list of " + count + " numbers" : "a list of at least " + count + " numbers");
+    return false;
+  }
+  bool good = true;
+  for (std::size_t i = 0; i < value->size(); ++i)
+    good = check_number(place(key) + "[" + std::to_string(i) + "]", (*value)[i], range) && good;
+  if (good) target = value->get<std::vector<double>>();
+  return good;
+}
+
+bool ObjectReader::integers(std::string_view key, std::vector<std::uint64_t>& target, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  const auto is_whole = [](const json& entry) { return entry.is_number_unsigned(); };
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_whole)) {
+    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)),
+          "a list of whole numbers of at least 0");
+    return false;
+  }
+  target = value->get<std::vector<std::uint64_t>>();
+  return true;
+}
+
+void ObjectReader::refuse(std::string_view key, std::string what, std::string remedy) {
+  if (!has(key)) return;
+  known_.emplace(key);
+  fault(key, std::move(what), std::move(remedy));
+}
+
+const json* ObjectReader::find(std::string_view key, Need need) {
+  known_.emplace(key);
+  const auto value = object_.find(key);
+  if (value != object_.end()) return &*value;
+  if (need == Need::required) fault(key, "is missing", "add it");
+  return nullptr;
+}
+
+const json* ObjectReader::find_object(std::string_view key, Need need, std::string_view remedy) {
+  const json* value = find(key, need);
+  if (!value || value->is_object()) return value;
+  fault(key, "is " + text_of(*value), std::string(remedy));
+  return nullptr;
+}
+
+bool ObjectReader::check_number(std::string_view place, const json& value, const Range& range) {
+  bool good = value.is_number();
+  if (good) {
+    const double number = value.get<double>();
+    good = std::isfinite(number) && number >= range.smallest && number <= range.largest &&
+           !(range.open && number == range.smallest);
+  }
+  if (!good) faults_.push_back({std::string(place), "is " + text_of(value), text_of(range)});
+  return good;
+}
+
+void ObjectReader::wrong_word(std::string_view key, const json& value, const Words& words) {
+  const std::optional<std::string> near =
+      value.is_string() ? nearest(value.get_ref<const std::string&>(), words) : std::nullopt;
+  fault(key, "is " + text_of(value),
+        (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(words));
+}
+
+}  // namespace pastefit

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/study/fault_text.h"
+#include "calibrate/study/json_document.h"
+#include "core/result.h"
+
+namespace pastefit {
+
+/// The admissible values of a number, in the unit of its key.
+struct Range {
+  double smallest = std::numeric_limits<double>::lowest();
+  double largest = std::numeric_limits<double>::max();
+  bool open = false;  ///< `smallest` itself is refused
+};
+
+/// "a number from 1 to 5000", for remedies.
+std::string text_of(const Range& range);
+
+/// Whether an object must have the key.
+enum class Need { required, optional };
+
+/// A word of a file and the value it stands for.
+template <class T>
+struct Named {
+  std::string_view name;
+  T value;
+};
+
+/// Reads one JSON object strictly, into variables that keep their value when the key is absent or wrong.
+/// Each call names one key, with all that is known of it; that call is the only description of the field.
+/// The reader's end reports every key of the object that no call has named.
+/// All readers return whether the variable was set.
+class ObjectReader {
+ public:
+  /// `value` must be an object and outlive the reader; `place` is its path, empty for the document itself.
+  ObjectReader(const nlohmann::json& value, std::string place, Faults& faults);
+  ~ObjectReader();
+  ObjectReader(const ObjectReader&) = delete;
+  ObjectReader& operator=(const ObjectReader&) = delete;
+
+  bool has(std::string_view key) const;
+  /// Names a key that was read elsewhere.
+  void known(std::string_view key) { known_.emplace(key); }
+  Faults& faults() { return faults_; }
+  /// The path of a key of this object.
+  std::string place(std::string_view key) const;
+  void fault(std::string_view key, std::string what, std::string remedy);
+
+  /// target = number in the file / `per_si`, e.g. 1000 for millimetres into metres. `range` is in the key's unit.
+  bool number(std::string_view key, double& target, const Range& range, Need need, double per_si = 1);
+  /// Null and an absent optional key empty the target.
+  bool nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need);
+  bool integer(std::string_view key, int& target, int smallest, int largest, Need need);
+  bool integer(std::string_view key, std::uint64_t& target, Need need);
+  bool text(std::string_view key, std::string& target, Need need);
+  bool flag(std::string_view key, bool& target, Need need);
+  /// A list of at least `least` numbers and, if `most` is not 0, at most that many.
+  bool numbers(std::string_view key, std::vector<double>& target, const Range& range, Need need, std::size_t least,
+               std::size_t most = 0);
+  /// A list of whole numbers from 0, exact up to 64 bits (seeds).
+  bool integers(std::string_view key, std::vector<std::uint64_t>& target, Need need);
+  template <class T, std::size_t N>
+  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need);
+  /// Calls `body(ObjectReader&)` for an object of this object.
+  template <class Body>
+  bool object(std::string_view key, Need need, Body body);
+  /// As `object`, into `target`; null empties it, and an absent optional key leaves it as it is.
+  template <class T, class Body>
+  bool nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body);
+  /// Names a key that is sensible elsewhere but not here: a fault with this remedy if it is present.
+  void refuse(std::string_view key, std::string what, std::string remedy);
+
+ private:
+  const nlohmann::json* find(std::string_view key, Need need);
+  const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy);
+  bool check_number(std::string_view place, const nlohmann::json& value, const Range& range);
+  void wrong_word(std::string_view key, const nlohmann::json& value, const std::set<std::string, std::less<>>& words);
+
+  const nlohmann::json& object_;
+  std::string place_;
+  Faults& faults_;
+  std::set<std::string, std::less<>> known_;
+};
+
+template <class T, std::size_t N>
+bool ObjectReader::choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need) {
+  const nlohmann::json* value = find(key, need);
+  if (!value) return false;
+  std::set<std::string, std::less<>> names;
+  for (const Named<T>& word : words) {
+    if (value->is_string() && value->get_ref<const std::string&>() == word.name) {
+      target = word.value;
+      return true;
+    }
+    names.emplace(word.name);
+  }
+  wrong_word(key, *value, names);
+  return false;
+}
+
+template <class Body>
+bool ObjectReader::object(std::string_view key, Need need, Body body) {
+  const nlohmann::json* value = find_object(key, need, "an object { ... }");
+  if (!value) return false;
+  ObjectReader reader(*value, place(key), faults_);
+  body(reader);
+  return true;
+}
+
+template <class T, class Body>
+bool ObjectReader::nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body) {
+  const auto value = object_.find(key);
+  if (value != object_.end() && value->is_null()) {
+    known_.emplace(key);
+    target.reset();
+    return true;
+  }
+  const nlohmann::json* found = find_object(key, need, "an object { ... }, or null");
+  if (!found) return false;
+  if (!target) target.emplace();
+  ObjectReader reader(*found, place(key), faults_);
+  body(reader, *target);
+  return true;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,123 @@
+#include "calibrate/study/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace pastefit {
+namespace {
+
+constexpr Scale linear = Scale::linear;
+constexpr Scale logarithmic = Scale::logarithmic;
+
+// The order is part of the format of stored evaluations: add new kinds at the end, and to `Slot`.
+constexpr std::array<ParameterKind, 15> kinds{{
+    {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
+    {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
+    {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
+    {"rupture_gap_ratio", 1e-3, 1, 0.3, linear, "gap at which the bridge ruptures over the mean grain radius, -d_c/R"},
+    {"offset_ratio", 0, 1, 0.15, linear, "thickness of the liquid shell over the mean grain radius"},
+    {"friction", 0, 2, 0.5, linear, "sliding friction between grains"},
+    {"rolling_friction", 0, 1, 0.1, linear, "rolling friction between grains"},
+    {"restitution", 0.01, 1, 0.3, linear, "rebound speed over impact speed between grains, without attraction"},
+    {"youngs_modulus_pa", 1e5, 1e11, 2e6, logarithmic, "Young's modulus of the grains"},
+    {"poissons_ratio", 0, 0.49, 0.3, linear, "Poisson's ratio of the grains"},
+    {"cohesion_ratio", 0, 10, 1, linear, "constant attraction of overlapping grains over the one at touch, F_coh/c"},
+    {"mould_friction", 0, 2, 0.1, linear, "sliding friction between grains and mould"},
+    {"table_friction", 0, 2, 0.5, linear, "sliding friction between grains and table"},
+    {"table_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the table"},
+    {"mould_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the mould"},
+}};
+
+enum Slot {
+  strength,
+  rupture_force,
+  curvature,
+  rupture_gap,
+  offset,
+  friction,
+  rolling_friction,
+  restitution,
+  youngs_modulus,
+  poissons_ratio,
+  cohesion,
+  mould_friction,
+  table_friction,
+  table_cohesion,
+  mould_cohesion
+};
+static_assert(mould_cohesion + 1 == kinds.size());
+
+double value_between(const Parameter& parameter, double unit) {
+  if (unit <= 0) return parameter.lower;
+  if (unit >= 1) return parameter.upper;
+  if (parameter.scale == Scale::linear) return std::lerp(parameter.lower, parameter.upper, unit);
+  const double value = std::exp(std::lerp(std::log(parameter.lower), std::log(parameter.upper), unit));
+  return std::clamp(value, parameter.lower, parameter.upper);
+}
+
+}  // namespace
+
+std::span<const ParameterKind> parameter_kinds() {
+  return kinds;
+}
+
+std::vector<double> usual_values() {
+  std::vector<double> values;
+  for (const ParameterKind& kind : kinds) values.push_back(kind.usual);
+  return values;
+}
+
+int free_count(const Study& study) {
+  return static_cast<int>(std::ranges::count_if(study.parameters, &Parameter::free));
+}
+
+std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point) {
+  assert(unit_point.size() == free_count(study));
+  std::vector<double> values;
+  Eigen::Index coordinate = 0;
+  for (const Parameter& parameter : study.parameters)
+    values.push_back(parameter.free ? value_between(parameter, unit_point[coordinate++]) : parameter.value);
+  return values;
+}
+
+SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
+  assert(values.size() == kinds.size());
+  const double radius = test.grains.radius_m;
+
+  Bridge& bridge = test.contact.bridge;
+  const double c = values[strength] * radius * radius;
+  const double k = values[curvature];
+  const double lost = 1 - values[rupture_force];  // share of the attraction that is gone when the bridge ruptures
+  double gap = values[rupture_gap];
+  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[offset]);
+  const double d_c = -gap * radius;
+  bridge.shape = BridgeShape::polynomial;
+  bridge.a_n_m2 = k * lost * c / (d_c * d_c);
+  bridge.b_n_m = lost * (1 + k) * c / -d_c;
+  bridge.c_n = c;
+  bridge.d_c_m = d_c;
+  bridge.offset_m = values[offset] * radius;
+
+  ContactModel& contact = test.contact;
+  contact.friction = values[friction];
+  contact.rolling_friction = values[rolling_friction];
+  contact.restitution = values[restitution];
+  contact.youngs_modulus_pa = values[youngs_modulus];
+  contact.poissons_ratio = values[poissons_ratio];
+  contact.cohesion_n = values[cohesion] * c;
+  test.mould_wall.friction = values[mould_friction];
+  test.mould_wall.cohesion_factor = values[mould_cohesion];
+  test.table_wall.friction = values[table_friction];
+  test.table_wall.cohesion_factor = values[table_cohesion];
+  return test;
+}
+
+SlumpTable test_with(const Study& study, std::span<const double> values, std::uint64_t packing_seed) {
+  SlumpTable test = with_contact_of(study.lab.test, values);
+  test.packing_seed = packing_seed;
+  return test;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// The parameters a study may free or fix. The first five span the polynomial bridge in coordinates that are
+/// scale-free and admissible everywhere in their range:
+///
+///   strength_pa           c / R^2, attraction at touch over the squared mean grain radius, > 0      [Pa]
+///   rupture_force_ratio   f = F(d_c)/c, force left when the bridge ruptures, 0 .. 1
+///   curvature             k, shape of the decay, -1 (flat at touch) .. 0 (straight) .. 1 (flat at rupture)
+///   rupture_gap_ratio     g = -d_c/R, 0 < g <= 1
+///   offset_ratio          offset/R, 0 .. 1
+///
+/// With s = d/d_c: F/c = 1 - (1 - f)[(1 + k) s - k s^2], hence
+///   a = k (1 - f) c / d_c^2,   b = (1 - f)(1 + k) c / |d_c|.
+/// Source of the law: Platzer & Fimbinger, BHM 167 (2022) 61-65; the coordinates are ours.
+///
+/// Others: friction, rolling_friction, restitution, youngs_modulus_pa, poissons_ratio, cohesion_ratio (F_coh/c),
+/// mould_friction, table_friction, table_cohesion_factor, mould_cohesion_factor.
+struct ParameterKind {
+  std::string_view name;
+  double smallest, largest;  ///< admissible range
+  double usual;              ///< value when the study does not name it
+  Scale scale;               ///< natural spacing
+  std::string_view meaning;  ///< one line for help and reports
+};
+
+/// Every known parameter, in their fixed order.
+std::span<const ParameterKind> parameter_kinds();
+
+/// Number of free parameters of a study.
+int free_count(const Study& study);
+
+/// Values of all parameters at a point of the unit cube over the free ones. Shapes: free_count -> parameters.size().
+std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point);
+
+/// The usual value of every parameter, in their fixed order.
+std::vector<double> usual_values();
+
+/// The test with these parameter values in its contact laws: a, b, c, d_c and offset in SI from the scale-free
+/// coordinates, with R = `test.grains.radius_m`. Shape: one value for each of `parameter_kinds()`.
+/// In touch formation the offset only bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
+SlumpTable with_contact_of(SlumpTable test, std::span<const double> values);
+
+/// The study's test with these parameter values (in SI: a, b, c, d_c, offset from the scale-free ones) and this
+/// packing.
+SlumpTable test_with(const Study& study, std::span<const double> values, std::uint64_t packing_seed);
+
+}  // namespace pastefit

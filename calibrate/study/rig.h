@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// A rig file of data/rigs: an apparatus with a usual material and usual grains; a laboratory file without readings.
+struct Rig {
+  std::string title;
+  Provenance provenance;
+  SlumpTable test;      ///< contact parameters have their usual values
+  std::string content;  ///< of the file, without comments and white space; part of the hash of whoever uses it
+};
+
+/// A rig file's content as a `Rig`. Errors: every fault of the content, each with its place.
+Result<Rig> rig_from_json(const nlohmann::json& document);
+
+/// Reads a rig file ("format": "pastefit-rig-1"). Errors: every fault of the file, each with the file's name.
+Result<Rig> read_rig(const std::filesystem::path& file);
+
+/// The folders in which presets are looked for, in order: `../rigs` seen from `folder`, where the naming file lies;
+/// `rigs` in the folder that the environment variable PASTEFIT_DATA_DIR names; the source's; the installed one.
+std::vector<std::filesystem::path> rig_folders(const std::filesystem::path& folder);
+
+// Sections of a file, shared by rig and laboratory files.
+
+void read_provenance(ObjectReader& document, Provenance& provenance);
+
+/// The object "apparatus". With a folder (where the file lies) it may name a preset; own keys then only differ from it.
+/// Returns the preset, if one was read; `test` then starts from it.
+std::optional<Rig> read_apparatus(ObjectReader& document, SlumpTable& test,
+                                  const std::optional<std::filesystem::path>& folder);
+
+void read_material(ObjectReader& document, SlumpTable& test);
+void read_grains(ObjectReader& document, SlumpTable& test, Need need);
+
+/// Whether all values could be read: unknown keys are the only faults from `first` on.
+bool values_are_good(const Faults& faults, std::size_t first);
+
+/// `validate(test)`, with its places in the words of rig and laboratory files, e.g. "apparatus.mould.height_mm".
+Faults validate_in_file_words(const SlumpTable& test);
+
+}  // namespace pastefit

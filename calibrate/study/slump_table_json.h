@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/result.h"
+#include "core/rigs/slump_table.h"
+
+namespace pastefit {
+
+/// The test as JSON, complete and in SI, the unit in each key: the canonical form for cards and stored evaluations.
+/// The same test gives the same text (keys sorted, doubles written so that they read back bit for bit).
+/// Requirement: every number is finite.
+nlohmann::json to_json(const SlumpTable& test);
+
+/// Reads what `to_json` writes; every key must be there.
+/// Errors: every fault of form, or else every fault that `validate` finds; places are paths in the JSON.
+Result<SlumpTable> slump_table_from_json(const nlohmann::json& json);
+
+}  // namespace pastefit

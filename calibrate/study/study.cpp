@@ -1,0 +1,162 @@
+#include "calibrate/study/study.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "calibrate/study/content_hash.h"
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/measurements.h"
+#include "calibrate/study/names.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/rig.h"
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+
+void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& parameter) {
+  const Range range{kind.smallest, kind.largest};
+  if (!reader.has("free")) {
+    reader.number("value", parameter.value, range, Need::required);
+    reader.refuse("scale", "a fixed parameter has no scale", "leave it out, or give \"free\": [lower, upper]");
+    return;
+  }
+  parameter.free = true;
+  reader.refuse("value", "stands beside \"free\"", "give one of them");
+  reader.choice("scale", parameter.scale, scales, Need::optional);
+  std::vector<double> bounds;
+  if (!reader.numbers("free", bounds, range, Need::required, 2, 2)) return;
+  if (bounds[0] >= bounds[1]) {
+    reader.fault("free", "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are not in order",
+                 "[lower, upper], lower below upper; for a fixed parameter give \"value\"");
+    return;
+  }
+  if (parameter.scale == Scale::logarithmic && bounds[0] <= 0)
+    reader.fault("free", "a lower bound of " + shown(bounds[0]) + " has no logarithm",
+                 "a lower bound above 0, or \"scale\": \"linear\"");
+  parameter.lower = bounds[0];
+  parameter.upper = bounds[1];
+  parameter.value = kind.usual;
+}
+
+std::vector<Parameter> read_parameters(ObjectReader& document) {
+  std::vector<Parameter> parameters;
+  for (const ParameterKind& kind : parameter_kinds())
+    parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+  document.object("parameters", Need::required, [&](ObjectReader& reader) {
+    bool any_free = false;
+    for (Parameter& parameter : parameters) {
+      const ParameterKind& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
+      reader.object(kind.name, Need::optional, [&](ObjectReader& one) { read_parameter(one, kind, parameter); });
+      any_free = any_free || parameter.free;
+    }
+    if (!any_free)
+      document.fault("parameters", "none is free, so there is nothing to calibrate",
+                     "free at least one, e.g. \"strength_pa\": {\"free\": [200, 60000]}");
+  });
+  return parameters;
+}
+
+void read_contact(ObjectReader& document, ContactModel& contact) {
+  document.object("contact", Need::optional, [&](ObjectReader& reader) {
+    reader.choice("formation", contact.bridge.formation, bridge_formations, Need::optional);
+    reader.choice("rolling_model", contact.rolling, rolling_models, Need::optional);
+    reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
+  });
+}
+
+/// `measurements` is empty if the laboratory file could not be read: any known reading may then have a weight.
+std::vector<Weight> read_weights(ObjectReader& document, const std::vector<Measurement>& measurements) {
+  std::vector<Weight> weights;
+  for (const Measurement& measurement : measurements) weights.push_back({measurement.observable, 1});
+  document.object("weights", Need::optional, [&](ObjectReader& reader) {
+    for (const ReadingKey& key : reading_keys()) {
+      const auto weight = std::ranges::find(weights, key.observable, &Weight::observable);
+      double ignored = 0;
+      if (weight == weights.end() && !measurements.empty())
+        reader.refuse(key.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
+      else
+        reader.number(key.key, weight == weights.end() ? ignored : weight->weight, {0, 1e6}, Need::optional);
+    }
+    if (!weights.empty() && std::ranges::all_of(weights, [](const Weight& weight) { return weight.weight == 0; }))
+      document.fault("weights", "all are 0, so nothing is fitted", "give at least one measurement a weight above 0");
+  });
+  return weights;
+}
+
+void read_search(ObjectReader& document, SearchOptions& search) {
+  constexpr int most = 1'000'000;
+  document.object("search", Need::optional, [&](ObjectReader& reader) {
+    reader.text("strategy", search.strategy, Need::optional);
+    reader.integer("screening", search.screening, 0, most, Need::optional);
+    reader.integer("budget_simulations", search.budget_simulations, 1, most, Need::optional);
+    reader.integer("packings", search.packings, 1, 1000, Need::optional);
+    reader.integer("confirmation_packings", search.confirmation_packings, 1, 1000, Need::optional);
+    reader.number("tolerance_mm", search.tolerance_mm, {0, 1000}, Need::optional);
+    reader.integer("seed", search.seed, Need::optional);
+    const int least = search.packings + search.confirmation_packings;
+    if (search.budget_simulations < least)
+      reader.fault("budget_simulations",
+                   std::to_string(search.budget_simulations) + " simulations do not pay for one candidate (packings " +
+                       std::to_string(search.packings) + ") and its confirmation (confirmation_packings " +
+                       std::to_string(search.confirmation_packings) + ")",
+                   "at least " + std::to_string(least));
+  });
+}
+
+/// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
+void check_touch(ObjectReader& document, const Study& study) {
+  if (study.lab.test.contact.bridge.formation != BridgeFormation::touch) return;
+  const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
+  if ((offset->free ? offset->lower : offset->value) > 0) return;
+  document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",
+                 "a lower bound (or value) above 0; half the rupture_gap_ratio leaves that gap as it is");
+}
+
+/// The study's test at the centre and at two opposite corners of its bounds: every point must be fit to run.
+Faults validate_points(const Study& study) {
+  for (const double unit : {0.5, 0.0, 1.0}) {
+    const std::vector<double> values = values_at(study, Eigen::VectorXd::Constant(free_count(study), unit));
+    Faults faults = validate_in_file_words(test_with(study, values, 1));
+    if (!faults.empty()) return faults;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Study> read_study(const std::filesystem::path& file) {
+  Faults faults;
+  const std::optional<json> document = read_json(file, faults);
+  if (!document) return faults;
+  Faults found;
+  Faults in_lab;
+  Study study;
+  if (has_format(*document, "pastefit-study-1", found)) {
+    ObjectReader reader(*document, "", found);
+    reader.known("format");
+    reader.text("title", study.title, Need::required);
+    std::string lab_file;
+    if (reader.text("lab", lab_file, Need::required)) {
+      Result<Lab> lab = read_lab((file.parent_path() / lab_file).lexically_normal());
+      if (lab)
+        study.lab = std::move(lab).value();
+      else
+        in_lab = lab.faults();
+    }
+    study.parameters = read_parameters(reader);
+    read_contact(reader, study.lab.test.contact);
+    study.weights = read_weights(reader, study.lab.measurements);
+    read_search(reader, study.search);
+    check_touch(reader, study);
+  }
+  if (found.empty() && in_lab.empty()) found = validate_points(study);
+  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
+  faults.insert(faults.end(), in_lab.begin(), in_lab.end());
+  if (!faults.empty()) return faults;
+  study.hash = content_hash(document->dump());
+  return study;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,112 @@
+#include "calibrate/study/template.h"
+
+#include <array>
+
+namespace pastefit {
+namespace {
+
+constexpr std::string_view lab_text =
+    R"(// What a laboratory measured in a slump test. Lines like this one are comments; the unit is in each key.
+{
+  "format": "pastefit-lab-1",
+  "title": "my paste, batch 1",
+
+  // Where the data come from; it is carried through to the material card.
+  "provenance": {
+    "source": "laboratory, person, date",
+    "licence": "",
+    "notes": "",
+    "twin": false  // true: not measured, but made by a simulation with known parameters
+  },
+
+  // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann, mini-cone.
+  // Give only what differs from the preset; without a preset give everything but the drop plate.
+  "apparatus": {
+    "preset": "abrams",
+    // "mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300},
+    // "table_length_mm": 900,
+    // "drop_plate": {"length_mm": 700, "mass_kg": 16, "lift_height_mm": 40, "lift_duration_s": 0.5},
+    // "reading": {"height": "axis", "probe_diameter_mm": 40},  // or "highest": the highest point of the heap
+    "lift_velocity_mm_s": 100
+  },
+
+  // Of the fresh material, as it fills the mould.
+  "material": {"bulk_density_kg_m3": 2300},
+
+  // Spheres of the simulation: larger than real grains, a tenth of the mould's smallest opening or less.
+  // Or {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10},
+  // or {"distribution": "normal", "radius_mm": 8, "standard_deviation_mm": 1, "smallest_mm": 6, "largest_mm": 10}.
+  "grains": {"distribution": "mono", "radius_mm": 8},
+
+  // Either value and standard deviation of one reading, or all repeats.
+  // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm.
+  // Step 2, plate dropped: the same with step2, and step2.plateau_sag_mm, step2.plateau_width_mm.
+  // The filling: fill.mass_kg.
+  "measurements": {
+    "step1.slump_mm": {"repeats": [148, 155, 151], "standard_deviation": 5},  // beside repeats: the least deviation
+    "step1.spread_mm": {"value": 380, "standard_deviation": 25}
+  }
+}
+)";
+
+constexpr std::string_view study_text =
+    R"(// Which contact parameters are fitted to which measurements, and how. Lines like this one are comments.
+{
+  "format": "pastefit-study-1",
+  "title": "calibration of my paste",
+  "lab": "lab.json",  // path as seen from this file
+
+  // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (the offset then bounds the gap).
+  // rolling_model: spring_dashpot, constant_torque or none.
+  // friction_basis: elastic (cohesion strengthens friction) or total (of the whole normal force).
+  "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "elastic"},
+
+  // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.
+  // Parameters that are not named have their usual value. R is the mean grain radius.
+  "parameters": {
+    "strength_pa": {"free": [200, 60000], "scale": "log"},  // attraction at touch over R^2
+    "rupture_force_ratio": {"free": [0, 0.5]},   // share of it left when the bridge ruptures
+    "curvature": {"free": [-0.5, 1]},            // decay: -1 flat at touch, 0 straight, 1 flat at rupture
+    "rupture_gap_ratio": {"free": [0.05, 0.6]},  // gap at rupture over R
+    "offset_ratio": {"free": [0, 0.3]},          // liquid shell over R
+    "friction": {"value": 0.5},
+    "rolling_friction": {"value": 0.1}
+  },
+
+  // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
+  "weights": {"step1.height_mm": 1, "step1.spread_mm": 0},
+
+  "search": {
+    "strategy": "default",
+    "screening": 12,             // candidates spread over the bounds at the start
+    "budget_simulations": 60,    // in all, confirmation included
+    "packings": 2,               // random fillings on which every candidate is tried
+    "confirmation_packings": 4,  // fresh fillings for the best candidate
+    "tolerance_mm": 5,           // good enough
+    "seed": 1
+  }
+}
+)";
+
+struct Template {
+  std::string_view name;
+  std::string_view text;
+};
+
+constexpr std::array<Template, 2> templates{{{"lab", lab_text}, {"study", study_text}}};
+
+}  // namespace
+
+std::vector<std::string_view> template_names() {
+  std::vector<std::string_view> names;
+  for (const Template& each : templates) names.push_back(each.name);
+  return names;
+}
+
+std::optional<std::string> template_text(std::string_view name) {
+  for (const Template& each : templates)
+    if (each.name == name) return std::string(each.text);
+  return std::nullopt;
+}
+
+}  // namespace pastefit

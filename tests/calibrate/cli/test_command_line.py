@@ -1,0 +1,223 @@
+"""What the program does on the command line: exit statuses, messages, and what is written.
+
+usage: test_command_line.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import base64
+import json
+import os
+import pathlib
+import shutil
+import signal
+import sqlite3
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as xml
+
+import jsonschema
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+STUDY = SOURCE / "data/studies/concrete-mix-20.json"
+LAB = SOURCE / "data/lab/concrete-mix-20.json"
+RIG = SOURCE / "data/rigs/abrams.json"
+COARSE = ["--set", "grains.radius_mm=12"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.out = self.folder / "out"
+
+    def study(self, budget=4, screening=2, **changes):
+        """A study of coarse grains with few simulations, beside its laboratory file."""
+        lab = json.loads(LAB.read_text())
+        lab["grains"] = {"distribution": "mono", "radius_mm": 12}
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        study = json.loads(STUDY.read_text())
+        study["lab"] = "lab.json"
+        study["search"].update(screening=screening, budget_simulations=budget, packings=1, confirmation_packings=1)
+        study.update(changes)
+        file = self.folder / "study.json"
+        file.write_text(json.dumps(study))
+        return file
+
+    def fails(self, result, status, *words):
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    # what every command line has
+
+    def test_help_and_version_are_answered(self):
+        self.assertRegex(run("--version").stdout, r"^pastefit \d+\.\d+\.\d+\n$")
+        for arguments in (["--help"], ["calibrate", "--help"], ["simulate", "--help"], ["template", "--help"]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("Usage: pastefit", result.stdout)
+
+    def test_unknown_verbs_and_options_are_bad_input(self):
+        self.fails(run(), 2)
+        self.fails(run("simulat", STUDY), 2, "did you mean 'simulate'")
+        self.fails(run("simulate"), 2, "FILE")
+        self.fails(run("simulate", RIG, "--sed", "3"), 2, "--sed")
+        self.fails(run("calibrate", STUDY), 2, "--out")
+        self.fails(run("calibrate", STUDY, "--out", self.out, "--threads", "0"), 2, "--threads")
+        self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
+        self.assertFalse(self.out.exists())
+
+    # bad input
+
+    def test_every_fault_of_a_study_is_listed_and_nothing_is_written(self):
+        study = self.study(tittle="x", parameters={"strength_pa": {"free": [5, 1]}, "frction": {"value": 1}})
+        result = run("calibrate", study, "--out", self.out)
+        self.fails(result, 2, "tittle", "strength_pa", "did you mean \"friction\"")
+        self.assertEqual(result.stdout, "")
+        self.assertFalse(self.out.exists())
+
+    def test_a_missing_file_and_a_file_that_is_no_json_are_bad_input(self):
+        broken = self.folder / "broken.json"
+        broken.write_text("{,}")
+        for file in (self.folder / "missing.json", broken):
+            for verb in (["calibrate", file, "--out", self.out], ["simulate", file]):
+                self.fails(run(*verb), 2, file.name)
+        self.assertFalse(self.out.exists())
+
+    def test_an_impossible_budget_is_bad_input(self):
+        self.fails(run("calibrate", self.study(), "--out", self.out, "--budget", "1"), 2, "budget")
+        self.assertFalse(self.out.exists())
+
+    def test_a_folder_that_cannot_be_made_is_reported_before_anything_runs(self):
+        blocked = self.folder / "file"
+        blocked.write_text("x")
+        self.fails(run("calibrate", self.study(), "--out", blocked / "out"), 2, "--out")
+        self.fails(run("calibrate", self.study(), "--out", "/proc/pastefit"), 2, "--out")
+        self.fails(run("simulate", RIG, "--out", blocked), 2, "--out")
+
+    def test_an_earlier_result_is_left_alone(self):
+        self.out.mkdir()
+        card = self.out / "card.json"
+        card.write_text("precious")
+        self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result", "--resume", "--force")
+        self.fails(run("calibrate", self.study(title=3), "--out", self.out, "--force"), 2, "title")
+        self.assertEqual(card.read_text(), "precious")
+        self.assertEqual(os.listdir(self.out), ["card.json"])
+
+    def test_a_store_that_is_damaged_or_of_another_study_is_left_alone(self):
+        self.out.mkdir()
+        store = self.out / "evaluations.sqlite"
+        store.write_text("not a database" * 100)
+        self.fails(run("calibrate", self.study(), "--out", self.out, "--resume"), 2, "evaluations.sqlite")
+        self.assertEqual(store.read_text(), "not a database" * 100)
+
+    # settings
+
+    def test_faults_of_settings_name_the_setting(self):
+        result = run("simulate", STUDY, "--set", "parameters.frction=1", "--set", "parameters.friction=9", "--set",
+                     "nonsense", "--set", "grains.radus_mm=6")
+        self.fails(result, 2, "did you mean \"friction\"", "a number from 0 to 2", "path=value", "radius_mm")
+        self.fails(run("simulate", RIG, "--set", "title.x=1"), 2, "title.x")
+        self.fails(run("simulate", RIG, "--set", "apparatus.mould.height_mm=-1"), 2, "height_mm")
+
+    def test_vtk_needs_a_folder(self):
+        self.fails(run("simulate", RIG, "--vtk", "0.1"), 2, "--out")
+
+    # runs
+
+    def test_simulate_prints_its_outcome_as_json_and_repeats_itself(self):
+        arguments = ["simulate", RIG, *COARSE, "--set", "parameters.strength_pa=3000", "--seed", "5", "--json"]
+        first, second = (json.loads(run(*arguments).stdout) for _ in range(2))
+        self.assertEqual(set(first["run"]), {"particles", "steps", "time_step_s", "simulated_s", "wall_s",
+                                             "particle_steps_per_s", "settled", "failure"})
+        self.assertIsNone(first["run"]["failure"])
+        self.assertTrue(50 < first["observables"]["step1.height_mm"] <= 300)
+        self.assertEqual(first["observables"], second["observables"])
+        arguments[arguments.index("5")] = "6"
+        self.assertNotEqual(first["observables"], json.loads(run(*arguments).stdout)["observables"])
+
+    def test_simulate_writes_a_series_that_a_reader_understands(self):
+        result = run("simulate", RIG, *COARSE, "--out", self.out, "--vtk", "0.25")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        frames = xml.parse(self.out / "grains.pvd").getroot().findall("./Collection/DataSet")
+        times = [float(frame.get("timestep")) for frame in frames]
+        self.assertGreater(len(times), 3)
+        piece = xml.parse(self.out / frames[-1].get("file")).getroot().find("./PolyData/Piece")
+        grains = json.loads((self.out / "outcome.json").read_text())["run"]["particles"]
+        self.assertEqual(int(piece.get("NumberOfPoints")), grains)
+        data = base64.b64decode(piece.find("./PointData/DataArray[@Name='radius']").text)
+        self.assertEqual(struct.unpack("<Q", data[:8])[0], 8 * grains)
+        self.assertEqual(set(struct.unpack(f"<{grains}d", data[8:])), {0.012})
+        self.fails(run("simulate", RIG, *COARSE, "--out", self.out), 2, "earlier result")
+
+    def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
+        result = run("calibrate", self.study(), "--out", self.out, "--threads", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "summary.txt"])
+        self.assertNotIn("\r", result.stdout)
+        for word in ("screening", "strength_pa", "c_n", "step1.height_mm", "laboratory", "card.json"):
+            self.assertIn(word, result.stdout)
+        card = json.loads((self.out / "card.json").read_text())
+        jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
+        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+            (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
+        self.assertEqual(stored, card["search"]["simulations"])
+
+        again = run("simulate", self.out / "card.json", "--json")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        height = json.loads(again.stdout)["observables"]["step1.height_mm"]
+        self.assertEqual(len(card["confirmation"]["packings"]), 1)
+        self.assertEqual(height, card["observables"]["step1.height_mm"]["simulated"])
+
+        self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
+        other = self.study(title="another")
+        self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "study", "--force")
+        start = time.monotonic()
+        resumed = run("calibrate", self.study(), "--out", self.out, "--resume")
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assertLess(time.monotonic() - start, 2)
+        self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
+
+    def test_an_interrupt_ends_within_seconds_and_resume_ends_where_an_undisturbed_run_does(self):
+        study = self.study(budget=8, screening=5)
+        command = [PROGRAM, "calibrate", str(study), "--out", str(self.out), "--threads", "1"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        store = self.out / "evaluations.sqlite-wal"
+        deadline = time.monotonic() + 60
+        while not (store.exists() and store.stat().st_size > 30000) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        _, errors = process.communicate(timeout=30)
+        self.assertLess(time.monotonic() - start, 4)
+        self.assertIn(process.returncode, (0, 1), errors)
+        self.assertEqual(run("calibrate", study, "--out", self.out, "--resume", "--threads", "1").returncode, 0)
+        undisturbed = self.folder / "undisturbed"
+        self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", "2").returncode, 0)
+        self.assertEqual((self.out / "card.json").read_text(), (undisturbed / "card.json").read_text())
+
+    def test_two_runs_do_not_share_a_folder(self):
+        study = self.study(budget=8, screening=5)
+        command = [PROGRAM, "calibrate", str(study), "--out", str(self.out)]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        while not (self.out / "evaluations.sqlite").exists() and process.poll() is None:
+            time.sleep(0.01)
+        self.fails(run("calibrate", study, "--out", self.out, "--resume"), 2, "in use")
+
+    def test_templates_are_printed(self):
+        self.fails(run("template", "nonsense"), 2, "nonsense")
+        self.assertIn("pastefit-study-1", run("template", "study").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,0 +1,150 @@
+#include "calibrate/search/ceres_search.h"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+#include "synthetic.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+const std::vector<std::uint64_t> one_packing{1};
+
+CeresOptions fine_options() {
+  CeresOptions options;
+  options.difference_step = 1e-6;
+  options.step_tolerance = 1e-8;
+  options.evaluations = 2000;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("both trust regions walk Rosenbrock's valley to its end") {
+  for (const TrustRegion region : {TrustRegion::levenberg_marquardt, TrustRegion::dogleg}) {
+    Synthetic objective = valley();
+    CeresOptions options = fine_options();
+    options.trust_region = region;
+    const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), options);
+    CHECK(run.best.misfit < 1e-8);
+    CHECK(run.status != SearchStatus::failed);
+  }
+}
+
+TEST_CASE("a minimum outside the cube is met at its border") {
+  Synthetic objective = bowl(Eigen::Vector2d(0.4, 1.7));
+  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.9, 0.1), fine_options());
+  CHECK(run.best.point[0] == Approx(0.4).margin(1e-3));
+  CHECK(run.best.point[1] == Approx(1.0).margin(1e-3));
+}
+
+TEST_CASE("a probe that fails is replaced by one on the other side, and by a shorter one") {
+  Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
+  CeresOptions options;
+  options.difference_step = 0.2;
+  objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.45 || x[1] > 0.75; };
+  SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.4, 0.6), options);
+  CHECK(run.failures >= 1);
+  CHECK(run.best.misfit < 1e-4);
+  objective = bowl(Eigen::Vector2d(0.2, 0.2));
+  objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.55 && std::abs(x[1] - 0.5) > 0.06; };
+  run = search_ceres(objective, one_packing, Eigen::Vector2d(0.6, 0.5), options);
+  CHECK(run.failures >= 2);
+  CHECK(run.best.misfit < 1e-4);
+}
+
+TEST_CASE("a direction in which everything fails is held, and the reason says so") {
+  Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
+  objective.fails = [](const UnitPoint& x, std::uint64_t) { return std::abs(x[1] - 0.6) > 1e-6; };
+  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.7, 0.6), {});
+  CHECK(run.best.point[0] == Approx(0.2).margin(0.02));
+  CHECK(run.best.point[1] == 0.6);
+  CHECK(run.reason.find("held") != std::string::npos);
+  CHECK(run.status != SearchStatus::converged);
+}
+
+TEST_CASE("two hundred failing regions end no solve at its start, and the best is the best that was seen") {
+  int improved = 0, feasible_starts = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    CAPTURE(seed);
+    const int dimension = 1 + static_cast<int>(seed % 5);
+    UnitPoint target(dimension), start(dimension);
+    for (int k = 0; k < dimension; ++k) {
+      target[k] = uniform(seed, 300 + k);
+      start[k] = uniform(seed, 400 + k);
+    }
+    Synthetic objective = bowl(target);
+    objective.fails = failing_region(seed, dimension);
+    objective.failure_kind = static_cast<FailureKind>(seed % 4);
+    CeresOptions options;
+    options.trust_region = seed % 2 == 0 ? TrustRegion::levenberg_marquardt : TrustRegion::dogleg;
+    options.evaluations = 120;
+    const SearchRun run = search_ceres(objective, one_packing, start, options);
+    CHECK(objective.answered.size() <= 120);
+    if (objective.fails(start, 1)) {
+      CHECK(run.status == SearchStatus::failed);
+      continue;
+    }
+    ++feasible_starts;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Response& response : objective.answered) {
+      if (is_feasible(response)) least = std::min(least, response.misfit);
+    }
+    CHECK(is_feasible(run.best));
+    CHECK(run.best.misfit == least);
+    if (least < 0.5 * objective.answered[0].misfit) ++improved;
+  }
+  CHECK(feasible_starts > 80);
+  CHECK(improved > 0.85 * feasible_starts);
+}
+
+TEST_CASE("a robust loss lets one measurement that contradicts the others go") {
+  Synthetic objective;
+  objective.dimension = 1;
+  objective.measured = {0.3, 0.3, 0.3, 8.0};
+  objective.standard_deviations = {0.01, 0.01, 0.01, 0.01};
+  objective.observe = [](const UnitPoint& x, std::uint64_t) { return std::vector<double>(4, x[0]); };
+  CeresOptions options = fine_options();
+  options.loss = Loss::cauchy;
+  UnitPoint start(1);
+  start << 0.5;
+  CHECK(search_ceres(objective, one_packing, start, options).best.point[0] == Approx(0.3).margin(0.01));
+  options.loss = Loss::none;
+  CHECK(search_ceres(objective, one_packing, start, options).best.point[0] == Approx(1.0).margin(0.01));
+}
+
+TEST_CASE("a start that meets the goal costs one point") {
+  Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
+  CeresOptions options;
+  options.goal_mm = 0.2;
+  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.3, 0.3), options);
+  CHECK(run.status == SearchStatus::converged);
+  CHECK(objective.answered.size() == 1);
+}
+
+TEST_CASE("budget, stop and exceptions end the solve with what was seen") {
+  Synthetic objective = valley();
+  objective.budget = 9;
+  CHECK(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
+        SearchStatus::budget_spent);
+  CHECK(objective.simulations <= 9);
+  objective = valley();
+  objective.stop = [&] { return objective.simulations >= 5; };
+  CHECK(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
+        SearchStatus::stopped);
+  objective = valley();
+  objective.fails = [&](const UnitPoint&, std::uint64_t) {
+    if (objective.simulations > 5) throw std::out_of_range("broken");
+    return false;
+  };
+  CHECK_THROWS_AS(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()), std::out_of_range);
+}
+
+TEST_CASE("the probe grows with the noise and shrinks with the curvature") {
+  CHECK(noise_step(1, 100) == Approx(0.2));
+  CHECK(noise_step(4, 400) == Approx(0.2));
+  CHECK(noise_step(1, 0) == 0.5);
+  CHECK(noise_step(0, 1) == 0.01);
+}

@@ -1,0 +1,172 @@
+#include "calibrate/search/nlopt_search.h"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+#include "synthetic.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+const std::vector<std::uint64_t> one_packing{1};
+
+UnitPoint point_of(std::initializer_list<double> coordinates) {
+  UnitPoint point(static_cast<Eigen::Index>(coordinates.size()));
+  std::copy(coordinates.begin(), coordinates.end(), point.begin());
+  return point;
+}
+
+NloptOptions options_for(std::string_view algorithm, int evaluations) {
+  NloptOptions options;
+  options.algorithm = algorithm;
+  options.evaluations = evaluations;
+  return options;
+}
+
+/// The least feasible misfit among all that was answered; infinite if there is none.
+double least_seen(const Synthetic& objective) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Response& response : objective.answered) {
+    if (is_feasible(response)) least = std::min(least, response.misfit);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("every algorithm finds the bottom of a bowl") {
+  for (const std::string_view name : nlopt_algorithm_names()) {
+    CAPTURE(name);
+    for (const int dimension : {1, 2, 5}) {
+      CAPTURE(dimension);
+      UnitPoint target(dimension);
+      for (int k = 0; k < dimension; ++k) target[k] = 0.3 + 0.1 * k;
+      Synthetic objective = bowl(target);
+      const SearchRun run =
+          search_nlopt(objective, one_packing, UnitPoint::Constant(dimension, 0.9), options_for(name, 1500));
+      CHECK(run.best.misfit < 0.02);
+      CHECK(run.best.misfit == least_seen(objective));
+      CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
+      CHECK(run.evaluations <= 1500);
+      CHECK(run.status != SearchStatus::failed);
+    }
+  }
+}
+
+TEST_CASE(
+    "no algorithm hangs, meets a number that is not finite, loses its best or claims what is not so when points fail") {
+  int converged = 0;
+  for (const std::string_view name : nlopt_algorithm_names()) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      CAPTURE(name, seed);
+      const int dimension = 1 + static_cast<int>(seed % 5);
+      UnitPoint target(dimension), start(dimension);
+      for (int k = 0; k < dimension; ++k) {
+        target[k] = uniform(seed, 300 + k);
+        start[k] = uniform(seed, 400 + k);
+      }
+      Synthetic objective = bowl(target);
+      objective.fails = failing_region(seed, dimension);
+      objective.failure_kind = static_cast<FailureKind>(seed % 4);
+      const SearchRun run = search_nlopt(objective, one_packing, start, options_for(name, 120));
+      CHECK(objective.answered.size() <= 120);
+      CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
+      const double least = least_seen(objective);
+      if (std::isinf(least)) {
+        CHECK(run.status == SearchStatus::failed);
+        continue;
+      }
+      CHECK(is_feasible(run.best));
+      CHECK(run.best.misfit == least);
+      if (run.status != SearchStatus::converged) continue;
+      ++converged;
+      for (int k = 0; k < dimension; ++k) {
+        for (const double step : {-0.03, 0.03}) {
+          UnitPoint beside = run.best.point;
+          beside[k] = std::clamp(beside[k] + step, 0.0, 1.0);
+          const Response response = objective.evaluate({&beside, 1}, one_packing).at(0);
+          const bool refutes = is_feasible(response) && response.misfit < run.best.misfit - 1e-3;
+          CHECK_FALSE(refutes);
+        }
+      }
+    }
+  }
+  CHECK(converged > 100);
+}
+
+TEST_CASE("an algorithm ends with the evaluations, the budget or the wish to stop, whichever comes first") {
+  for (const std::string_view name : nlopt_algorithm_names()) {
+    CAPTURE(name);
+    Synthetic objective = bowl(point_of({0.31, 0.62}));
+    objective.budget = 21;
+    const std::vector<std::uint64_t> packings{1, 2};
+    SearchRun run = search_nlopt(objective, packings, point_of({0.9, 0.9}), options_for(name, 500));
+    CHECK(run.status == SearchStatus::budget_spent);
+    CHECK(objective.simulations == 20);
+
+    objective = bowl(point_of({0.31, 0.62}));
+    objective.stop = [&] { return objective.simulations >= 7; };
+    run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options_for(name, 500));
+    CHECK(run.status == SearchStatus::stopped);
+    CHECK(objective.simulations == 7);
+    CHECK(run.best.misfit == least_seen(objective));
+  }
+}
+
+TEST_CASE("a goal ends the run at the first point that meets it") {
+  Synthetic objective = bowl(point_of({0.31, 0.62}));
+  NloptOptions options = options_for("nelder_mead", 500);
+  options.goal_mm = 0.1;
+  const SearchRun run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options);
+  CHECK(run.status == SearchStatus::converged);
+  CHECK(objective.answered.back().misfit_mm <= 0.1);
+  CHECK(objective.answered.back().misfit == run.best.misfit);
+}
+
+TEST_CASE("improvements below the noise do not keep a run alive") {
+  Synthetic objective = bowl(point_of({0.31, 0.62}));
+  NloptOptions options = options_for("sbplx", 5000);
+  options.step_tolerance = 1e-12;
+  options.noise = 1e-3;
+  options.patience = 12;
+  const SearchRun run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options);
+  CHECK(run.status == SearchStatus::stalled);
+  CHECK(run.evaluations < 100);
+}
+
+TEST_CASE("the same search asks the same points") {
+  for (const std::string_view name : nlopt_algorithm_names()) {
+    CAPTURE(name);
+    Synthetic first = valley(), second = valley();
+    search_nlopt(first, one_packing, point_of({0.2, 0.9}), options_for(name, 150));
+    search_nlopt(second, one_packing, point_of({0.2, 0.9}), options_for(name, 150));
+    REQUIRE(first.answered.size() == second.answered.size());
+    for (std::size_t k = 0; k < first.answered.size(); ++k) CHECK(first.answered[k].point == second.answered[k].point);
+  }
+}
+
+TEST_CASE("options that make no sense are named, all of them") {
+  NloptOptions options = options_for("bobica", 0);
+  options.initial_step = 2;
+  const Faults faults = validate(options, 3);
+  REQUIRE(faults.size() == 3);
+  CHECK(faults[0].where == "algorithm");
+  CHECK(faults[0].remedy.find("bobyqa") != std::string::npos);
+  CHECK(validate(options_for("ags", 10), 6).size() == 1);
+  CHECK(validate(options_for("ags", 10), 5).empty());
+}
+
+TEST_CASE("what the objective throws comes out unchanged") {
+  Synthetic objective = bowl(point_of({0.31, 0.62}));
+  objective.fails = [&](const UnitPoint&, std::uint64_t) {
+    if (objective.simulations > 5) throw std::out_of_range("broken");
+    return false;
+  };
+  for (const std::string_view name : nlopt_algorithm_names()) {
+    objective.simulations = 0;
+    CHECK_THROWS_AS(search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options_for(name, 100)),
+                    std::out_of_range);
+  }
+}

@@ -1,0 +1,239 @@
+#include "calibrate/search/strategy.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "fake_slump.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+SearchOptions options_with(std::uint64_t seed) {
+  SearchOptions options;
+  options.seed = seed;
+  return options;
+}
+
+double target_of(std::uint64_t seed) {
+  return 40 + 250 * uniform(seed, 77);
+}
+
+bool finite(const Response& response) {
+  return response.point.allFinite() && response.residuals.allFinite() && std::isfinite(response.misfit);
+}
+
+}  // namespace
+
+TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations from 95 of 100 seeds") {
+  int confirmed = 0, true_within_tolerance = 0;
+  std::vector<int> simulations;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    Synthetic objective = fake_slump(target_of(seed), seed);
+    const Calibration calibration = search(objective, options_with(seed));
+    CHECK(objective.simulations <= 60);
+    CHECK(calibration.simulations == objective.simulations);
+    simulations.push_back(calibration.simulations);
+    if (calibration.status != CalibrationStatus::confirmed) continue;
+    ++confirmed;
+    CHECK(calibration.confirmation.misfit_mm <= 5);
+    if (std::abs(mean_height(calibration.best.point) - target_of(seed)) <= 5) ++true_within_tolerance;
+  }
+  std::sort(simulations.begin(), simulations.end());
+  INFO("median of simulations " << simulations[100]);
+  CHECK(confirmed >= 190);
+  CHECK(true_within_tolerance >= 190);
+  CHECK(simulations[100] <= 25);
+}
+
+TEST_CASE("the default strategy meets two heights and a noisy sag at once") {
+  int confirmed = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    UnitPoint truth(5);
+    for (int k = 0; k < 5; ++k) truth[k] = 0.1 + 0.7 * uniform(seed, 900 + k);
+    const Response at_truth = [&] {
+      Synthetic still = fake_two_step(0, 0, 0, seed);
+      std::vector<std::uint64_t> many;
+      for (std::uint64_t k = 1; k <= 100; ++k) many.push_back(1'000'000 + k);
+      still.fails = [](const UnitPoint&, std::uint64_t) { return false; };
+      return still.evaluate({&truth, 1}, many).at(0);
+    }();
+    const Eigen::VectorXd& lab = at_truth.observables;
+    Synthetic objective = fake_two_step(lab[0], lab[1], lab[2], seed);
+    if (search(objective, options_with(seed)).status == CalibrationStatus::confirmed) ++confirmed;
+    CHECK(objective.simulations <= 60);
+  }
+  CHECK(confirmed >= 36);
+}
+
+TEST_CASE("every algorithm by name goes the whole way within the budget") {
+  for (const std::string_view name : strategy_names()) {
+    int confirmed = 0;
+    CAPTURE(name);
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      Synthetic objective = fake_slump(target_of(seed), seed);
+      SearchOptions options = options_with(seed);
+      options.strategy = name;
+      const Calibration calibration = search(objective, options);
+      CHECK(objective.simulations <= 60);
+      CHECK(finite(calibration.best));
+      if (calibration.status == CalibrationStatus::confirmed) ++confirmed;
+    }
+    CHECK(confirmed >= (name == "default" ? 9 : 4));
+  }
+}
+
+TEST_CASE("the confirmation uses packings the search has not seen") {
+  Synthetic objective = fake_slump(150, 3);
+  const Calibration calibration = search(objective, options_with(3));
+  REQUIRE(calibration.status == CalibrationStatus::confirmed);
+  CHECK(calibration.confirmation.packings.size() == 4);
+  std::set<std::uint64_t> used;
+  for (const Response& response : calibration.history) {
+    if (response.packings == calibration.confirmation.packings) break;
+    used.insert(response.packings.begin(), response.packings.end());
+  }
+  for (const std::uint64_t packing : calibration.confirmation.packings) CHECK(used.count(packing) == 0);
+  CHECK(calibration.search.point == calibration.confirmation.point);
+  CHECK(calibration.best.packings.size() == calibration.search.packings.size() + 4);
+}
+
+TEST_CASE("a confirmation that disagrees teaches the search, which is confirmed afresh") {
+  int confirmed = 0, again = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    Synthetic objective = fake_slump(150, seed);
+    const auto honest = objective.observe;
+    const std::uint64_t last_common = 1000 * seed + 2;  // the packings of the first round read too high
+    objective.observe = [honest, last_common](const UnitPoint& x, std::uint64_t packing) {
+      return std::vector<double>{honest(x, packing)[0] + (packing <= last_common ? 14 : 0)};
+    };
+    const Calibration calibration = search(objective, options_with(seed));
+    if (calibration.status != CalibrationStatus::confirmed) continue;
+    ++confirmed;
+    if (calibration.rounds > 1) ++again;
+    CHECK(std::abs(mean_height(calibration.best.point) - 150) < 10);
+  }
+  CHECK(confirmed >= 12);
+  CHECK(again >= 10);
+}
+
+TEST_CASE("a height beyond the model is called so, with what the model did") {
+  Synthetic objective = fake_slump(10, 2);
+  const std::vector<std::string> names{"step1.height_mm"};
+  const Calibration calibration = search(objective, options_with(2), {}, names);
+  CHECK(calibration.status == CalibrationStatus::out_of_reach);
+  CHECK(calibration.reason.find("step1.height_mm") != std::string::npos);
+  CHECK(calibration.reason.find("above") != std::string::npos);
+  REQUIRE(calibration.reach.size() == 1);
+  CHECK(calibration.reach[0].all_above);
+  CHECK(calibration.reach[0].lowest < 60);
+  CHECK(calibration.reach[0].highest > 280);
+  CHECK(objective.simulations <= 60);
+}
+
+TEST_CASE("readings that contradict each other end unconfirmed, not out of reach") {
+  Synthetic objective = fake_two_step(150, 180, 10, 2);
+  objective.observe = [](const UnitPoint& x, std::uint64_t) {
+    return std::vector<double>{mean_height(x), mean_height(x), 10};
+  };
+  const Calibration calibration = search(objective, options_with(2));
+  CHECK(calibration.status == CalibrationStatus::unconfirmed);
+  CHECK(calibration.best.misfit_mm < 20);
+}
+
+TEST_CASE("if everything fails the calibration says so and keeps half of its budget") {
+  for (const FailureKind kind :
+       {FailureKind::graded, FailureKind::huge, FailureKind::infinite, FailureKind::not_a_number}) {
+    Synthetic objective = fake_slump(150, 2);
+    objective.failure_kind = kind;
+    objective.fails = [](const UnitPoint&, std::uint64_t) { return true; };
+    const Calibration calibration = search(objective, options_with(2));
+    CHECK(calibration.status == CalibrationStatus::failed);
+    CHECK(calibration.failures == calibration.simulations);
+    CHECK(calibration.best.point.size() == 0);
+    CHECK(objective.simulations <= 45);
+  }
+}
+
+TEST_CASE("large failing regions cost candidates, not the calibration") {
+  int confirmed = 0, reachable = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    CAPTURE(seed);
+    Synthetic objective = fake_slump(target_of(seed), seed);
+    objective.fails = failing_region(seed, 5);
+    objective.failure_kind = static_cast<FailureKind>(seed % 4);
+    const Calibration calibration = search(objective, options_with(seed));
+    CHECK(objective.simulations <= 60);
+    if (calibration.best.point.size() > 0) CHECK(finite(calibration.best));
+    if (calibration.status == CalibrationStatus::confirmed) {
+      ++confirmed;
+      CHECK_FALSE(objective.fails(calibration.best.point, 1));
+    }
+    bool above = false, below = false;
+    for (const UnitPoint& x : screening_points(5, 200, 1)) {
+      if (objective.fails(x, 1)) continue;
+      above = above || mean_height(x) > target_of(seed) + 5;
+      below = below || mean_height(x) < target_of(seed) - 5;
+    }
+    if (above && below) ++reachable;
+  }
+  CHECK(confirmed >= 0.9 * reachable);
+}
+
+TEST_CASE("a stop at any time gives the best so far") {
+  for (int at = 0; at <= 24; ++at) {
+    CAPTURE(at);
+    Synthetic objective = fake_slump(257, 192);
+    objective.stop = [&] { return objective.simulations >= at; };
+    const Calibration calibration = search(objective, options_with(192));
+    CHECK(calibration.status == CalibrationStatus::stopped);
+    CHECK(objective.simulations <= at + 12);
+    if (at > 14) CHECK(is_feasible(calibration.best));
+  }
+}
+
+TEST_CASE("the same answers give the same calibration, and progress never goes back") {
+  std::vector<Progress> seen;
+  const auto watch = [&](const Progress& progress) { seen.push_back(progress); };
+  Synthetic first = fake_slump(120, 9), second = fake_slump(120, 9);
+  const Calibration one = search(first, options_with(9), watch);
+  const Calibration two = search(second, options_with(9));
+  CHECK(one.best.point == two.best.point);
+  CHECK(one.simulations == two.simulations);
+  CHECK(one.reason == two.reason);
+  REQUIRE(!seen.empty());
+  CHECK(seen.front().phase == "screening");
+  CHECK(seen.back().phase == "confirmation");
+  for (std::size_t k = 1; k < seen.size(); ++k) CHECK(seen[k].simulations >= seen[k - 1].simulations);
+  CHECK(seen.back().budget == 60);
+}
+
+TEST_CASE("one parameter and one packing are enough") {
+  Synthetic objective = bowl(UnitPoint::Constant(1, 0.42));
+  objective.standard_deviations = {0.05};
+  SearchOptions options;
+  options.packings = 1;
+  options.confirmation_packings = 1;
+  options.screening = 3;
+  options.tolerance_mm = 0.01;
+  const Calibration calibration = search(objective, options);
+  CHECK(calibration.status == CalibrationStatus::confirmed);
+  CHECK(calibration.best.point[0] == Approx(0.42).margin(0.01));
+}
+
+TEST_CASE("search options that make no sense are named, all of them") {
+  SearchOptions options;
+  options.strategy = "magic";
+  options.packings = 0;
+  options.budget_simulations = 5;
+  const Faults faults = validate(options, 5);
+  REQUIRE(faults.size() == 3);
+  CHECK(faults[0].where == "search.strategy");
+  CHECK(faults[0].remedy.find("default") != std::string::npos);
+  Synthetic objective = fake_slump(100, 1);
+  CHECK_THROWS_AS(search(objective, options), std::logic_error);
+}

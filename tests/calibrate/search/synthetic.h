@@ -1,0 +1,155 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+#include "calibrate/search/screening.h"
+
+namespace pastefit::synthetic {
+
+/// A number in [0, 1) from a seed and a counter.
+inline double uniform(std::uint64_t seed, std::uint64_t counter) {
+  return std::ldexp(static_cast<double>(hash_of(seed, counter) >> 11), -53);
+}
+
+/// A number of mean 0 and variance 1 (sum of twelve uniforms).
+inline double normal(std::uint64_t seed, std::uint64_t counter) {
+  double sum = -6;
+  for (std::uint64_t k = 0; k < 12; ++k) sum += uniform(seed, 12 * counter + k);
+  return sum;
+}
+
+/// A number that changes with every bit of the point.
+inline std::uint64_t digest(const UnitPoint& point) {
+  std::uint64_t digest = 17;
+  for (const double x : point) digest = hash_of(digest, static_cast<std::uint64_t>(std::ldexp(x, 52)));
+  return digest;
+}
+
+/// What a failed simulation answers.
+enum class FailureKind { graded, huge, infinite, not_a_number };
+
+/// An objective made of functions; it counts its simulations like the real one: known answers are free.
+class Synthetic : public Objective {
+ public:
+  int dimension = 2;
+  std::vector<double> measured;             ///< target of each observable
+  std::vector<double> standard_deviations;  ///< of each measurement
+  std::function<std::vector<double>(const UnitPoint&, std::uint64_t packing)> observe;
+  std::function<bool(const UnitPoint&, std::uint64_t packing)> fails = [](const UnitPoint&, std::uint64_t) {
+    return false;
+  };
+  FailureKind failure_kind = FailureKind::graded;
+  int budget = std::numeric_limits<int>::max();
+  std::function<bool()> stop = [] { return false; };
+
+  std::vector<Response> answered;  ///< everything that was asked, in order
+  int simulations = 0;
+
+  int parameters() const override { return dimension; }
+  int residuals() const override { return static_cast<int>(measured.size()); }
+  int budget_left() const override { return budget - simulations; }
+  bool stop_requested() const override { return stop(); }
+
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
+    std::vector<Response> responses;
+    for (const UnitPoint& point : points) responses.push_back(answer(point, packings));
+    answered.insert(answered.end(), responses.begin(), responses.end());
+    return responses;
+  }
+
+ private:
+  Response answer(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+    if (point.size() != dimension || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1) {
+      throw std::logic_error("a point outside the unit cube was asked");
+    }
+    const int count = residuals();
+    Response response;
+    response.point = point;
+    response.packings.assign(packings.begin(), packings.end());
+    response.observables = Eigen::VectorXd::Zero(count);
+    for (const std::uint64_t packing : packings) {
+      if (known_.insert({digest(point), packing}).second) ++simulations;
+      Evaluation evaluation{point, packing, {}, std::nullopt};
+      if (fails(point, packing)) {
+        evaluation.failure = Failure{};
+        response.failed = true;
+      } else {
+        evaluation.observables = observe(point, packing);
+        for (int k = 0; k < count; ++k) response.observables[k] += evaluation.observables[k];
+      }
+      response.evaluations.push_back(std::move(evaluation));
+    }
+    response.observables /= static_cast<double>(packings.size());
+    response.residuals.resize(count);
+    double squares = 0;
+    for (int k = 0; k < count; ++k) {
+      response.residuals[k] = (response.observables[k] - measured[k]) / standard_deviations[k];
+      squares += std::pow(response.observables[k] - measured[k], 2);
+    }
+    if (response.failed) response.residuals.setConstant(failure_value(point));
+    response.misfit = 0.5 * response.residuals.squaredNorm();
+    response.misfit_mm = response.failed ? response.residuals[0] : std::sqrt(squares / count);
+    return response;
+  }
+
+  double failure_value(const UnitPoint& point) const {
+    switch (failure_kind) {
+      case FailureKind::graded:
+        return 100 * (1 + point.sum());
+      case FailureKind::huge:
+        return 1e150;
+      case FailureKind::infinite:
+        return std::numeric_limits<double>::infinity();
+      case FailureKind::not_a_number:
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return 0;
+  }
+
+  std::set<std::pair<std::uint64_t, std::uint64_t>> known_;
+};
+
+/// Residuals x - target: a bowl.
+inline Synthetic bowl(const UnitPoint& target) {
+  Synthetic objective;
+  objective.dimension = static_cast<int>(target.size());
+  objective.measured.assign(target.begin(), target.end());
+  objective.standard_deviations.assign(objective.measured.size(), 1.0);
+  objective.observe = [](const UnitPoint& x, std::uint64_t) { return std::vector<double>(x.begin(), x.end()); };
+  return objective;
+}
+
+/// Rosenbrock's residuals 1 - u and 10 (v - u^2) on [-2, 2]^2, least at (0.75, 0.75).
+inline Synthetic valley() {
+  Synthetic objective;
+  objective.measured = {0, 0};
+  objective.standard_deviations = {1, 1};
+  objective.observe = [](const UnitPoint& x, std::uint64_t) {
+    const double u = 4 * x[0] - 2, v = 4 * x[1] - 2;
+    return std::vector<double>{1 - u, 10 * (v - u * u)};
+  };
+  return objective;
+}
+
+/// Fails in a ball about `centre`; where `half` is set, beyond a plane through it.
+inline auto failing_region(std::uint64_t seed, int dimension) {
+  UnitPoint centre(dimension), normal_vector(dimension);
+  for (int k = 0; k < dimension; ++k) {
+    centre[k] = uniform(seed, 100 + k);
+    normal_vector[k] = normal(seed, 200 + k);
+  }
+  const double radius = 0.05 + 0.6 * uniform(seed, 1);
+  const bool half = uniform(seed, 2) < 0.4;
+  return [=](const UnitPoint& x, std::uint64_t) {
+    return half ? normal_vector.dot(x - centre) > 0 : (x - centre).norm() < radius;
+  };
+}
+
+}  // namespace pastefit::synthetic

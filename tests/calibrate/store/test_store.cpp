@@ -1,0 +1,232 @@
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <thread>
+
+#include "calibrate/store/store.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// A folder of its own that disappears with the test.
+struct Folder {
+  std::filesystem::path path;
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "pastefit-store-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+const StoreIdentity kIdentity{"5eed", "1ab", "pastefit 0.1.0 engine abc"};
+
+StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
+  StoredEvaluation out;
+  out.point = {value, 0.1 + 0.2};
+  out.values = {value * 3000, 1.0 / 3};
+  out.packing = packing;
+  out.key = evaluation_key(kIdentity, out.values, packing);
+  out.observables.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
+  out.observables.set("fill.mass_kg", 9.9999999999999982);
+  out.run = {1250, 60000, 75000000, 4.1e-5, 2.46, true, 1e-4};
+  out.wall_s = 1.9;
+  return out;
+}
+
+Store opened(const std::filesystem::path& file, const StoreIdentity& identity = kIdentity) {
+  auto store = Store::open(file, identity);
+  INFO((store.ok() ? "" : store.faults()[0].where + ": " + store.faults()[0].what));
+  REQUIRE(store.ok());
+  return std::move(store).value();
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void execute(const std::filesystem::path& file, const char* sql) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, sql, nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+}  // namespace
+
+TEST_CASE("the store returns every bit of an evaluation after it was opened again") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  auto kept = evaluation(0.3);
+  kept.point = {-0.0, 5e-324, 0.1, 1 - 0x1p-53};
+  kept.packing = std::numeric_limits<std::uint64_t>::max();
+  CHECK(opened(file).add(kept).empty());
+
+  const auto found = opened(file).find(kept.key);
+  REQUIRE(found);
+  REQUIRE(found->point.size() == kept.point.size());
+  for (std::size_t i = 0; i < kept.point.size(); ++i) CHECK(same_bits(found->point[i], kept.point[i]));
+  for (std::size_t i = 0; i < kept.values.size(); ++i) CHECK(same_bits(found->values[i], kept.values[i]));
+  CHECK(found->packing == kept.packing);
+  REQUIRE(found->observables.all().size() == 2);
+  CHECK(found->observables.all()[0].name == "step1.height_mm");
+  CHECK(same_bits(found->observables.all()[0].value, kept.observables.all()[0].value));
+  CHECK(same_bits(found->observables.all()[1].value, kept.observables.all()[1].value));
+  CHECK_FALSE(found->failure);
+  CHECK(found->run.particle_steps == kept.run.particle_steps);
+  CHECK(same_bits(found->run.time_step_s, kept.run.time_step_s));
+  CHECK(same_bits(found->wall_s, kept.wall_s));
+}
+
+TEST_CASE("a failure keeps its reason and its values, finite or not") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  auto kept = evaluation(0.3);
+  kept.observables = {};
+  kept.failure = Failure{FailureReason::excessive_overlap,
+                         "step1.lift",
+                         1234,
+                         0.5,
+                         17,
+                         std::numeric_limits<double>::infinity(),
+                         0.3,
+                         "Grain 17 \"sinks\"; use stiffer grains."};
+  CHECK(opened(file).add(kept).empty());
+  const auto found = opened(file).find(kept.key);
+  REQUIRE(found);
+  REQUIRE(found->failure);
+  CHECK(found->failure->reason == FailureReason::excessive_overlap);
+  CHECK(found->failure->phase == "step1.lift");
+  CHECK(found->failure->step == 1234);
+  CHECK(found->failure->grain == 17);
+  CHECK(std::isinf(found->failure->value));
+  CHECK(found->failure->message == kept.failure->message);
+  CHECK(found->observables.all().empty());
+}
+
+TEST_CASE("an evaluation that was added survives kill -9") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    auto store = Store::open(file, kIdentity);
+    for (int i = 0; i < 5; ++i) (void)store.value().add(evaluation(0.1 * i));
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  const auto store = opened(file);
+  CHECK(store.size() == 5);
+  CHECK(store.find(evaluation(0.4).key));
+  CHECK(store.all()[2].point[0] == 0.2);
+}
+
+TEST_CASE("an evaluation is kept once and found by its key only") {
+  const Folder folder;
+  auto store = opened(folder.path / "evaluations.sqlite");
+  CHECK(store.add(evaluation(0.5)).empty());
+  CHECK(store.add(evaluation(0.5)).empty());
+  CHECK(store.size() == 1);
+  CHECK_FALSE(store.find(evaluation(0.5, 8).key));
+  CHECK_FALSE(store.find(evaluation(std::nextafter(0.5, 1)).key));
+}
+
+TEST_CASE("the key tells values, packing, study, laboratory and program apart") {
+  const std::vector<double> values{1, 2};
+  const auto key = evaluation_key(kIdentity, values, 1);
+  CHECK(key == evaluation_key(kIdentity, values, 1));
+  CHECK(key != evaluation_key(kIdentity, values, 2));
+  CHECK(key != evaluation_key(kIdentity, std::vector<double>{2, 1}, 1));
+  CHECK(key != evaluation_key({"5eed1", "ab", kIdentity.program}, values, 1));
+  CHECK(key != evaluation_key({"5eed", "1ab", "pastefit 0.1.1"}, values, 1));
+}
+
+TEST_CASE("threads may add to one store at the same time") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  {
+    auto store = opened(file);
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+      threads.emplace_back([&store, t] {
+        for (std::uint64_t i = 0; i < 10; ++i) (void)store.add(evaluation(0.1 * t, i));
+      });
+    for (auto& thread : threads) thread.join();
+  }
+  CHECK(opened(file).size() == 40);
+}
+
+TEST_CASE("a store of other inputs is refused, names what differs and is left as it was") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  CHECK(opened(file).add(evaluation(0.5)).empty());
+  const auto before = content(file);
+
+  const auto study = Store::open(file, {"other", kIdentity.lab, kIdentity.program});
+  REQUIRE_FALSE(study.ok());
+  REQUIRE(study.faults().size() == 1);
+  CHECK_THAT(study.faults()[0].where, Catch::EndsWith("study"));
+  CHECK_THAT(study.faults()[0].what, Catch::Contains("5eed") && Catch::Contains("other"));
+  CHECK_THAT(study.faults()[0].remedy, Catch::Contains("--force"));
+
+  const auto all = Store::open(file, {"x", "y", "z"});
+  REQUIRE_FALSE(all.ok());
+  CHECK(all.faults().size() == 3);
+  CHECK(content(file) == before);
+}
+
+TEST_CASE("a file that is not a store is refused and left as it was") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  SECTION("text") {
+    std::ofstream(file) << std::string(5000, 'x');
+  }
+  SECTION("another database") {
+    execute(file, "CREATE TABLE people (name TEXT)");
+  }
+  SECTION("another schema version") {
+    CHECK(opened(file).add(evaluation(0.5)).empty());
+    execute(file, "PRAGMA user_version = 99");
+  }
+  SECTION("a damaged row") {
+    CHECK(opened(file).add(evaluation(0.5)).empty());
+    execute(file, "UPDATE evaluations SET failure = '{\"reason\": \"moonlight\"}'");
+  }
+  SECTION("cut short") {
+    {
+      auto store = opened(file);
+      for (int i = 0; i < 50; ++i) CHECK(store.add(evaluation(0.01 * i)).empty());
+    }
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  }
+  const auto before = content(file);
+  const auto store = Store::open(file, kIdentity);
+  REQUIRE_FALSE(store.ok());
+  CHECK_THAT(store.faults()[0].where, Catch::Contains("evaluations.sqlite"));
+  CHECK_FALSE(store.faults()[0].remedy.empty());
+  CHECK(content(file) == before);
+}
+
+TEST_CASE("a store whose folder does not exist is a fault, not an exception") {
+  const auto store = Store::open("/nowhere/evaluations.sqlite", kIdentity);
+  REQUIRE_FALSE(store.ok());
+  CHECK_THAT(store.faults()[0].where, Catch::Contains("/nowhere"));
+}

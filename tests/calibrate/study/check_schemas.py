@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Holds every shipped data file against its schema, and shows that the schemas refuse spoiled files.
+
+Usage: check_schemas.py DATA_FOLDER
+"""
+
+import copy
+import json
+import pathlib
+import sys
+
+import jsonschema
+
+FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies"}
+
+
+def validator(data, kind):
+    schema = json.loads((data / "schema" / f"{kind}.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft7Validator.check_schema(schema)
+    return jsonschema.Draft7Validator(schema)
+
+
+def spoiled(document, path, value=None):
+    """The document with the value at `path` replaced, or removed if there is none."""
+    copied = copy.deepcopy(document)
+    place = copied
+    for key in path[:-1]:
+        place = place[key]
+    if value is None:
+        del place[path[-1]]
+    else:
+        place[path[-1]] = value
+    return copied
+
+
+SPOILED = {
+    "rig": [
+        (["apparatus", "mould", "height_mm"], "200"),
+        (["apparatus", "mould", "height_mm"], None),
+        (["apparatus", "mould", "height_m"], 0.2),
+        (["apparatus", "preset"], "abrams"),
+        (["material"], None),
+        (["format"], "pastefit-lab-1"),
+    ],
+    "lab": [
+        (["title"], None),
+        (["extra"], 1),
+        (["provenance", "twin"], 1),
+        (["apparatus", "mold"], {}),
+        (["grains", "radius_mm"], 0),
+        (["grains", "largest_mm"], 9),
+        (["material", "bulk_density_kg_m3"], 2.3),
+        (["measurements"], {}),
+        (["measurements", "step1.height_mm", "value"], -1),
+        (["measurements", "step1.height_mm", "standard_deviation"], None),
+        (["measurements", "step1.height_mm", "repeats"], [1, 2]),
+        (["measurements", "step1.slump_mm"], {"value": 1, "standard_deviation": 1}),
+        (["measurements", "step3.height_mm"], {"value": 1, "standard_deviation": 1}),
+    ],
+    "study": [
+        (["lab"], None),
+        (["parameters"], {}),
+        (["parameters", "strength_pa", "free"], [200]),
+        (["parameters", "strength_pa", "free"], [0, 60000]),
+        (["parameters", "strength_pa", "value"], 300),
+        (["parameters", "friction", "value"], 3),
+        (["parameters", "frction"], {"value": 0.3}),
+        (["weights", "step1.height_mm"], -1),
+        (["search", "packings"], 2.5),
+        (["search", "packings"], 0),
+        (["contact", "formation"], "both"),
+    ],
+}
+
+
+def main(data):
+    failures = []
+    for kind, folder in FOLDERS.items():
+        check = validator(data, kind)
+        files = sorted((data / folder).glob("*.json"))
+        if not files:
+            failures.append(f"{data / folder}: no files")
+        for path in files:
+            document = json.loads(path.read_text(encoding="utf-8"))
+            failures += [f"{path}: {'.'.join(map(str, error.path))}: {error.message}" for error in check.iter_errors(document)]
+            for place, value in SPOILED[kind] if path is files[0] else []:
+                if check.is_valid(spoiled(document, place, value)):
+                    failures.append(f"{kind}.schema.json accepts {'.'.join(place)} = {value}")
+    print("\n".join(failures) or "all files and schemas agree")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -1,0 +1,294 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/study/content_hash.h"
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/lab.h"
+#include "calibrate/study/measurements.h"
+#include "calibrate/study/rig.h"
+#include "core/simulate.h"
+#include "tests/calibrate/study/files.h"
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+using test::at;
+using test::says;
+
+json lab() {
+  return json::parse(R"({
+    "format": "pastefit-lab-1", "title": "a paste",
+    "provenance": {"source": "our laboratory"},
+    "apparatus": {
+      "mould": {"base_diameter_mm": 200, "top_diameter_mm": 130, "height_mm": 200},
+      "table_length_mm": 700, "lift_velocity_mm_s": 100,
+      "drop_plate": {"length_mm": 700, "mass_kg": 16, "lift_height_mm": 40},
+      "reading": {"height": "highest"}},
+    "material": {"bulk_density_kg_m3": 2000},
+    "grains": {"distribution": "mono", "radius_mm": 8},
+    "measurements": {"step1.height_mm": {"value": 70, "standard_deviation": 5}}})");
+}
+
+Faults faults_of(const json& document) {
+  const Result<Lab> read = lab_from_json(document, ".");
+  return read.ok() ? Faults{} : read.faults();
+}
+
+/// The measurement that `content` under `key` gives.
+Measurement measured(const std::string& key, const char* content) {
+  json document = lab();
+  document["measurements"] = {{key, json::parse(content)}};
+  const Result<Lab> read = lab_from_json(document, ".");
+  INFO((read.ok() ? "" : message_of(read.faults())));
+  REQUIRE(read.ok());
+  REQUIRE(read.value().measurements.size() == 1);
+  return read.value().measurements[0];
+}
+
+TEST_CASE("a laboratory file with an apparatus of its own is read into SI") {
+  const Result<Lab> read = lab_from_json(lab(), ".");
+  REQUIRE(read.ok());
+  const SlumpTable& test = read.value().test;
+  CHECK(test.mould.base_radius_m == 0.1);
+  CHECK(test.mould.top_radius_m == 0.065);
+  CHECK(test.mould.height_m == 0.2);
+  CHECK(test.lift_velocity_m_s == 0.1);
+  CHECK(test.drop.value().lift_height_m == 0.04);
+  CHECK(test.drop.value().lift_duration_s == DropPlate{}.lift_duration_s);
+  CHECK(test.reading.height == HeightReading::highest);
+  CHECK(test.grains.radius_m == 0.008);
+  CHECK(test.contact.bridge.shape == BridgeShape::polynomial);
+  CHECK(read.value().measurements[0].repeats == 1);
+}
+
+TEST_CASE("every shipped rig is read, and gives the observables of its steps") {
+  int rigs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/rigs")) {
+    if (entry.path().extension() != ".json") continue;
+    const Result<Rig> rig = read_rig(entry.path());
+    INFO((rig.ok() ? "" : message_of(rig.faults())));
+    CHECK(rig.ok());
+    ++rigs;
+  }
+  CHECK(rigs >= 5);
+}
+
+TEST_CASE("the EN 12350-5 preset holds the volume and the plate of that standard") {
+  const Result<Rig> rig = read_rig(PASTEFIT_SOURCE_DIR "/data/rigs/en12350-5.json");
+  REQUIRE(rig.ok());
+  CHECK(1000 * volume_m3(rig.value().test.mould) == Approx(4.341).epsilon(1e-3));
+  CHECK(rig.value().test.drop.value().mass_kg == 16);
+}
+
+TEST_CASE("own keys differ from the preset, the rest is the preset's") {
+  json document = lab();
+  document["apparatus"] = {
+      {"preset", "en12350-5"}, {"mould", {{"height_mm", 201}}}, {"drop_plate", {{"mass_kg", 15.8}}}};
+  const Result<Lab> read = lab_from_json(document, ".");
+  REQUIRE(read.ok());
+  CHECK(read.value().test.mould.height_m == 0.201);
+  CHECK(read.value().test.mould.top_radius_m == 0.065);
+  CHECK(read.value().test.drop.value().mass_kg == 15.8);
+  CHECK(read.value().test.drop.value().length_m == 0.7);
+  document["apparatus"]["drop_plate"] = nullptr;
+  CHECK_FALSE(lab_from_json(document, ".").value().test.drop);
+}
+
+TEST_CASE("the preset beside the laboratory file goes before the installed one") {
+  const test::Folder folder;
+  std::filesystem::create_directory(folder.path() / "rigs");
+  std::filesystem::create_directory(folder.path() / "lab");
+  json rig = json::parse(std::ifstream(PASTEFIT_SOURCE_DIR "/data/rigs/en12350-5.json"));
+  rig["apparatus"]["mould"]["height_mm"] = 199;
+  folder.write("rigs/en12350-5.json", rig.dump());
+  json document = lab();
+  document["apparatus"] = {{"preset", "en12350-5"}};
+  CHECK(lab_from_json(document, folder.path() / "lab").value().test.mould.height_m == 0.199);
+  CHECK(lab_from_json(document, folder.path()).value().test.mould.height_m == 0.2);
+}
+
+TEST_CASE("an unknown preset is answered with the nearest one") {
+  json document = lab();
+  document["apparatus"]["preset"] = "abram";
+  CHECK(says(at(faults_of(document), "apparatus.preset"), "did you mean \"abrams\"?"));
+  document["apparatus"]["preset"] = "../lab/x";
+  CHECK(says(at(faults_of(document), "apparatus.preset"), "presets: "));
+}
+
+TEST_CASE("the faults of a broken preset are named with its file") {
+  const test::Folder folder;
+  std::filesystem::create_directory(folder.path() / "rigs");
+  std::filesystem::create_directory(folder.path() / "lab");
+  folder.write("rigs/mine.json", R"({"format": "pastefit-rig-1", "title": 3})");
+  json document = lab();
+  document["apparatus"] = {{"preset", "mine"}};
+  const Result<Lab> read = lab_from_json(document, folder.path() / "lab");
+  REQUIRE_FALSE(read.ok());
+  CHECK(says(at(read.faults(), "mine.json: title"), "a text in quotes"));
+  CHECK(says(at(read.faults(), "mine.json: apparatus"), "is missing"));
+}
+
+TEST_CASE("repeats give mean and sample deviation, and a stated deviation is their lower bound") {
+  Measurement reading = measured("step1.height_mm", R"({"repeats": [68, 70, 72]})");
+  CHECK(reading.value == 70);
+  CHECK(reading.standard_deviation == 2);
+  CHECK(reading.repeats == 3);
+  reading = measured("step1.height_mm", R"({"repeats": [68, 70, 72], "standard_deviation": 7.5})");
+  CHECK(reading.standard_deviation == 7.5);
+  reading = measured("step1.height_mm", R"({"repeats": [68, 70, 72], "standard_deviation": 0.5})");
+  CHECK(reading.standard_deviation == 2);
+  reading = measured("step1.height_mm", R"({"repeats": [70, 70], "standard_deviation": 1})");
+  CHECK(reading.standard_deviation == 1);
+}
+
+TEST_CASE("a slump is kept as the height that is left") {
+  const Measurement reading = measured("step1.slump_mm", R"({"value": 130, "standard_deviation": 5})");
+  CHECK(reading.observable == "step1.height_mm");
+  CHECK(reading.value == 70);
+  CHECK(measured("step2.slump_mm", R"({"repeats": [129, 131]})").value == 70);
+}
+
+TEST_CASE("without repeats that differ, a missing deviation is a fault that names the published one") {
+  for (const char* content : {R"({"value": 70})", R"({"repeats": [70, 70]})"}) {
+    json document = lab();
+    document["measurements"]["step1.height_mm"] = json::parse(content);
+    const Faults faults = faults_of(document);
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].where == "measurements.step1.height_mm.standard_deviation");
+    CHECK(says(faults[0], "ASTM C143-98"));
+  }
+}
+
+TEST_CASE("a measurement that the test cannot have is one fault") {
+  const auto refused = [](const char* key, const char* content) {
+    json document = lab();
+    document["measurements"] = {{key, json::parse(content)}};
+    return faults_of(document).size() == 1;
+  };
+  CHECK(refused("step1.height_mm", R"({"value": 210, "standard_deviation": 5})"));
+  CHECK(refused("step1.height_mm", R"({"value": -1, "standard_deviation": 5})"));
+  CHECK(refused("step1.slump_mm", R"({"value": 201, "standard_deviation": 5})"));
+  CHECK(refused("step1.spread_mm", R"({"value": 45, "standard_deviation": 5})"));  // centimetres
+  CHECK(refused("step1.spread_mm", R"({"value": 701, "standard_deviation": 5})"));
+  CHECK(refused("fill.mass_kg", R"({"value": 8682, "standard_deviation": 5})"));  // grams
+  CHECK(refused("step1.height_mm", R"({"value": 70, "standard_deviation": 0})"));
+  CHECK(refused("step1.height_mm", R"({"repeats": [70], "standard_deviation": 1})"));
+  CHECK(refused("step1.height_mm", R"({"repeats": [70, 71], "value": 70.5})"));
+  CHECK(refused("step1.height_mm", R"({"standard_deviation": 1})"));
+  CHECK(refused("step1.height_mm", R"(70)"));
+}
+
+TEST_CASE("step 2 without a drop plate is a fault") {
+  json document = lab();
+  document["apparatus"]["drop_plate"] = nullptr;
+  document["measurements"]["step2.plateau_sag_mm"] = {{"value", 3}, {"standard_deviation", 4}};
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].where == "measurements.step2.plateau_sag_mm");
+  CHECK(says(faults[0], "no drop plate"));
+}
+
+TEST_CASE("slump and height of the same heap, or no measurement at all, are faults") {
+  json document = lab();
+  document["measurements"]["step1.slump_mm"] = {{"value", 130}, {"standard_deviation", 5}};
+  CHECK(says(at(faults_of(document), "step1.slump_mm"), "one reading"));
+  document["measurements"] = json::object();
+  CHECK(says(at(faults_of(document), "measurements"), "no reading"));
+}
+
+TEST_CASE("grains state what their distribution needs, and no more") {
+  json document = lab();
+  document["grains"] = {{"distribution", "uniform"}, {"smallest_mm", 6}, {"largest_mm", 10}};
+  const Result<Lab> uniform = lab_from_json(document, ".");
+  REQUIRE(uniform.ok());
+  CHECK(uniform.value().test.grains.radius_m == Approx(0.008));  // the mean, to which the contact law refers
+  document["grains"]["radius_mm"] = 8;
+  CHECK(says(at(faults_of(document), "grains.radius_mm"), "leave it out"));
+  document["grains"] = {{"distribution", "normal"}, {"radius_mm", 8}, {"smallest_mm", 9}, {"largest_mm", 10}};
+  CHECK(says(at(faults_of(document), "grains.standard_deviation_mm"), "missing"));
+  document["grains"]["standard_deviation_mm"] = 1;
+  CHECK(says(at(faults_of(document), "grains.smallest_mm"), "not in order"));
+}
+
+TEST_CASE("what makes no test is named in the words of the file") {
+  json document = lab();
+  document["apparatus"]["mould"]["height_mm"] = 20;  // of grains of 16 mm
+  document["measurements"]["step1.height_mm"]["value"] = 10;
+  document["apparatus"]["mold"] = 1;  // an unknown key does not hide it
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 2);
+  CHECK(says(at(faults, "grains.radius_mm"), "mould of a few grains"));
+}
+
+TEST_CASE("every fault of a file is named at once") {
+  json document = lab();
+  document.erase("title");
+  document["provenance"]["sorce"] = document["provenance"]["source"];
+  document["provenance"].erase("source");
+  document["apparatus"]["mould"]["height_mm"] = "200";
+  document["apparatus"]["lift_velocity_mm_s"] = -100;
+  document["material"]["bulk_density"] = 2;
+  document["grains"]["radius_mm"] = nullptr;
+  document["measurements"]["step1.hight_mm"] = json::object();
+  const Faults faults = faults_of(document);
+  INFO(message_of(faults));
+  CHECK(faults.size() == 8);
+  CHECK(says(at(faults, "title"), "missing"));
+  CHECK(says(at(faults, "provenance.source"), "missing"));
+  CHECK(says(at(faults, "provenance.sorce"), "did you mean \"source\"?"));
+  CHECK(says(at(faults, "apparatus.mould.height_mm"), "above 0"));
+  CHECK(says(at(faults, "apparatus.lift_velocity_mm_s"), "is -100"));
+  CHECK(says(at(faults, "material.bulk_density"), "did you mean \"bulk_density_kg_m3\"?"));
+  CHECK(says(at(faults, "grains.radius_mm"), "is null"));
+  CHECK(says(at(faults, "measurements.step1.hight_mm"), "did you mean \"step1.height_mm\"?"));
+}
+
+TEST_CASE("a file of another kind is one fault, not a list of unknown keys") {
+  json document = lab();
+  document["format"] = "pastefit-study-1";
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(says(faults[0], "pastefit-lab-1"));
+  CHECK(faults_of(json::array()).size() == 1);
+}
+
+TEST_CASE("faults of a file carry its path, and a broken file one place") {
+  const test::Folder folder;
+  json document = lab();
+  document.erase("title");
+  const auto missing = read_lab(folder.write("a.json", document.dump()));
+  REQUIRE_FALSE(missing.ok());
+  CHECK(missing.faults()[0].where == (folder.path() / "a.json").string() + ": title");
+  const auto broken = read_lab(folder.write("b.json", "{\n]"));
+  REQUIRE_FALSE(broken.ok());
+  CHECK(broken.faults()[0].where == (folder.path() / "b.json").string() + ": line 2, column 1");
+  const auto twice =
+      read_lab(folder.write("c.json", test::with(lab().dump(), "\"title\"", "\"title\":\"b\",\"title\"")));
+  REQUIRE_FALSE(twice.ok());
+  CHECK(says(twice.faults()[0], "stands twice"));
+}
+
+TEST_CASE("the hash follows content and preset, not comments and white space") {
+  CHECK(content_hash("") == "cbf29ce484222325");
+  CHECK(content_hash("a") == "af63dc4c8601ec8c");  // published test vector
+  const test::Folder folder;
+  const auto hash = [&](const std::string& text) { return read_lab(folder.write("lab.json", text)).value().hash; };
+  const std::string first = hash(lab().dump());
+  CHECK(hash("// a comment\n" + lab().dump(4)) == first);
+  json changed = lab();
+  changed["measurements"]["step1.height_mm"]["value"] = 71;
+  CHECK(hash(changed.dump()) != first);
+}
+
+TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
+  SlumpTable test;
+  test.drop.emplace();
+  const std::vector<std::string> names = observable_names(test);
+  for (const ReadingKey& key : reading_keys())
+    CHECK(std::find(names.begin(), names.end(), key.observable) != names.end());
+}
+
+}  // namespace
+}  // namespace pastefit

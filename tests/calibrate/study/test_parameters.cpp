@@ -1,0 +1,125 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+namespace {
+
+/// All parameters at their usual values, the first five free over their whole admissible range.
+Study bridge_study() {
+  Study study;
+  for (const ParameterKind& kind : parameter_kinds()) {
+    const bool free = study.parameters.size() < 5;
+    study.parameters.push_back({std::string(kind.name), free, kind.usual, kind.smallest, kind.largest, kind.scale});
+  }
+  return study;
+}
+
+double force(const Bridge& bridge, double d) {
+  return bridge.a_n_m2 * d * d + bridge.b_n_m * d + bridge.c_n;
+}
+
+TEST_CASE("every point of the unit cube is an admissible bridge that is fit to run") {
+  for (const BridgeFormation formation : {BridgeFormation::film, BridgeFormation::touch}) {
+    Study study = bridge_study();
+    study.lab.test.contact.bridge.formation = formation;
+    if (formation == BridgeFormation::touch) study.parameters[4].lower = 0.01;
+    Eigen::VectorXd point(5);
+    for (int corner = 0; corner < 243; ++corner) {
+      for (int axis = 0, rest = corner; axis < 5; ++axis, rest /= 3) point[axis] = std::array{0.0, 0.37, 1.0}[rest % 3];
+      const SlumpTable test = test_with(study, values_at(study, point), 1);
+      const Bridge& bridge = test.contact.bridge;
+      const double little = 1e-12 * bridge.c_n;
+      INFO("corner " << corner);
+      CHECK(bridge.c_n > 0);
+      CHECK(bridge.d_c_m < 0);
+      CHECK(bridge.b_n_m >= 0);
+      CHECK(bridge.b_n_m + 2 * bridge.a_n_m2 * bridge.d_c_m >= -little / -bridge.d_c_m);
+      CHECK(force(bridge, bridge.d_c_m) >= -little);
+      if (formation == BridgeFormation::touch) CHECK(-bridge.d_c_m <= 2 * bridge.offset_m);
+      CHECK(validate(test).empty());
+    }
+  }
+}
+
+TEST_CASE("strength, rupture force, curvature, gap and offset are what their names say") {
+  const double radius = 0.008;
+  std::vector<double> values = usual_values();
+  values[0] = 5000;
+  values[1] = 0.25;
+  values[2] = 1;
+  values[3] = 0.3;
+  values[4] = 0.1;
+  SlumpTable test;
+  test.grains.radius_m = radius;
+  const Bridge bridge = with_contact_of(test, values).contact.bridge;
+  CHECK(bridge.c_n == Approx(0.32));
+  CHECK(bridge.d_c_m == Approx(-0.0024));
+  CHECK(bridge.offset_m == Approx(0.0008));
+  CHECK(force(bridge, bridge.d_c_m) == Approx(0.25 * 0.32));
+  CHECK(bridge.b_n_m + 2 * bridge.a_n_m2 * bridge.d_c_m == Approx(0).margin(1e-9));  // flat at rupture
+  values[2] = -1;
+  CHECK(with_contact_of(test, values).contact.bridge.b_n_m == 0);  // flat at touch
+  values[2] = 0;
+  CHECK(with_contact_of(test, values).contact.bridge.a_n_m2 == 0);  // straight
+}
+
+TEST_CASE("with formation by touch the offset bounds the rupture gap, and only then") {
+  std::vector<double> values = usual_values();
+  values[3] = 0.5;
+  values[4] = 0.1;
+  SlumpTable test;
+  test.contact.bridge.formation = BridgeFormation::touch;
+  CHECK(with_contact_of(test, values).contact.bridge.d_c_m == Approx(-0.2 * 0.008));
+  test.contact.bridge.formation = BridgeFormation::film;
+  CHECK(with_contact_of(test, values).contact.bridge.d_c_m == Approx(-0.5 * 0.008));
+}
+
+TEST_CASE("each parameter reaches its own place in the test") {
+  std::vector<double> values = usual_values();
+  for (std::size_t i = 5; i < values.size(); ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
+  const SlumpTable test = with_contact_of({}, values);
+  CHECK(test.contact.friction == values[5]);
+  CHECK(test.contact.rolling_friction == values[6]);
+  CHECK(test.contact.restitution == values[7]);
+  CHECK(test.contact.youngs_modulus_pa == values[8]);
+  CHECK(test.contact.poissons_ratio == values[9]);
+  CHECK(test.contact.cohesion_n == values[10] * test.contact.bridge.c_n);
+  CHECK(test.mould_wall.friction == values[11]);
+  CHECK(test.table_wall.friction == values[12]);
+  CHECK(test.table_wall.cohesion_factor == values[13]);
+  CHECK(test.mould_wall.cohesion_factor == values[14]);
+}
+
+TEST_CASE("the unit interval spans the bounds exactly, in equal steps or equal ratios") {
+  Study study = bridge_study();
+  study.parameters[0].lower = 200;
+  study.parameters[0].upper = 60000;
+  const auto at = [&](double unit) { return values_at(study, Eigen::VectorXd::Constant(5, unit)); };
+  CHECK(at(0)[0] == 200);
+  CHECK(at(1)[0] == 60000);
+  CHECK(at(0.5)[0] == Approx(std::sqrt(200.0 * 60000.0)));
+  CHECK(at(0.5)[1] == 0.5);
+  CHECK(at(0.5)[5] == study.parameters[5].value);
+  CHECK(free_count(study) == 5);
+}
+
+TEST_CASE("usual values lie in their admissible range, and names are unique") {
+  for (const ParameterKind& kind : parameter_kinds()) {
+    CHECK(kind.smallest < kind.largest);
+    CHECK(kind.usual >= kind.smallest);
+    CHECK(kind.usual <= kind.largest);
+    CHECK((kind.scale == Scale::linear || kind.smallest > 0));
+    const auto same = [&](const ParameterKind& other) { return other.name == kind.name; };
+    CHECK(std::count_if(parameter_kinds().begin(), parameter_kinds().end(), same) == 1);
+  }
+}
+
+TEST_CASE("the packing seed is the one that was asked for") {
+  const Study study = bridge_study();
+  CHECK(test_with(study, usual_values(), 77).packing_seed == 77);
+}
+
+}  // namespace
+}  // namespace pastefit

@@ -1,0 +1,81 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/slump_table_json.h"
+#include "tests/calibrate/study/files.h"
+
+namespace pastefit {
+namespace {
+
+/// A test whose numbers have no short decimal form.
+SlumpTable awkward() {
+  SlumpTable test = with_contact_of({}, usual_values());
+  test.bulk_density_kg_m3 = 2300.0 / 7 * 7.0000000001;
+  test.contact.friction = 1.0 / 3;
+  test.contact.bridge.offset_m = 0.0008000000000000001;
+  test.table_wall.rolling_friction = 0.1 + 0.2 - 0.2;
+  test.packing_seed = 0xfedcba9876543210u;
+  return test;
+}
+
+TEST_CASE("a test survives JSON text bit for bit") {
+  for (const bool drop : {false, true}) {
+    SlumpTable test = awkward();
+    if (drop) test.drop = DropPlate{0.7, 16.0 / 3, 0.04, 0.1 / 3};
+    const std::string text = to_json(test).dump();
+    const Result<SlumpTable> back = slump_table_from_json(nlohmann::json::parse(text));
+    REQUIRE(back.ok());
+    CHECK(to_json(back.value()).dump() == text);
+    CHECK(back.value().bulk_density_kg_m3 == test.bulk_density_kg_m3);
+    CHECK(back.value().contact.friction == test.contact.friction);
+    CHECK(back.value().contact.bridge.offset_m == test.contact.bridge.offset_m);
+    CHECK(back.value().contact.bridge.shape == BridgeShape::polynomial);
+    CHECK(back.value().contact.cohesion_n == test.contact.cohesion_n);
+    CHECK(back.value().table_wall.rolling_friction == test.table_wall.rolling_friction);
+    CHECK(back.value().packing_seed == test.packing_seed);
+    REQUIRE(back.value().drop.has_value() == drop);
+    if (drop) CHECK(back.value().drop->mass_kg == test.drop->mass_kg);
+  }
+}
+
+TEST_CASE("tests that differ in one bit differ in their text") {
+  SlumpTable test = awkward();
+  const std::string text = to_json(test).dump();
+  test.contact.friction = std::nextafter(test.contact.friction, 1.0);
+  CHECK(to_json(test).dump() != text);
+}
+
+TEST_CASE("no cohesion of its own is written as null and read back as none") {
+  SlumpTable test = awkward();
+  test.contact.cohesion_n.reset();
+  const nlohmann::json json = to_json(test);
+  CHECK(json.at("contact").at("cohesion_n").is_null());
+  const Result<SlumpTable> back = slump_table_from_json(json);
+  REQUIRE(back.ok());
+  CHECK_FALSE(back.value().contact.cohesion_n.has_value());
+}
+
+TEST_CASE("a missing, an unknown and a wrong key are all named") {
+  nlohmann::json json = to_json(awkward());
+  json["mould"].erase("height_m");
+  json["contact"]["bridge"]["shape"] = "cubic";
+  json["drop"] = 3;
+  json["extra"] = 1;
+  const Result<SlumpTable> back = slump_table_from_json(json);
+  REQUIRE_FALSE(back.ok());
+  CHECK(back.faults().size() == 4);
+  CHECK(test::says(test::at(back.faults(), "mould.height_m"), "missing"));
+  CHECK(test::says(test::at(back.faults(), "contact.bridge.shape"), "\"polynomial\""));
+  CHECK(test::says(test::at(back.faults(), "drop"), "null"));
+  CHECK(test::says(test::at(back.faults(), "extra"), "unknown key"));
+}
+
+TEST_CASE("a test that cannot be simulated is refused") {
+  nlohmann::json json = to_json(awkward());
+  json["mould"]["height_m"] = -1;
+  CHECK_FALSE(slump_table_from_json(json).ok());
+}
+
+}  // namespace
+}  // namespace pastefit

@@ -1,0 +1,201 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/measurements.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/study.h"
+#include "calibrate/study/template.h"
+#include "tests/calibrate/study/files.h"
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+using test::at;
+using test::says;
+
+/// A folder with the templates' lab.json and a study of one's own.
+class Desk {
+ public:
+  Desk() { folder_.write("lab.json", template_text("lab").value()); }
+
+  static json study() {
+    return json::parse(R"({"format": "pastefit-study-1", "title": "a study", "lab": "lab.json",
+                           "parameters": {"strength_pa": {"free": [200, 60000]}, "friction": {"value": 0.4}}})");
+  }
+  Result<Study> read(const json& document) const { return read_study(folder_.write("study.json", document.dump())); }
+  Faults faults(const json& document) const {
+    const Result<Study> study = read(document);
+    return study.ok() ? Faults{} : study.faults();
+  }
+  const test::Folder& folder() const { return folder_; }
+
+ private:
+  test::Folder folder_;
+};
+
+TEST_CASE("the templates are read as they are") {
+  const Desk desk;
+  const Result<Study> study = read_study(desk.folder().write("study.json", template_text("study").value()));
+  INFO((study.ok() ? "" : message_of(study.faults())));
+  REQUIRE(study.ok());
+  CHECK(free_count(study.value()) == 5);
+  CHECK(study.value().lab.measurements.size() == 2);
+  CHECK(template_names().size() == 2);
+  CHECK_FALSE(template_text("card"));
+}
+
+TEST_CASE("the shipped studies are read, with the height to fit and the spread to report") {
+  int studies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/studies")) {
+    if (!entry.path().filename().string().starts_with("concrete-mix-")) continue;
+    const Result<Study> study = read_study(entry.path());
+    INFO((study.ok() ? "" : message_of(study.faults())));
+    REQUIRE(study.ok());
+    ++studies;
+    REQUIRE(study.value().weights.size() == 2);
+    CHECK(study.value().weights[0].observable == "step1.height_mm");
+    CHECK(study.value().weights[0].weight == 1);
+    CHECK(study.value().weights[1].weight == 0);
+    CHECK(free_count(study.value()) == 5);
+    CHECK(study.value().lab.provenance.licence == "CC BY 4.0");
+  }
+  CHECK(studies == 6);
+}
+
+TEST_CASE("what a study does not name has its usual value") {
+  const Result<Study> read = Desk().read(Desk::study());
+  REQUIRE(read.ok());
+  const Study& study = read.value();
+  REQUIRE(study.parameters.size() == parameter_kinds().size());
+  CHECK(study.parameters[0].free);
+  CHECK(study.parameters[0].scale == Scale::logarithmic);
+  CHECK(study.parameters[5].value == 0.4);
+  CHECK(study.parameters[7].value == parameter_kinds()[7].usual);
+  CHECK(study.search.budget_simulations == SearchOptions{}.budget_simulations);
+  for (const Weight& weight : study.weights) CHECK(weight.weight == 1);
+}
+
+TEST_CASE("contact choices of the study reach the test") {
+  json document = Desk::study();
+  document["contact"] = {{"formation", "touch"}, {"rolling_model", "none"}, {"friction_basis", "total"}};
+  const Result<Study> read = Desk().read(document);
+  REQUIRE(read.ok());
+  const SlumpTable test = test_with(read.value(), values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
+  CHECK(test.contact.bridge.formation == BridgeFormation::touch);
+  CHECK(test.contact.rolling == RollingModel::none);
+  CHECK(test.contact.friction_basis == FrictionBasis::total);
+}
+
+TEST_CASE("bounds in the wrong order, out of range or without logarithm are faults") {
+  const Desk desk;
+  const auto fault = [&](const char* name, const char* content) {
+    json document = Desk::study();
+    document["parameters"][name] = json::parse(content);
+    const Faults faults = desk.faults(document);
+    INFO(message_of(faults));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].where.find(std::string("parameters.") + name) != std::string::npos);
+    return faults[0];
+  };
+  CHECK(says(fault("strength_pa", R"({"free": [60000, 200]})"), "not in order"));
+  CHECK(says(fault("friction", R"({"free": [0.5, 0.5]})"), "not in order"));
+  CHECK(says(fault("curvature", R"({"free": [-2, 1]})"), "from -1 to 1"));
+  CHECK(says(fault("offset_ratio", R"({"free": [0, 0.3], "scale": "log"})"), "no logarithm"));
+  CHECK(says(fault("friction", R"({"value": 3})"), "from 0 to 2"));
+  CHECK(says(fault("friction", R"({"value": 0.3, "free": [0.1, 0.9]})"), "give one of them"));
+  CHECK(says(fault("friction", R"({"value": 0.3, "scale": "log"})"), "no scale"));
+  CHECK(says(fault("friction", R"({"free": [0.1]})"), "a list of 2 numbers"));
+  CHECK(says(fault("friction", R"({"free": [0.1, 0.9], "scale": "linar"})"), "did you mean \"linear\"?"));
+  CHECK(says(fault("frction", R"({"value": 0.3})"), "did you mean \"friction\"?"));
+  CHECK(says(fault("friction", R"({})"), "is missing"));
+}
+
+TEST_CASE("a study with nothing to fit, or nothing to fit it to, is refused") {
+  json document = Desk::study();
+  document["parameters"] = {{"friction", {{"value", 0.4}}}};
+  CHECK(says(at(Desk().faults(document), "parameters"), "none is free"));
+  document = Desk::study();
+  document["weights"] = {{"step1.height_mm", 0}, {"step1.spread_mm", 0}};
+  CHECK(says(at(Desk().faults(document), "weights"), "all are 0"));
+}
+
+TEST_CASE("a weight of what was not measured is a fault, and a slump's weight is the height's") {
+  json document = Desk::study();
+  document["weights"] = {{"step2.height_mm", 1}};
+  CHECK(says(at(Desk().faults(document), "weights.step2.height_mm"), "no such measurement"));
+  document["weights"] = {{"step1.slump_mm", 0.25}};
+  const Result<Study> study = Desk().read(document);
+  REQUIRE(study.ok());
+  CHECK(study.value().weights[0].observable == "step1.height_mm");
+  CHECK(study.value().weights[0].weight == 0.25);
+}
+
+TEST_CASE("a budget that pays for no answer is a fault") {
+  json document = Desk::study();
+  document["search"] = {{"budget_simulations", 5}, {"packings", 2}, {"confirmation_packings", 4}};
+  CHECK(says(at(Desk().faults(document), "search.budget_simulations"), "at least 6"));
+  document["search"]["budget_simulations"] = 6.5;
+  CHECK(says(at(Desk().faults(document), "search.budget_simulations"), "a whole number"));
+}
+
+TEST_CASE("an offset of zero is a fault where bridges form by touch") {
+  json document = Desk::study();
+  document["contact"] = {{"formation", "touch"}};
+  document["parameters"]["offset_ratio"] = {{"free", {0, 0.3}}};
+  CHECK(says(at(Desk().faults(document), "parameters.offset_ratio"), "touch"));
+  document["parameters"]["offset_ratio"] = {{"free", {0.01, 0.3}}};
+  CHECK(Desk().read(document).ok());
+}
+
+TEST_CASE("the faults of study and laboratory file come together, each with its file") {
+  const Desk desk;
+  desk.folder().write("lab.json", test::with(template_text("lab").value(), "\"abrams\"", "\"abrans\""));
+  json document = Desk::study();
+  document["serch"] = json::object();
+  const Faults faults = desk.faults(document);
+  REQUIRE(faults.size() == 2);
+  CHECK(says(at(faults, "study.json: serch"), "did you mean \"search\"?"));
+  CHECK(says(at(faults, "lab.json: apparatus.preset"), "did you mean \"abrams\"?"));
+}
+
+TEST_CASE("a laboratory file that is not there is named with its path") {
+  json document = Desk::study();
+  document["lab"] = "nowhere.json";
+  CHECK(says(at(Desk().faults(document), "nowhere.json"), "no such file"));
+}
+
+TEST_CASE("the schemas name the parameters, ranges and readings of the program, and no others") {
+  const auto schema = [](const char* name) {
+    return json::parse(std::ifstream(std::string(PASTEFIT_SOURCE_DIR "/data/schema/") + name));
+  };
+  const json study = schema("study.schema.json").at("properties");
+  const json& parameters = study.at("parameters").at("properties");
+  CHECK(parameters.size() == parameter_kinds().size());
+  for (const ParameterKind& kind : parameter_kinds()) {
+    const json value = parameters.at(std::string(kind.name)).at("oneOf").at(0).at("properties").at("value");
+    INFO(kind.name);
+    CHECK(value.at("minimum").get<double>() == kind.smallest);
+    CHECK(value.at("maximum").get<double>() == kind.largest);
+  }
+  const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
+  CHECK(lab.size() == reading_keys().size());
+  CHECK(study.at("weights").at("properties").size() == reading_keys().size());
+  for (const ReadingKey& key : reading_keys()) {
+    CHECK(lab.contains(key.key));
+    CHECK(study.at("weights").at("properties").contains(key.key));
+  }
+}
+
+TEST_CASE("the hash of a study follows its content") {
+  const Desk desk;
+  json document = Desk::study();
+  const std::string first = desk.read(document).value().hash;
+  CHECK(desk.read(document).value().hash == first);
+  document["title"] = "another";
+  CHECK(desk.read(document).value().hash != first);
+}
+
+}  // namespace
+}  // namespace pastefit

@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "core/rigs/packing.h"
+#include "core/simulate.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// The EN 12350-5 cone filled with coarse grains: a test of a second.
+SlumpTable small_test(double strength_in_weights) {
+  SlumpTable test;
+  test.grains.radius_m = 0.012;
+  test.lift_velocity_m_s = 0.2;
+  const double r = test.grains.radius_m;
+  const double weight = test.bulk_density_kg_m3 / 0.6 * 4.19 * r * r * r * 9.81;
+  const double c = strength_in_weights * weight;
+  if (c > 0)
+    test.contact.bridge = {BridgeShape::polynomial, BridgeFormation::film, c / (0.09 * r * r), 2 * c / (0.3 * r), c,
+                           -0.3 * r, 0.15 * r, 0, 0, 0};
+  return test;
+}
+
+}  // namespace
+
+TEST_CASE("the mould is filled level with its rim") {
+  const auto packing = fill_mould(small_test(0));
+  REQUIRE_FALSE(packing->failure);
+  double top = 0;
+  for (std::size_t i = 0; i < packing->radii.size(); ++i) top = std::max(top, packing->centres[i].z + packing->radii[i]);
+  CHECK(top == Approx(0.2).margin(0.002));
+  const double fraction = packing->solid_volume_m3 / volume_m3(Mould{});
+  CHECK(fraction > 0.54);
+  CHECK(fraction < 0.64);
+}
+
+TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lower") {
+  SlumpTable dry = small_test(0), strong = small_test(30);
+  dry.drop = DropPlate{};
+  const Outcome flat = simulate(dry), upright = simulate(strong);
+  REQUIRE_FALSE(flat.failure);
+  REQUIRE_FALSE(upright.failure);
+  CHECK(flat.run.settled);
+  CHECK(*flat.observables.find("step1.height_mm") < 90);
+  CHECK(*upright.observables.find("step1.height_mm") > 180);
+  CHECK(*flat.observables.find("step2.height_mm") < *flat.observables.find("step1.height_mm"));
+  CHECK(*flat.observables.find("step1.spread_mm") > 300);
+  const std::vector<std::string> names = observable_names(dry);
+  REQUIRE(names.size() == flat.observables.all().size());
+  for (std::size_t k = 0; k < names.size(); ++k) CHECK(names[k] == flat.observables.all()[k].name);
+}
+
+TEST_CASE("the mould holds the laboratory's mass whatever the packing") {
+  const SlumpTable test = small_test(1);
+  const Outcome outcome = simulate(test);
+  CHECK(*outcome.observables.find("fill.mass_kg") == Approx(test.bulk_density_kg_m3 * volume_m3(test.mould)));
+}
+
+TEST_CASE("the same test gives the same bits, another packing others") {
+  SlumpTable test = small_test(1);
+  const double first = *simulate(test).observables.find("step1.height_mm");
+  const double again = *simulate(test).observables.find("step1.height_mm");
+  test.packing_seed = 2;
+  const double other = *simulate(test).observables.find("step1.height_mm");
+  CHECK(std::memcmp(&first, &again, sizeof first) == 0);
+  CHECK(first != other);
+}
+
+TEST_CASE("a run that is asked to stop ends as stopped") {
+  RunOptions options;
+  options.watch = [](const Moment& moment) { return moment.time_s < 0.1; };
+  const Outcome outcome = simulate(small_test(0), options);
+  REQUIRE(outcome.failure);
+  CHECK(outcome.failure->reason == FailureReason::stopped);
+}
+
+TEST_CASE("a step far too large ends as a classified failure") {
+  RunOptions options;
+  options.packing = fill_mould(small_test(5));
+  options.time_step_s = 5e-3;
+  const Outcome outcome = simulate(small_test(5), options);
+  REQUIRE(outcome.failure);
+  CHECK_FALSE(outcome.failure->message.empty());
+}
+
+TEST_CASE("every fault of a test is named at once") {
+  SlumpTable test = small_test(1);
+  test.mould.top_radius_m = 0.2;
+  test.contact.restitution = 0;
+  test.contact.bridge.b_n_m = -1;
+  test.grains.radius_m = 0.1;
+  CHECK(validate(test).size() >= 4);
+  CHECK(validate(small_test(1)).empty());
+}

@@ -1,0 +1,93 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "core/world/walls.h"
+#include "tests/core/scene.h"
+
+using namespace pastefit;
+
+TEST_CASE("the nearest point of a plate is on its face inside and on its edge outside") {
+  Plate plate;
+  plate.half_length = plate.half_width = 0.5;
+  const Nearest above = nearest(plate, {0.2, 0.1, 0.3});
+  CHECK(above.distance == Approx(0.3));
+  CHECK(above.direction.z == Approx(-1));
+  const Nearest beside = nearest(plate, {0.8, 0.1, 0.4});
+  CHECK(beside.distance == Approx(0.5));
+  CHECK(beside.direction.x == Approx(-0.6));
+  CHECK(beside.direction.z == Approx(-0.8));
+}
+
+TEST_CASE("a frustum is solid from inside, from outside and at its rims") {
+  const Shell shell{{0, 0, 0}, 0.1, 0.065, 0.2};
+  const double slope = std::atan2(0.035, 0.2);
+  const double half_way = 0.0825;
+  const Nearest inside = nearest(shell, {half_way - 0.01 / std::cos(slope), 0, 0.1});
+  CHECK(inside.distance == Approx(0.01));
+  CHECK(inside.direction.x == Approx(std::cos(slope)));
+  CHECK(inside.direction.z == Approx(std::sin(slope)));
+  const Nearest outside = nearest(shell, {0, half_way + 0.02 / std::cos(slope), 0.1});
+  CHECK(outside.distance == Approx(0.02));
+  CHECK(outside.direction.y == Approx(-std::cos(slope)));
+  const Nearest under_the_rim = nearest(shell, {0.1, 0, -0.03});
+  CHECK(under_the_rim.distance == Approx(0.03));
+  CHECK(under_the_rim.direction.z == Approx(1));
+}
+
+TEST_CASE("a wall that turns about a hinge carries its points on circles") {
+  Wall wall;
+  Plate plate;
+  plate.half_length = plate.half_width = 0.35;
+  wall.shape = plate;
+  wall.pivot = {-0.35, 0, 0};
+  wall.angular_velocity = {0, -0.1, 0};
+  for (int n = 0; n < 1000; ++n) move(wall, 1e-3);
+  const Plate& turned = std::get<Plate>(wall.shape);
+  CHECK(turned.centre.x == Approx(-0.35 + 0.35 * std::cos(0.1)));
+  CHECK(turned.centre.z == Approx(0.35 * std::sin(0.1)));
+  CHECK(norm(turned.along) == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("a grain at rest on any wall carries its weight") {
+  ContactModel model;
+  model.youngs_modulus_pa = 5e6;
+  model.restitution = 0.2;
+  const Shape shapes[] = {Plane{}, [] {
+                            Plate plate;
+                            plate.half_length = plate.half_width = 0.3;
+                            return plate;
+                          }()};
+  for (const Shape& shape : shapes) {
+    Scene scene(model);
+    scene.world.gravity = kGravity;
+    scene.grain({0.05, 0.02, 0.0101}).wall(shape, {});
+    scene.run_by_itself(1.0);
+    CHECK(scene.world.walls[0].force.z == Approx(-scene.mass(0) * kGravity).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("two grains that stick overlap as cohesion and Hertz repulsion balance") {
+  ContactModel model;
+  model.youngs_modulus_pa = 5e6;
+  model.restitution = 0.2;
+  model.cohesion_n = 0.5;
+  Scene scene(model);
+  scene.grain({0, 0, 0}).grain({0.01999, 0, 0});
+  scene.run_by_itself(1.0);
+  const double e_star = 5e6 / (2 * (1 - 0.09));
+  const double expected = std::pow(3 * 0.5 / (4 * e_star * std::sqrt(0.005)), 2.0 / 3.0);
+  CHECK(0.02 - norm(scene.motion(1).position - scene.motion(0).position) == Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("a sliding sphere ends up rolling at five sevenths of its speed") {
+  ContactModel model;
+  model.youngs_modulus_pa = 5e6;
+  model.rolling = RollingModel::none;
+  Scene scene(model);
+  scene.world.gravity = kGravity;
+  scene.wall(Plane{}, {1e9, 0.3, 0.3, 0.3, 0, 0});
+  const double overlap = 3e-6;
+  scene.grain({0, 0, 0.01 - overlap}, {0.1, 0, 0});
+  scene.run_by_itself(0.5);
+  CHECK(scene.motion(0).velocity.x == Approx(0.1 * 5 / 7).epsilon(2e-3));
+}
