@@ -1,0 +1,63 @@
+#pragma once
+
+#include "core/laws/pack.h"
+
+namespace pastefit {
+
+/// Turns rows into packs and back, so that the record of a grain is read and written whole instead of by element.
+/// `square` transposes W packs of W lanes in place: what was lane b of pack a becomes lane a of pack b.
+
+PASTEFIT_INLINE void square(Pack<2> (&p)[2]) {
+  const __m128d a = p[0].v, b = p[1].v;
+  p[0].v = _mm_unpacklo_pd(a, b);
+  p[1].v = _mm_unpackhi_pd(a, b);
+}
+
+#ifdef __AVX__
+PASTEFIT_INLINE void square(Pack<4> (&p)[4]) {
+  const __m256d low01 = _mm256_unpacklo_pd(p[0].v, p[1].v), high01 = _mm256_unpackhi_pd(p[0].v, p[1].v);
+  const __m256d low23 = _mm256_unpacklo_pd(p[2].v, p[3].v), high23 = _mm256_unpackhi_pd(p[2].v, p[3].v);
+  p[0].v = _mm256_permute2f128_pd(low01, low23, 0x20);
+  p[1].v = _mm256_permute2f128_pd(high01, high23, 0x20);
+  p[2].v = _mm256_permute2f128_pd(low01, low23, 0x31);
+  p[3].v = _mm256_permute2f128_pd(high01, high23, 0x31);
+}
+#endif
+
+#ifdef __AVX512F__
+// The masked forms with a full mask avoid a false warning of GCC 12 about the unmasked ones and compile to the same code.
+template <int control>
+PASTEFIT_INLINE __m512d quarters(__m512d a, __m512d b) {
+  return _mm512_maskz_shuffle_f64x2(0xff, a, b, control);
+}
+
+PASTEFIT_INLINE void square(Pack<8> (&p)[8]) {
+  __m512d pair[8], quad[8];
+  for (int k = 0; k < 8; k += 2) {
+    pair[k] = _mm512_maskz_unpacklo_pd(0xff, p[k].v, p[k + 1].v);
+    pair[k + 1] = _mm512_maskz_unpackhi_pd(0xff, p[k].v, p[k + 1].v);
+  }
+  for (int k = 0; k < 8; k += 4)
+    for (int c = 0; c < 2; ++c) {
+      quad[k + c] = quarters<0x88>(pair[k + c], pair[k + c + 2]);
+      quad[k + c + 2] = quarters<0xdd>(pair[k + c], pair[k + c + 2]);
+    }
+  for (int k = 0; k < 4; ++k) {
+    p[k].v = quarters<0x88>(quad[k], quad[k + 4]);
+    p[k + 4].v = quarters<0xdd>(quad[k], quad[k + 4]);
+  }
+}
+#endif
+
+/// Columns of W rows of N doubles: packs[c] holds column c, lane l from row l. N is a multiple of W.
+template <int W, int N, class Row>
+PASTEFIT_INLINE void read_rows(Row row, Pack<W> (&packs)[N]) {
+  for (int block = 0; block < N; block += W) {
+    Pack<W> part[W];
+    for (int lane = 0; lane < W; ++lane) part[lane] = Pack<W>::load(row(lane) + block);
+    square(part);
+    for (int k = 0; k < W; ++k) packs[block + k] = part[k];
+  }
+}
+
+}  // namespace pastefit
