@@ -18,7 +18,14 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
   pair.hertz = 4.0 / 3.0 * e_star;
   pair.normal_stiffness = 2 * e_star;
   pair.tangential_ratio = 4 * g_star / e_star;
+  pair.root_tangential_ratio = std::sqrt(pair.tangential_ratio);
   pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
+}
+
+void set_rolling(PairConstants& pair, double rolling_friction) {
+  pair.rolling_friction = rolling_friction;
+  pair.roll_stiffness_share = 2.25 * rolling_friction * rolling_friction / 0.4;
+  pair.roll_damping = 0.6 * std::sqrt(1.4 * 2.25) * rolling_friction;
 }
 
 void set_attraction(PairConstants& pair, const ContactModel& grains, double radius, double share, double shells) {
@@ -76,7 +83,7 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
               grains.restitution);
   pair.friction = grains.friction;
   pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
-  pair.rolling_friction = grains.rolling_friction;
+  set_rolling(pair, grains.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
   return pair;
 }
@@ -87,7 +94,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
               wall.restitution);
   pair.friction = wall.friction;
   pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
-  pair.rolling_friction = wall.rolling_friction;
+  set_rolling(pair, wall.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
   return pair;
 }

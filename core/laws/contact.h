@@ -46,23 +46,37 @@ inline constexpr double kSurfaceLightness = 3.5;
 
 namespace detail {
 
+/// Squared lengths and denominators are kept above this before they are divided by; far below anything in a scene, far
+/// above the smallest number, so that a product of four of them is still a number.
+inline constexpr double kFloor = 1e-60;
+
+/// A vector of the contact plane on its way to the plane as it is now: projected, turned with the twist; the length it
+/// lost by the projection is given back by `restored`.
 template <class Real>
-PASTEFIT_INLINE BasicVec3<Real> in_plane(const BasicVec3<Real>& a, const BasicVec3<Real>& n) {
-  return a - dot(a, n) * n;
+struct Turned {
+  BasicVec3<Real> vector;
+  Real lost;    ///< squared length lost
+  Real square;  ///< squared length left
+};
+
+template <class Real>
+PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Real>& n, Real twist_angle) {
+  const Real along = dot(a, n);
+  const BasicVec3<Real> b = a - along * n;
+  return {b + twist_angle * cross(n, b), along * along, larger(dot(b, b), Real(kFloor))};
 }
 
-/// Carries a vector of the contact plane to the plane as it is now: same length, turned with the contact.
+/// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step.
 template <class Real>
-PASTEFIT_INLINE BasicVec3<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Real>& n, Real twist_angle) {
-  BasicVec3<Real> b = in_plane(a, n);
-  b += twist_angle * cross(n, b);
-  return square_root(dot(a, a) / larger(dot(b, b), Real(1e-200))) * b;
+PASTEFIT_INLINE Real restored(const Turned<Real>& t, Real inverse_square) {
+  return Real(1.0) + Real(0.5) * t.lost * inverse_square;
 }
 
-/// The factor that brings a vector of squared length `square` down to `limit`; 1 if it is not longer.
+/// The factor that brings a vector down to `limit`; 1 if it is not longer. Takes the inverse of its squared length.
 template <class Real>
-PASTEFIT_INLINE Real cap(Real square, Real limit) {
-  return select(square > limit * limit, limit / square_root(larger(square, Real(1e-200))), Real(1.0));
+PASTEFIT_INLINE Real cap(Real square, Real inverse_square, Real limit) {
+  const Real allowed = limit * limit;
+  return select(square > allowed, square_root(allowed * inverse_square), Real(1.0));
 }
 
 }  // namespace detail
@@ -90,20 +104,24 @@ struct ConstantTorqueRolling {
 /// Force of one contact or bridge for one time step `dt`; updates its memory.
 ///
 /// overlap d > 0: Hertz repulsion 4/3 E* sqrt(R*) d^(3/2), constant cohesion against it, damping
-///   2 sqrt(5/6) beta sqrt(S_n m*), Mindlin spring S_t on the slip, Coulomb limit, rolling resistance.
+///   2 sqrt(5/6) beta sqrt(S_n m*), Mindlin spring S_t on the slip, Coulomb limit on spring and damper together,
+///   rolling resistance.
 /// gap, bridge alive: attraction F(d). A bridge forms at the formation gap and lives until the rupture gap.
 ///
-/// Damping. Velocities are those of the half step before (leapfrog). With the coefficient c/(1 + c dt/(2 m*)) the decay
-/// of a single damped collision is exact to second order in dt; the damping of all other contacts of the two bodies
+/// Damping. Velocities are those of the half step before (leapfrog). With the coefficient c/(1 + c dt/(2 m*)) the decay of
+/// a single damped collision is right to second order in dt; the damping of all other contacts of the two bodies
 /// enters the denominator in full, which keeps a grain with many damped contacts stable at any step: with
 /// C = sum of c/m over a grain's contacts no grain loses more than its relative velocity within a step.
 ///
 /// Slip is shortened when the contact stiffens (factor min(1, a_old/a), a the contact radius) so that stiffening adds
 /// no energy and unloading releases the tangential force with the area, as in Mindlin and Deresiewicz's full theory
 /// (Thornton et al. 2013); a spring that keeps its slip gains energy in every rebound.
+///
+/// Square roots and divisions are what this function costs: there are five of the one and three of the other; what can
+/// be divided together is.
 template <class Attraction, class Rolling, class Real>
 PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt) {
-  const Real zero(0.0), one(1.0);
+  const Real zero(0.0), one(1.0), half(0.5), floor(detail::kFloor);
   const auto touching = m.overlap > zero;
   const Real depth = larger(m.overlap, zero);
   const Real approach = dot(m.velocity, m.normal);
@@ -113,14 +131,30 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real stiffness_t = Real(k.tangential_ratio) * stiffness_n;
   const Real repulsion = Real(k.hertz) * contact_radius * depth;
 
-  const Real damping_n = Real(k.damping) * square_root(stiffness_n) * m.root_mass;
-  const Real damping_t = Real(std::sqrt(k.tangential_ratio)) * damping_n;
+  const Real root_impedance = square_root(stiffness_n) * m.root_mass;  // sqrt(S_n m*)
+  const Real damping_n = Real(k.damping) * root_impedance;
+  const Real damping_t = Real(k.root_tangential_ratio) * damping_n;
   const Real largest_damping = larger(damping_n, Real(kSurfaceLightness) * damping_t);
   const Real others = larger(m.neighbour_damping - largest_damping * m.inverse_mass, zero);
   const Real calm = one + dt * others;
-  const Real half_step = Real(0.5) * dt * m.inverse_mass;
-  const Real damper_n = damping_n / (calm + half_step * damping_n);
-  const Real damper_t = damping_t / (calm + half_step * Real(kSurfaceLightness) * damping_t);
+  const Real half_step = half * dt * m.inverse_mass;
+  const Real brake_n = calm + half_step * damping_n;
+  const Real brake_t = calm + half_step * Real(kSurfaceLightness) * damping_t;
+
+  const Real twist_angle = m.twist * dt;
+  const auto slip_turned = detail::turned(memory.slip, m.normal, twist_angle);
+  detail::Turned<Real> roll_turned{};
+  roll_turned.square = one;
+  if constexpr (Rolling::present) {
+    if constexpr (Rolling::elastic) roll_turned = detail::turned(memory.roll, m.normal, twist_angle);
+  }
+  const Real brakes = brake_n * brake_t, squares = slip_turned.square * roll_turned.square;
+  const Real wide = larger(contact_radius, floor);
+  const Real inverse = one / (brakes * squares * wide);
+  const Real inverse_brakes = inverse * squares * wide, inverse_squares = inverse * brakes * wide;
+  const Real softened = smaller(one, memory.contact_radius * (inverse * brakes * squares));
+  const Real damper_n = damping_n * brake_t * inverse_brakes;
+  const Real damper_t = damping_t * brake_n * inverse_brakes;
 
   Action<Real> action;
   const Real cohesion = Real(k.cohesion) * m.size_scale * m.size_scale;
@@ -138,45 +172,52 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
     action.stiffness = larger(action.stiffness, alive * pull.slope);
   }
 
-  const Real total = larger(action.push, zero);
-  const Real load = k.friction_of_total ? total : repulsion;
+  const Real load = k.friction_of_total ? larger(action.push, zero) : repulsion;
 
-  const Real softened = smaller(one, memory.contact_radius / larger(contact_radius, Real(1e-200)));
-  const Real twist_angle = m.twist * dt;
   const BasicVec3<Real> velocity_t = m.velocity - approach * m.normal;
-  BasicVec3<Real> slip = softened * detail::turned(memory.slip, m.normal, twist_angle);
-  slip += dt * velocity_t;
-  const Real limit = Real(k.friction) * load;
-  BasicVec3<Real> spring = stiffness_t * slip;
-  const Real kept = detail::cap(dot(spring, spring), limit);
-  memory.slip = select(touching, kept, zero) * slip;
-  const BasicVec3<Real> traction = kept * spring + damper_t * velocity_t;
-  action.traction = -(detail::cap(dot(traction, traction), limit) * traction);
+  const Real slip_factor = softened * detail::restored(slip_turned, inverse_squares * roll_turned.square);
+  const BasicVec3<Real> slip = slip_factor * slip_turned.vector + dt * velocity_t;
+  const BasicVec3<Real> traction = stiffness_t * slip + damper_t * velocity_t;
+  const Real traction_square = larger(dot(traction, traction), floor);
 
+  BasicVec3<Real> roll{}, moment{};
+  Real moment_square = one, roll_limit = zero;
+  BasicVec3<Real> rolling{};
+  const Real radius = m.root_radius * m.root_radius;
   if constexpr (Rolling::present) {
-    const Real radius = m.root_radius * m.root_radius;
-    const BasicVec3<Real> rolling = detail::in_plane(m.spin, m.normal);
-    const Real roll_limit = Real(k.rolling_friction) * load * radius;
-    // Inertia of relative rolling about the contact: (1/(I_i + m_i r_i^2) + ...)^-1 is 7/5 m* (2 R*)^2 / 4 for equal
-    // grains; the same expression serves all sizes.
-    const Real inertia = Real(1.4) * radius * radius / m.inverse_mass;
+    rolling = m.spin - dot(m.spin, m.normal) * m.normal;
+    roll_limit = Real(k.rolling_friction) * load * radius;
     if constexpr (Rolling::elastic) {
       const Real lever = Real(k.rolling_friction) * radius;
-      const Real stiffness_r = Real(2.25) * stiffness_n * lever * lever;
-      BasicVec3<Real> roll = softened * detail::turned(memory.roll, m.normal, twist_angle);
-      roll += dt * rolling;
-      const BasicVec3<Real> moment = stiffness_r * roll;
-      const Real square = dot(moment, moment);
-      const Real kept_r = detail::cap(square, roll_limit);
-      memory.roll = select(touching, kept_r, zero) * roll;
-      const Real dashpot =
-          select(square > roll_limit * roll_limit, zero, Real(0.6) * square_root(inertia * stiffness_r) / calm);
-      action.moment = -(kept_r * moment + dashpot * rolling);
-      action.stiffness = larger(action.stiffness, stiffness_r / (Real(0.4) * radius * radius));
+      const Real roll_factor = softened * detail::restored(roll_turned, inverse_squares * slip_turned.square);
+      roll = roll_factor * roll_turned.vector + dt * rolling;
+      moment = Real(2.25) * stiffness_n * lever * lever * roll;
+      moment_square = larger(dot(moment, moment), floor);
+      action.stiffness = larger(action.stiffness, Real(k.roll_stiffness_share) * stiffness_n);
     } else {
-      const Real speed = square_root(larger(dot(rolling, rolling), Real(1e-200)));
-      const Real resistance = smaller(roll_limit / speed, Real(0.25) * inertia / dt);
-      action.moment = -(resistance * rolling);
+      moment_square = larger(dot(rolling, rolling), floor);
+    }
+  }
+  const Real inverse_both = one / (traction_square * moment_square);
+
+  const Real kept = detail::cap(traction_square, inverse_both * moment_square, Real(k.friction) * load);
+  memory.slip = select(touching, kept, zero) * slip;
+  action.traction = -kept * traction;
+
+  if constexpr (Rolling::present) {
+    // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the same
+    // expression serves all sizes.
+    const Real inverse_square = inverse_both * traction_square;
+    if constexpr (Rolling::elastic) {
+      const Real kept_r = detail::cap(moment_square, inverse_square, roll_limit);
+      memory.roll = select(touching, kept_r, zero) * roll;
+      // 2 eta sqrt(I_r k_r) with eta = 0.3, braked like the other dampers.
+      const Real dashpot = Real(k.roll_damping) * root_impedance * radius * radius * brake_t * inverse_brakes;
+      action.moment = -kept_r * moment - select(kept_r < one, zero, dashpot) * rolling;
+    } else {
+      const Real gentle = Real(0.35) * radius * radius * m.root_mass * m.root_mass / larger(dt, floor);
+      const Real resistance = smaller(roll_limit * square_root(inverse_square), gentle);
+      action.moment = -resistance * rolling;
     }
   } else {
     action.moment = {zero, zero, zero};

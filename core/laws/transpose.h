@@ -60,4 +60,34 @@ PASTEFIT_INLINE void read_rows(Row row, Pack<W> (&packs)[N]) {
   }
 }
 
+/// The first three columns of rows of four doubles.
+template <int W, class Row>
+PASTEFIT_INLINE void read_triples(Row row, Pack<W>& x, Pack<W>& y, Pack<W>& z) {
+#ifdef __AVX512F__
+  if constexpr (W == 8) {
+    __m512d pair[4];  // rows k and k + 4 side by side
+    for (int k = 0; k < 4; ++k)
+      pair[k] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_load_pd(row(k))),
+                                         _mm256_load_pd(row(k + 4)), 1);
+    const __m512d low01 = _mm512_maskz_unpacklo_pd(0xff, pair[0], pair[1]);
+    const __m512d low23 = _mm512_maskz_unpacklo_pd(0xff, pair[2], pair[3]);
+    const __m512d high01 = _mm512_maskz_unpackhi_pd(0xff, pair[0], pair[1]);
+    const __m512d high23 = _mm512_maskz_unpackhi_pd(0xff, pair[2], pair[3]);
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+    const __m512i second = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    x.v = _mm512_permutex2var_pd(low01, first, low23);
+    y.v = _mm512_permutex2var_pd(high01, first, high23);
+    z.v = _mm512_permutex2var_pd(low01, second, low23);
+    return;
+  }
+#endif
+  if constexpr (W <= 4) {
+    Pack<W> columns[4];
+    read_rows<W, 4>(row, columns);
+    x = columns[0];
+    y = columns[1];
+    z = columns[2];
+  }
+}
+
 }  // namespace pastefit

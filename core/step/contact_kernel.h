@@ -3,6 +3,7 @@
 
 #include "core/laws/contact.h"
 #include "core/laws/pack.h"
+#include "core/laws/transpose.h"
 #include "core/step/kernels.h"
 
 namespace pastefit::PASTEFIT_ISA {
@@ -21,29 +22,14 @@ struct Grains {
 
 /// Rows of the lanes' grains, turned into packs.
 PASTEFIT_INLINE Grains gather(const KernelTask& task, const std::int32_t* index) {
-  alignas(64) double m[8][kWidth];
-  alignas(64) double s[3][kWidth];
-  for (int lane = 0; lane < kWidth; ++lane) {
-    const Motion& motion = task.motion[index[lane]];
-    m[0][lane] = motion.position.x;
-    m[1][lane] = motion.position.y;
-    m[2][lane] = motion.position.z;
-    m[3][lane] = motion.radius;
-    m[4][lane] = motion.velocity.x;
-    m[5][lane] = motion.velocity.y;
-    m[6][lane] = motion.velocity.z;
-    m[7][lane] = motion.damping_rate;
-    const Spin& spin = task.spin[index[lane]];
-    s[0][lane] = spin.velocity.x;
-    s[1][lane] = spin.velocity.y;
-    s[2][lane] = spin.velocity.z;
-  }
+  Real columns[8];
+  read_rows<kWidth, 8>([&](int lane) { return &task.motion[index[lane]].position.x; }, columns);
   Grains g;
-  g.position = {Real::load(m[0]), Real::load(m[1]), Real::load(m[2])};
-  g.radius = Real::load(m[3]);
-  g.velocity = {Real::load(m[4]), Real::load(m[5]), Real::load(m[6])};
-  g.damping_rate = Real::load(m[7]);
-  g.spin = {Real::load(s[0]), Real::load(s[1]), Real::load(s[2])};
+  g.position = {columns[0], columns[1], columns[2]};
+  g.radius = columns[3];
+  g.velocity = {columns[4], columns[5], columns[6]};
+  g.damping_rate = columns[7];
+  read_triples([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z);
   return g;
 }
 
@@ -57,15 +43,25 @@ PASTEFIT_INLINE void store(double* const columns[3], std::int32_t k, const Vecto
   v.z.store(columns[2] + k);
 }
 
-PASTEFIT_INLINE void add(Load& load, const double (&rows)[8][kWidth], int lane, double sign) {
-  load.force.x += sign * rows[0][lane];
-  load.force.y += sign * rows[1][lane];
-  load.force.z += sign * rows[2][lane];
-  load.damping += rows[3][lane];
-  load.torque.x += rows[4][lane];
-  load.torque.y += rows[5][lane];
-  load.torque.z += rows[6][lane];
-  load.stiffness += rows[7][lane];
+/// Adds column l of the eight packs to the loads of the l-th pair, one pair after the other: two lanes may name the same
+/// grain, and the order of the sums is part of the contract of determinism.
+PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int32_t* j, const Real (&on_i)[8],
+                              const Real (&on_j)[8]) {
+  for (int block = 0; block < 8; block += kWidth) {
+    Real part_i[kWidth], part_j[kWidth];
+    for (int k = 0; k < kWidth; ++k) {
+      part_i[k] = on_i[block + k];
+      part_j[k] = on_j[block + k];
+    }
+    square(part_i);
+    square(part_j);
+    for (int lane = 0; lane < kWidth; ++lane) {
+      double* row_i = &load[i[lane]].force.x + block;
+      (Real::load(row_i) + part_i[lane]).store(row_i);
+      double* row_j = &load[j[lane]].force.x + block;
+      (Real::load(row_j) + part_j[lane]).store(row_j);
+    }
+  }
 }
 
 /// Memory columns of batch k in and out; roll only where the rolling law has memory.
@@ -122,19 +118,11 @@ void pair_kernel(const KernelTask& task) {
     const Vector turning = cross(meeting.normal, action.traction);
     const Vector torque_a = lever_a * turning + action.moment;
     const Vector torque_b = lever_b * turning - action.moment;
-    alignas(64) double rows_a[8][kWidth], rows_b[8][kWidth];
-    const Real* const parts_a[8] = {&force.x,    &force.y,    &force.z,    &action.damping,
-                                    &torque_a.x, &torque_a.y, &torque_a.z, &action.stiffness};
-    const Real* const parts_b[8] = {&force.x,    &force.y,    &force.z,    &action.damping,
-                                    &torque_b.x, &torque_b.y, &torque_b.z, &action.stiffness};
-    for (int p = 0; p < 8; ++p) {
-      parts_a[p]->store(rows_a[p]);
-      parts_b[p]->store(rows_b[p]);
-    }
-    for (int lane = 0; lane < kWidth; ++lane) {
-      add(task.load[c.i[k + lane]], rows_a, lane, 1.0);
-      add(task.load[c.j[k + lane]], rows_b, lane, -1.0);
-    }
+    const Real on_a[8] = {force.x,    force.y,    force.z,    action.damping,
+                          torque_a.x, torque_a.y, torque_a.z, action.stiffness};
+    const Real on_b[8] = {-force.x,   -force.y,   -force.z,   action.damping,
+                          torque_b.x, torque_b.y, torque_b.z, action.stiffness};
+    add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
   }
 }
 
