@@ -21,16 +21,28 @@ class SlumpRun {
   SlumpRun(const SlumpTable& test, const Packing& packing, const RunOptions& options)
       : test_(test), world_(make_world(test, packing)), runner_(world_, options, step_options(options)) {}
 
-  std::optional<Failure> relax_in_mould() { return runner_.relax("step1.relax", kRelaxCap); }
+  /// The struck-off surface is level with the rim by definition: the ruler is set to zero slump there. Between the tops of
+  /// coarse grains the surface lies a little below it, here as in every later reading, and soft grains settle by a
+  /// millimetre or two under their own weight and cohesion.
+  std::optional<Failure> relax_in_mould() {
+    if (auto problem = runner_.relax("step1.relax", kRelaxCap)) return problem;
+    axis_zero_ = test_.mould.height_m - height_at_axis(world_.particles, test_.grains.radius_m,
+                                                       test_.reading.probe_diameter_m);
+    highest_zero_ = test_.mould.height_m - highest_point(world_.particles);
+    return {};
+  }
 
+  /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because then
+  /// nothing can move any more however much farther it rises.
   std::optional<Failure> lift_mould() {
     Wall& mould = world_.walls[kMould];
     mould.velocity = {0, 0, test_.lift_velocity_m_s};
     const auto clear = [&](const World& world) {
       return world.step % 64 == 0 && std::get<Shell>(mould.shape).base.z > highest_point(world.particles);
     };
+    const auto untouched = [&](const World&) { return norm(mould.force) == 0; };
     const double longest = 1.5 * test_.mould.height_m / test_.lift_velocity_m_s;
-    if (auto problem = runner_.run("step1.lift", longest, {}, clear)) return problem;
+    if (auto problem = runner_.run_until_rest("step1.lift", longest, untouched, clear)) return problem;
     world_.walls.pop_back();
     runner_.changed();
     return {};
@@ -91,7 +103,8 @@ class SlumpRun {
   void read(std::string_view step, Observables& readings) const {
     const Particles grains = on_table();
     const double radius = test_.grains.radius_m, probe = test_.reading.probe_diameter_m;
-    const double axis = height_at_axis(grains, radius, probe), highest = highest_point(grains);
+    const double axis = axis_zero_ + height_at_axis(grains, radius, probe);
+    const double highest = highest_zero_ + highest_point(grains);
     const double height = test_.reading.height == HeightReading::axis ? axis : highest;
     const auto set = [&](const char* name, double value) { readings.set(std::string(step) + name, value); };
     set(".height_mm", 1e3 * height);
@@ -169,6 +182,7 @@ class SlumpRun {
   const SlumpTable& test_;
   World world_;
   Runner runner_;
+  double axis_zero_ = 0, highest_zero_ = 0;  ///< rim less reading of the struck-off fill [m]
 };
 
 }  // namespace

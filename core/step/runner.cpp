@@ -78,21 +78,30 @@ std::optional<Failure> Runner::run(std::string_view phase, double duration_s, co
   return {};
 }
 
-Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion) {
+Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion,
+                                   const std::function<bool(const World&)>& free,
+                                   const std::function<bool(const World&)>& done) {
   const double radius = world_.reference_radius;
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
   Pose before = pose_of(world_.particles);
   for (double waited = 0; waited < cap_s; waited += criterion.window_s) {
-    wait.failure = run(phase, criterion.window_s);
-    if (wait.failure) return wait;
+    wait.failure = run(phase, criterion.window_s, {}, done);
+    if (wait.failure || (done && done(world_))) return wait;
     const Pose now = pose_of(world_.particles);
     wait.change = largest_change(now, before);
     wait.rested = now.speed < slow && wait.change < criterion.change_over_radius * radius;
-    if (wait.rested) return wait;
+    if (wait.rested && (!free || free(world_))) return wait;
     before = now;
   }
   return wait;
+}
+
+std::optional<Failure> Runner::run_until_rest(std::string_view phase, double longest_s,
+                                              const std::function<bool(const World&)>& free,
+                                              const std::function<bool(const World&)>& done,
+                                              const RestCriterion& criterion) {
+  return wait_for_rest(phase, longest_s, criterion, free, done).failure;
 }
 
 std::optional<Failure> Runner::settle(std::string_view phase, double cap_s, const RestCriterion& criterion) {

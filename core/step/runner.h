@@ -28,6 +28,12 @@ class Runner {
   std::optional<Failure> run(std::string_view phase, double duration_s, const Drive& drive = {},
                              const std::function<bool(const World&)>& done = {});
 
+  /// Runs `run` in windows until the heap is at rest and `free` holds, or `done` does, for `longest_s` at most.
+  std::optional<Failure> run_until_rest(std::string_view phase, double longest_s,
+                                        const std::function<bool(const World&)>& free,
+                                        const std::function<bool(const World&)>& done,
+                                        const RestCriterion& criterion = {});
+
   /// Steps until the heap is at rest, for `cap_s` at most; at the cap the run goes on, marked as not settled, unless
   /// the heap still moves fast enough that its readings mean nothing.
   std::optional<Failure> settle(std::string_view phase, double cap_s, const RestCriterion& criterion = {});
@@ -46,7 +52,9 @@ class Runner {
     bool rested = false;
     double change = 0;  ///< in the last window [m]
   };
-  Wait wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion);
+  Wait wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion,
+                     const std::function<bool(const World&)>& free = {},
+                     const std::function<bool(const World&)>& done = {});
   std::optional<Failure> tell(std::string_view phase);
 
   World& world_;

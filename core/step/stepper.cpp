@@ -7,7 +7,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kStepsPerSelection = 10;  // selections are a tenth of the work of a step; see README
+constexpr double kStepsPerSelection = 12;  // selections are a tenth of the work of a step; see README
 constexpr double kSmallestMargin = 0.01;   // of the mean radius
 constexpr double kLargestMargin = 0.2;
 constexpr double kGrowth = 1.05;       // a step may grow by 5 % between two selections

@@ -16,7 +16,7 @@ struct StepOptions {
   double impact_resolution = 15;       ///< steps in the shortest Hertz collision
   double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
   double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
-  double skin = 0.4;                   ///< skin of the candidate list over the mean radius
+  double skin = 0.8;                   ///< skin of the candidate list over the mean radius
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 
