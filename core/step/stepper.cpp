@@ -214,6 +214,7 @@ void Stepper::integrate(double dt) {
   Particles& particles = world_.particles;
   const double kick = 0.5 * (dt_ + dt);  // from the half step before to the half step after
   const double fall = kick * world_.gravity;
+  const double kept = 1 / (1 + kick * world_.drag);
   double fastest = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     Motion& motion = particles.motion[i];
@@ -222,10 +223,12 @@ void Stepper::integrate(double dt) {
     const double lightness = spin.inverse_mass;
     motion.velocity += (kick * lightness) * load.force;
     motion.velocity.z -= fall;
+    motion.velocity = kept * motion.velocity;
     motion.position += dt * motion.velocity;
     motion.damping_rate = load.damping * lightness;
     const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
     spin.velocity += (kick * inverse_inertia) * load.torque;
+    spin.velocity = kept * spin.velocity;
     const double square = dot(motion.velocity, motion.velocity);
     // Written so that a value that is not a number counts as beyond the bound.
     if (!(square < kRunawaySpeed * kRunawaySpeed)) runaway_ = i;

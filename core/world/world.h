@@ -25,6 +25,7 @@ class World {
   RollingModel rolling = RollingModel::none;
   double reference_radius = 1;  ///< mean radius: the size the bridge's numbers belong to [m]
   double gravity = kGravity;
+  double drag = 0;  ///< share of its velocity a grain loses in a second [1/s]; for phases that are no part of the test
 
   double time = 0;  ///< [s]
   std::int64_t step = 0;
