@@ -58,4 +58,16 @@ struct CapillaryAttraction {
   }
 };
 
+/// Attraction of a pair at overlap d, none while it touches; forms and ruptures its bridge (`alive` 0 or 1).
+template <class Attraction, class Real>
+PASTEFIT_INLINE Pull<Real> bridge_pull(const PairConstants& k, Real overlap, Real scale, Real& alive) {
+  const Real zero(0.0), one(1.0);
+  const Real gap = -overlap;
+  const Real formed = select(gap <= Real(k.formation_gap) * scale, one, alive);
+  alive = select(gap <= Real(k.rupture_gap) * scale, formed, zero);
+  const Pull<Real> pull = Attraction::at(k, smaller(overlap, zero), scale);
+  const Real pulling = select(overlap > zero, zero, alive);
+  return {pulling * pull.force, pulling * pull.slope};
+}
+
 }  // namespace pastefit

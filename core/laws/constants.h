@@ -7,18 +7,18 @@ namespace pastefit {
 /// What a contact law needs to know of a pair of surfaces, computed once per pair before a run.
 /// Lengths and forces of the attraction are those of a pair of reference grains; see `Bridge` for other sizes.
 struct PairConstants {
-  double hertz = 0;                ///< 4/3 E* [Pa]
-  double normal_stiffness = 0;     ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
-  double tangential_ratio = 0;     ///< S_t / S_n = 4 G*/E*
+  double hertz = 0;                  ///< 4/3 E* [Pa]
+  double normal_stiffness = 0;       ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
+  double tangential_ratio = 0;       ///< S_t / S_n = 4 G*/E*
   double root_tangential_ratio = 0;  ///< sqrt(S_t / S_n)
-  double damping = 0;              ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
-  double friction = 0;             ///< Coulomb coefficient
-  bool friction_of_total = false;  ///< limit mu N with N the total normal force instead of the elastic repulsion
-  double rolling_friction = 0;     ///< mu_r
-  double roll_stiffness_share = 0;  ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
-  double roll_damping = 0;          ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  double cohesion = 0;             ///< constant attraction in overlap [N]
-  double bridge_a = 0;             ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  double damping = 0;                ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
+  double friction = 0;               ///< Coulomb coefficient
+  bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
+  double rolling_friction = 0;       ///< mu_r
+  double roll_stiffness_share = 0;   ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
+  double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
+  double cohesion = 0;               ///< constant attraction in overlap [N]
+  double bridge_a = 0;               ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
   double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
   double bridge_c = 0;       ///< attraction at touch [N]
   double rupture_gap = 0;    ///< -d_c [m]

@@ -108,8 +108,8 @@ struct ConstantTorqueRolling {
 ///   rolling resistance.
 /// gap, bridge alive: attraction F(d). A bridge forms at the formation gap and lives until the rupture gap.
 ///
-/// Damping. Velocities are those of the half step before (leapfrog). With the coefficient c/(1 + c dt/(2 m*)) the decay of
-/// a single damped collision is right to second order in dt; the damping of all other contacts of the two bodies
+/// Damping. Velocities are those of the half step before (leapfrog). With the coefficient c/(1 + c dt/(2 m*)) the decay
+/// of a single damped collision is right to second order in dt; the damping of all other contacts of the two bodies
 /// enters the denominator in full, which keeps a grain with many damped contacts stable at any step: with
 /// C = sum of c/m over a grain's contacts no grain loses more than its relative velocity within a step.
 ///
@@ -163,13 +163,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.damping = largest_damping;
 
   if constexpr (Attraction::present) {
-    const Real gap = -m.overlap;
-    const Real formed = select(gap <= Real(k.formation_gap) * m.size_scale, one, memory.bridge);
-    memory.bridge = select(gap <= Real(k.rupture_gap) * m.size_scale, formed, zero);
-    const Pull<Real> pull = Attraction::at(k, smaller(m.overlap, zero), m.size_scale);
-    const Real alive = select(touching, zero, memory.bridge);
-    action.push = action.push - alive * pull.force;
-    action.stiffness = larger(action.stiffness, alive * pull.slope);
+    const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, m.size_scale, memory.bridge);
+    action.push = action.push - pull.force;
+    action.stiffness = larger(action.stiffness, pull.slope);
   }
 
   const Real load = k.friction_of_total ? larger(action.push, zero) : repulsion;
@@ -205,8 +201,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.traction = -kept * traction;
 
   if constexpr (Rolling::present) {
-    // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the same
-    // expression serves all sizes.
+    // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the
+    // same expression serves all sizes.
     const Real inverse_square = inverse_both * traction_square;
     if constexpr (Rolling::elastic) {
       const Real kept_r = detail::cap(moment_square, inverse_square, roll_limit);

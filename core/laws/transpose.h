@@ -25,7 +25,8 @@ PASTEFIT_INLINE void square(Pack<4> (&p)[4]) {
 #endif
 
 #ifdef __AVX512F__
-// The masked forms with a full mask avoid a false warning of GCC 12 about the unmasked ones and compile to the same code.
+// The masked forms with a full mask avoid a false warning of GCC 12 about the unmasked ones and compile to the same
+// code.
 template <int control>
 PASTEFIT_INLINE __m512d quarters(__m512d a, __m512d b) {
   return _mm512_maskz_shuffle_f64x2(0xff, a, b, control);
@@ -60,15 +61,15 @@ PASTEFIT_INLINE void read_rows(Row row, Pack<W> (&packs)[N]) {
   }
 }
 
-/// The first three columns of rows of four doubles.
+/// The columns of rows of four doubles.
 template <int W, class Row>
-PASTEFIT_INLINE void read_triples(Row row, Pack<W>& x, Pack<W>& y, Pack<W>& z) {
+PASTEFIT_INLINE void read_quads(Row row, Pack<W>& x, Pack<W>& y, Pack<W>& z, Pack<W>& w) {
 #ifdef __AVX512F__
   if constexpr (W == 8) {
     __m512d pair[4];  // rows k and k + 4 side by side
     for (int k = 0; k < 4; ++k)
-      pair[k] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_load_pd(row(k))),
-                                         _mm256_load_pd(row(k + 4)), 1);
+      pair[k] =
+          _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_load_pd(row(k))), _mm256_load_pd(row(k + 4)), 1);
     const __m512d low01 = _mm512_maskz_unpacklo_pd(0xff, pair[0], pair[1]);
     const __m512d low23 = _mm512_maskz_unpacklo_pd(0xff, pair[2], pair[3]);
     const __m512d high01 = _mm512_maskz_unpackhi_pd(0xff, pair[0], pair[1]);
@@ -78,6 +79,7 @@ PASTEFIT_INLINE void read_triples(Row row, Pack<W>& x, Pack<W>& y, Pack<W>& z) {
     x.v = _mm512_permutex2var_pd(low01, first, low23);
     y.v = _mm512_permutex2var_pd(high01, first, high23);
     z.v = _mm512_permutex2var_pd(low01, second, low23);
+    w.v = _mm512_permutex2var_pd(high01, second, high23);
     return;
   }
 #endif
@@ -87,6 +89,7 @@ PASTEFIT_INLINE void read_triples(Row row, Pack<W>& x, Pack<W>& y, Pack<W>& z) {
     x = columns[0];
     y = columns[1];
     z = columns[2];
+    w = columns[3];
   }
 }
 

@@ -10,10 +10,10 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kRestCap = 4.0;      // [s] simulated time allowed for coming to rest
-constexpr double kRelaxCap = 0.5;     // [s] for the fill to come to rest under the candidate's own laws
-// [1/s]. The grains feel their cohesion all at once when the fill becomes this candidate's; without drag the column would
-// swing like a jelly for seconds.
+constexpr double kRestCap = 4.0;   // [s] simulated time allowed for coming to rest
+constexpr double kRelaxCap = 0.5;  // [s] for the fill to come to rest under the candidate's own laws
+// [1/s]. The grains feel their cohesion all at once when the fill becomes this candidate's; without drag the column
+// would swing like a jelly for seconds.
 constexpr double kRelaxDrag = 40;
 constexpr double kDropCap = 2.0;      // [s] for the plate to reach its stop
 constexpr double kGroundDepth = 0.1;  // [m] below the table
@@ -24,21 +24,21 @@ class SlumpRun {
   SlumpRun(const SlumpTable& test, const Packing& packing, const RunOptions& options)
       : test_(test), world_(make_world(test, packing)), runner_(world_, options, step_options(options)) {}
 
-  /// The struck-off surface is level with the rim by definition: the ruler is set to zero slump there. Between the tops of
-  /// coarse grains the surface lies a little below it, here as in every later reading, and soft grains settle by a
+  /// The struck-off surface is level with the rim by definition: the ruler is set to zero slump there. Between the tops
+  /// of coarse grains the surface lies a little below it, here as in every later reading, and soft grains settle by a
   /// millimetre or two under their own weight and cohesion.
   std::optional<Failure> relax_in_mould() {
     world_.drag = kRelaxDrag;
     if (auto problem = runner_.relax("step1.relax", kRelaxCap)) return problem;
     world_.drag = 0;
-    axis_zero_ = test_.mould.height_m - height_at_axis(world_.particles, test_.grains.radius_m,
-                                                       test_.reading.probe_diameter_m);
+    axis_zero_ =
+        test_.mould.height_m - height_at_axis(world_.particles, test_.grains.radius_m, test_.reading.probe_diameter_m);
     highest_zero_ = test_.mould.height_m - highest_point(world_.particles);
     return {};
   }
 
-  /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because then
-  /// nothing can move any more however much farther it rises.
+  /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because
+  /// then nothing can move any more however much farther it rises.
   std::optional<Failure> lift_mould() {
     Wall& mould = world_.walls[kMould];
     mould.velocity = {0, 0, test_.lift_velocity_m_s};

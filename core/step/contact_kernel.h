@@ -29,8 +29,22 @@ PASTEFIT_INLINE Grains gather(const KernelTask& task, const std::int32_t* index)
   g.radius = columns[3];
   g.velocity = {columns[4], columns[5], columns[6]};
   g.damping_rate = columns[7];
-  read_triples([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z);
+  Real inverse_mass;
+  read_quads([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z, inverse_mass);
   return g;
+}
+
+/// Where the lanes' grains are.
+struct Place {
+  Vector position;
+  Real radius;
+};
+
+PASTEFIT_INLINE Place locate(const KernelTask& task, const std::int32_t* index) {
+  Place p;
+  read_quads([&](int lane) { return &task.motion[index[lane]].position.x; }, p.position.x, p.position.y, p.position.z,
+             p.radius);
+  return p;
 }
 
 PASTEFIT_INLINE Vector load(const double* const columns[3], std::int32_t k) {
@@ -43,8 +57,8 @@ PASTEFIT_INLINE void store(double* const columns[3], std::int32_t k, const Vecto
   v.z.store(columns[2] + k);
 }
 
-/// Adds column l of the eight packs to the loads of the l-th pair, one pair after the other: two lanes may name the same
-/// grain, and the order of the sums is part of the contract of determinism.
+/// Adds column l of the eight packs to the loads of the l-th pair, one pair after the other: two lanes may name the
+/// same grain, and the order of the sums is part of the contract of determinism.
 PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int32_t* j, const Real (&on_i)[8],
                               const Real (&on_j)[8]) {
   for (int block = 0; block < 8; block += kWidth) {
@@ -126,6 +140,27 @@ void pair_kernel(const KernelTask& task) {
   }
 }
 
+/// Pairs held apart by more than they can approach before the next selection: attraction along the line of centres.
+template <class Attraction>
+void bridge_kernel(const KernelTask& task) {
+  const ContactView& c = task.contacts;
+  const Real zero(0.0);
+  for (std::int32_t k = 0; k < c.count; k += kWidth) {
+    const Place a = locate(task, c.i + k), b = locate(task, c.j + k);
+    const Vector between = b.position - a.position;
+    const Real distance = square_root(larger(dot(between, between), Real(1e-200)));
+    const Real scale = Real::load(c.size_scale + k);
+    const Real overlap = a.radius + b.radius - distance;
+    Real alive = Real::load(c.bridge + k);
+    const Pull<Real> pull = bridge_pull<Attraction>(task.pair, overlap, scale, alive);
+    alive.store(c.bridge + k);
+    const Vector force = (pull.force / distance) * between;
+    const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
+    const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
+    add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
+  }
+}
+
 template <class Attraction, class Rolling>
 void wall_kernel(const KernelTask& task) {
   const ContactView& c = task.contacts;
@@ -167,6 +202,8 @@ const KernelTable kernels = {
      PASTEFIT_ROW(pair_kernel, ExponentialAttraction), PASTEFIT_ROW(pair_kernel, CapillaryAttraction)},
     {PASTEFIT_ROW(wall_kernel, NoAttraction), PASTEFIT_ROW(wall_kernel, PolynomialAttraction),
      PASTEFIT_ROW(wall_kernel, ExponentialAttraction), PASTEFIT_ROW(wall_kernel, CapillaryAttraction)},
+    {nullptr, bridge_kernel<PolynomialAttraction>, bridge_kernel<ExponentialAttraction>,
+     bridge_kernel<CapillaryAttraction>},
     PASTEFIT_ISA_NAME};
 
 }  // namespace pastefit::PASTEFIT_ISA

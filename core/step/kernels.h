@@ -9,7 +9,8 @@
 
 namespace pastefit {
 
-/// Columns of contacts as a kernel sees them: plain pointers, begin .. end a multiple of kBatch, 64-byte aligned.
+/// Columns of contacts or bridges (which leave most empty) as a kernel sees them: plain pointers, begin .. end a
+/// multiple of kBatch, 64-byte aligned.
 struct ContactView {
   const std::int32_t *i, *j;
   const double *root_radius, *root_mass, *inverse_mass, *size_scale;
@@ -41,6 +42,7 @@ using Kernel = void (*)(const KernelTask&);
 struct KernelTable {
   Kernel pair[4][3];
   Kernel wall[4][3];
+  Kernel bridge[4];  ///< pairs that cannot touch; empty where there is no attraction
   std::string_view instruction_set;
 };
 

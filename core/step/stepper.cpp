@@ -27,7 +27,17 @@ ContactView view(Contacts& c) {
   }
   v.contact_radius = c.contact_radius.data();
   v.bridge = c.bridge.data();
-  v.count = static_cast<std::int32_t>(c.i.size());
+  v.count = c.padded();
+  return v;
+}
+
+ContactView view(Bridges& b) {
+  ContactView v{};
+  v.i = b.i.data();
+  v.j = b.j.data();
+  v.size_scale = b.size_scale.data();
+  v.bridge = b.bridge.data();
+  v.count = b.padded();
   return v;
 }
 
@@ -101,7 +111,7 @@ std::optional<Failure> Stepper::maintain_lists() {
   }
   if (!lists_valid_) {
     const std::vector<std::int32_t> new_place =
-        rebuild(particles, world_.contacts, world_.candidates, world_.reach(), skin);
+        rebuild(particles, world_.acting, world_.candidates, world_.reach(), skin);
     for (Wall& wall : world_.walls) renumber(wall, new_place);
     listed_position_.resize(particles.count());
     for (std::int32_t i = 0; i < particles.count(); ++i) listed_position_[i] = particles.motion[i].position;
@@ -109,7 +119,7 @@ std::optional<Failure> Stepper::maintain_lists() {
     lists_valid_ = true;
   }
   const Deepest deepest =
-      select_contacts(particles, world_.candidates, world_.contacts, scratch_, world_.reach(), margin_);
+      select_interactions(particles, world_.candidates, world_.acting, scratch_, world_.reach(), margin_);
   for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), margin_);
   used_margin_ = 0;
   health_ = {fastest_, deepest.overlap, deepest.grain};
@@ -126,10 +136,14 @@ void Stepper::compute_forces() {
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
-  task.contacts = view(world_.contacts);
+  task.contacts = view(world_.acting.contacts);
   task.pair = world_.grain_pair;
   task.dt = dt_;
   kernels_.pair[attraction][rolling](task);
+  if (world_.acting.bridges.count > 0) {
+    task.contacts = view(world_.acting.bridges);
+    kernels_.bridge[attraction](task);
+  }
   for (Wall& wall : world_.walls) act_on_wall(wall);
 }
 

@@ -11,12 +11,12 @@ namespace pastefit {
 
 /// How steps are taken.
 struct StepOptions {
-  std::optional<double> fixed_step_s;  ///< empty: the step follows from stiffness, impacts and bridges
-  double safety = 0.8;                 ///< share of the stable step
-  double impact_resolution = 15;       ///< steps in the shortest Hertz collision
-  double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
-  double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
-  double skin = 0.8;                   ///< skin of the candidate list over the mean radius
+  std::optional<double> fixed_step_s;    ///< empty: the step follows from stiffness, impacts and bridges
+  double safety = 0.8;                   ///< share of the stable step
+  double impact_resolution = 15;         ///< steps in the shortest Hertz collision
+  double bridge_resolution = 10;         ///< steps in which the fastest grain crosses a bridge
+  double overlap_limit = 0.5;            ///< largest overlap over the smaller radius; beyond it the run is invalid
+  double skin = 0.8;                     ///< skin of the candidate list over the mean radius
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 
@@ -57,7 +57,7 @@ class Stepper {
   World& world_;
   StepOptions options_;
   const KernelTable& kernels_;
-  Contacts scratch_;
+  Interactions scratch_;
   std::vector<Vec3> listed_position_;
 
   bool lists_valid_ = false;

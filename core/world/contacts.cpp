@@ -1,253 +1,85 @@
 #include "core/world/contacts.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pastefit {
 
-void Contacts::clear() {
-  i.clear();
-  j.clear();
-  for (Column<double>* c : {&root_radius, &root_mass, &inverse_mass, &size_scale, &contact_radius, &bridge}) c->clear();
-  for (int k = 0; k < 3; ++k) {
-    slip[k].clear();
-    roll[k].clear();
-  }
-  count = 0;
-}
-
-void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
-                      const ContactMemory& memory) {
-  i.push_back(a);
-  j.push_back(b);
-  root_radius.push_back(std::sqrt(effective_radius));
-  root_mass.push_back(std::sqrt(effective_mass));
-  inverse_mass.push_back(1 / effective_mass);
-  size_scale.push_back(scale);
-  slip[0].push_back(memory.slip.x);
-  slip[1].push_back(memory.slip.y);
-  slip[2].push_back(memory.slip.z);
-  roll[0].push_back(memory.roll.x);
-  roll[1].push_back(memory.roll.y);
-  roll[2].push_back(memory.roll.z);
-  contact_radius.push_back(memory.contact_radius);
-  bridge.push_back(memory.bridge);
-  ++count;
-}
-
-void Contacts::append(const Contacts& other, std::int32_t k) {
-  i.push_back(other.i[k]);
-  j.push_back(other.j[k]);
-  for (const auto column : {&Contacts::root_radius, &Contacts::root_mass, &Contacts::inverse_mass,
-                            &Contacts::size_scale, &Contacts::contact_radius, &Contacts::bridge})
-    (this->*column).push_back((other.*column)[k]);
-  for (int c = 0; c < 3; ++c) {
-    slip[c].push_back(other.slip[c][k]);
-    roll[c].push_back(other.roll[c][k]);
-  }
-  ++count;
-}
-
-void Contacts::pad(std::int32_t dummy) {
-  const std::int32_t real = count;
-  while (i.size() % kBatch != 0) append(dummy, dummy, 1.0, 1.0, 1.0, {});
-  count = real;
-}
-
 namespace {
 
-/// Cells of a box around the grains. Grains outside the box (none in a healthy run) are counted in its outermost cells.
-struct Grid {
-  Vec3 origin;
-  double inverse_size = 0;
-  std::int32_t nx = 1, ny = 1, nz = 1;
-
-  std::int32_t cells() const { return nx * ny * nz; }
-  std::int32_t along(double offset, std::int32_t n) const {
-    const double k = offset * inverse_size;
-    return k > 0 ? std::min(static_cast<std::int32_t>(std::min(k, 1e9)), n - 1) : 0;
-  }
-  std::int32_t cell(const Vec3& p) const {
-    return (along(p.z - origin.z, nz) * ny + along(p.y - origin.y, ny)) * nx + along(p.x - origin.x, nx);
-  }
-};
-
-Grid make_grid(const Particles& particles, double size) {
-  Vec3 low = particles.motion[0].position, high = low;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Vec3& p = particles.motion[i].position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  // A handful of stray grains must not make the grid huge: larger cells are slower, never wrong.
-  const double most_cells = 64.0 * particles.count() + 1000;
-  const Vec3 span = high - low;
-  while ((span.x / size + 1) * (span.y / size + 1) * (span.z / size + 1) > most_cells) size *= 1.3;
-  Grid grid;
-  grid.origin = low;
-  grid.inverse_size = 1 / size;
-  grid.nx = static_cast<std::int32_t>(span.x / size) + 1;
-  grid.ny = static_cast<std::int32_t>(span.y / size) + 1;
-  grid.nz = static_cast<std::int32_t>(span.z / size) + 1;
-  return grid;
-}
-
-/// Old index of the grain at each new place, by cell, and the first place of every cell.
-void sort_by_cell(const Particles& particles, const Grid& grid, std::vector<std::int32_t>& order,
-                  std::vector<std::int32_t>& first) {
-  const std::int32_t n = particles.count();
-  std::vector<std::int32_t> cell(n);
-  first.assign(grid.cells() + 1, 0);
-  for (std::int32_t i = 0; i < n; ++i) {
-    cell[i] = grid.cell(particles.motion[i].position);
-    ++first[cell[i] + 1];
-  }
-  for (std::int32_t c = 0; c < grid.cells(); ++c) first[c + 1] += first[c];
-  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-  order.resize(n);
-  for (std::int32_t i = 0; i < n; ++i) order[next[cell[i]]++] = i;
-}
-
-double largest_radius(const Particles& particles) {
-  double largest = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i) largest = std::max(largest, particles.motion[i].radius);
-  return largest;
-}
-
-/// 2 R*/R_ref of two grains.
-double size_scale(double r1, double r2, double reference_radius) {
-  return 2 * r1 * r2 / ((r1 + r2) * reference_radius);
-}
-
-/// Contacts grouped by the lower index of their grains: memory found again after the grains have been sorted.
-class Remembered {
- public:
-  Remembered(const Contacts& contacts, const std::vector<std::int32_t>& new_place, std::int32_t grains)
-      : first_(grains + 1, 0) {
-    for (std::int32_t k = 0; k < contacts.count; ++k) ++first_[lower(contacts, new_place, k) + 1];
-    for (std::int32_t i = 0; i < grains; ++i) first_[i + 1] += first_[i];
-    std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-    upper_.resize(contacts.count);
-    contact_.resize(contacts.count);
-    for (std::int32_t k = 0; k < contacts.count; ++k) {
-      const std::int32_t a = new_place[contacts.i[k]], b = new_place[contacts.j[k]];
-      const std::int32_t place = next[std::min(a, b)]++;
-      upper_[place] = std::max(a, b);
-      contact_[place] = k;
-    }
-  }
-
-  std::int32_t find(std::int32_t i, std::int32_t j) const {
-    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p)
-      if (upper_[p] == j) return contact_[p];
-    return -1;
-  }
-
- private:
-  static std::int32_t lower(const Contacts& contacts, const std::vector<std::int32_t>& new_place, std::int32_t k) {
-    return std::min(new_place[contacts.i[k]], new_place[contacts.j[k]]);
-  }
-  std::vector<std::int32_t> first_, upper_, contact_;
-};
-
-/// Gives the contacts the new indices; a pair whose order changes is seen from the other side: its vectors change sign.
-void renumber(Contacts& contacts, const std::vector<std::int32_t>& new_place) {
-  for (std::int32_t k = 0; k < contacts.count; ++k) {
-    const std::int32_t a = new_place[contacts.i[k]], b = new_place[contacts.j[k]];
-    contacts.i[k] = std::min(a, b);
-    contacts.j[k] = std::max(a, b);
-    if (a < b) continue;
-    for (int c = 0; c < 3; ++c) {
-      contacts.slip[c][k] = -contacts.slip[c][k];
-      contacts.roll[c][k] = -contacts.roll[c][k];
-    }
-  }
+/// Columns grow by half at a time, so that a steady scene allocates nothing.
+template <class... Columns>
+void grow(std::int32_t n, Columns&... columns) {
+  const auto grow_one = [n](auto& column) {
+    const std::size_t needed = static_cast<std::size_t>(n) + kBatch;
+    if (column.size() < needed) column.resize(needed + needed / 2);
+  };
+  (grow_one(columns), ...);
 }
 
 }  // namespace
 
-std::vector<std::int32_t> rebuild(Particles& particles, Contacts& contacts, Candidates& candidates, const Reach& reach,
-                                  double skin) {
-  const std::int32_t n = particles.count();
-  const double largest = largest_radius(particles);
-  const double farthest = std::max(reach.formation_gap, reach.rupture_gap) / reach.reference_radius;
-  const Grid grid = make_grid(particles, 2 * largest + farthest * largest + skin);
-
-  std::vector<std::int32_t> order, first;
-  sort_by_cell(particles, grid, order, first);
-  reorder(particles, order);
-  std::vector<std::int32_t> new_place(n);
-  for (std::int32_t k = 0; k < n; ++k) new_place[order[k]] = k;
-  const Remembered remembered(contacts, new_place, n);
-  renumber(contacts, new_place);
-
-  candidates.i.clear();
-  candidates.j.clear();
-  candidates.contact.clear();
-  const auto look = [&](std::int32_t i, std::int32_t begin, std::int32_t end) {
-    const Motion& a = particles.motion[i];
-    for (std::int32_t j = begin; j < end; ++j) {
-      const Motion& b = particles.motion[j];
-      const Vec3 between = b.position - a.position;
-      const double range = a.radius + b.radius + farthest * 2 * a.radius * b.radius / (a.radius + b.radius) + skin;
-      if (dot(between, between) >= range * range) continue;
-      candidates.i.push_back(i);
-      candidates.j.push_back(j);
-      candidates.contact.push_back(remembered.find(i, j));
-    }
-  };
-  // Half of the neighbourhood: the rest of this cell's row, and the three cells above it in each later row. Cells along
-  // x are neighbours in memory, so a row of three is one range.
-  for (std::int32_t z = 0; z < grid.nz; ++z)
-    for (std::int32_t y = 0; y < grid.ny; ++y)
-      for (std::int32_t x = 0; x < grid.nx; ++x) {
-        const std::int32_t cell = (z * grid.ny + y) * grid.nx + x;
-        const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, grid.nx - 1);
-        for (std::int32_t i = first[cell]; i < first[cell + 1]; ++i) {
-          look(i, i + 1, first[cell - x + right + 1]);
-          const auto look_row = [&](std::int32_t row_y, std::int32_t row_z) {
-            if (row_y < 0 || row_y >= grid.ny || row_z >= grid.nz) return;
-            const std::int32_t row = (row_z * grid.ny + row_y) * grid.nx;
-            look(i, first[row + left], first[row + right + 1]);
-          };
-          look_row(y + 1, z);
-          for (std::int32_t dy = -1; dy <= 1; ++dy) look_row(y + dy, z + 1);
-        }
-      }
-  return new_place;
+void Contacts::reserve(std::int32_t n) {
+  grow(n, i, j, root_radius, root_mass, inverse_mass, size_scale, slip[0], slip[1], slip[2], roll[0], roll[1], roll[2],
+       contact_radius, bridge);
 }
 
-Deepest select_contacts(const Particles& particles, Candidates& candidates, Contacts& contacts, Contacts& scratch,
-                        const Reach& reach, double margin) {
-  scratch.clear();
-  Deepest deepest;
-  const std::size_t n = candidates.i.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    const std::int32_t i = candidates.i[c], j = candidates.j[c], k = candidates.contact[c];
-    const Motion &a = particles.motion[i], &b = particles.motion[j];
-    const Vec3 between = b.position - a.position;
-    const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
-    const bool bridged = k >= 0 && contacts.bridge[k] > 0;
-    const double gap = bridged ? reach.rupture_gap : std::min(reach.formation_gap, reach.rupture_gap);
-    const double range = a.radius + b.radius + gap * scale + margin;
-    const double square = dot(between, between);
-    if (square >= range * range) {
-      candidates.contact[c] = -1;
-      continue;
-    }
-    const double overlap = (a.radius + b.radius - std::sqrt(square)) / std::min(a.radius, b.radius);
-    if (overlap > deepest.overlap) deepest = {overlap, i};
-    candidates.contact[c] = scratch.count;
-    if (k >= 0) {
-      scratch.append(contacts, k);
-    } else {
-      const double ma = particles.spin[i].inverse_mass, mb = particles.spin[j].inverse_mass;
-      scratch.append(i, j, a.radius * b.radius / (a.radius + b.radius), 1 / (ma + mb), scale, {});
-    }
+void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
+                      const ContactMemory& memory) {
+  const std::int32_t k = count++;
+  i[k] = a;
+  j[k] = b;
+  root_radius[k] = std::sqrt(effective_radius);
+  root_mass[k] = std::sqrt(effective_mass);
+  inverse_mass[k] = 1 / effective_mass;
+  size_scale[k] = scale;
+  slip[0][k] = memory.slip.x;
+  slip[1][k] = memory.slip.y;
+  slip[2][k] = memory.slip.z;
+  roll[0][k] = memory.roll.x;
+  roll[1][k] = memory.roll.y;
+  roll[2][k] = memory.roll.z;
+  contact_radius[k] = memory.contact_radius;
+  bridge[k] = memory.bridge;
+}
+
+void Contacts::append(const Contacts& other, std::int32_t k) {
+  const std::int32_t n = count++;
+  i[n] = other.i[k];
+  j[n] = other.j[k];
+  root_radius[n] = other.root_radius[k];
+  root_mass[n] = other.root_mass[k];
+  inverse_mass[n] = other.inverse_mass[k];
+  size_scale[n] = other.size_scale[k];
+  for (int c = 0; c < 3; ++c) {
+    slip[c][n] = other.slip[c][k];
+    roll[c][n] = other.roll[c][k];
   }
-  scratch.pad(particles.count());
-  std::swap(contacts, scratch);
-  return deepest;
+  contact_radius[n] = other.contact_radius[k];
+  bridge[n] = other.bridge[k];
+}
+
+void Contacts::pad(std::int32_t dummy) {
+  const std::int32_t real = count;
+  while (count % kBatch != 0) append(dummy, dummy, 1.0, 1.0, 1.0, {});
+  count = real;
+}
+
+void Bridges::reserve(std::int32_t n) {
+  grow(n, i, j, size_scale, bridge);
+}
+
+void Bridges::append(std::int32_t a, std::int32_t b, double scale, double alive) {
+  const std::int32_t k = count++;
+  i[k] = a;
+  j[k] = b;
+  size_scale[k] = scale;
+  bridge[k] = alive;
+}
+
+void Bridges::pad(std::int32_t dummy) {
+  const std::int32_t real = count;
+  while (count % kBatch != 0) append(dummy, dummy, 1.0, 0.0);
+  count = real;
 }
 
 }  // namespace pastefit

@@ -21,8 +21,9 @@ struct ContactMemory {
   double bridge = 0;
 };
 
-/// Pairs that touch, hold a bridge, or may do so before the next look, as columns. 14 columns, 112 bytes a contact.
+/// Pairs that touch or may touch before the next selection, as columns: 14 of them, 112 bytes a contact.
 /// Order: by i, then by j; the sums of a step are taken in this order on every machine.
+/// The columns are as long as the longest list so far and are not cleared: `count` says how much of them is meant.
 struct Contacts {
   Column<std::int32_t> i, j;
   Column<double> root_radius, root_mass, inverse_mass, size_scale;
@@ -30,42 +31,31 @@ struct Contacts {
   Column<double> contact_radius, bridge;
   std::int32_t count = 0;  ///< without padding
 
-  void clear();
+  std::int32_t padded() const { return (count + kBatch - 1) / kBatch * kBatch; }
+  void clear() { count = 0; }
+  /// Makes room for n contacts and their padding.
+  void reserve(std::int32_t n);
+  /// Requirement: there is room.
   void append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
               const ContactMemory& memory);
   /// Takes over contact k of another list with all it holds.
   void append(const Contacts& other, std::int32_t k);
-  /// Fills up to a multiple of kBatch with contacts of the dummy particle.
+  /// Fills up to a multiple of kBatch with contacts of the dummy particle. Requirement: there is room.
   void pad(std::int32_t dummy);
 };
 
-/// Pairs near enough that they may meet before the lists are made again.
-struct Candidates {
-  std::vector<std::int32_t> i, j;
-  std::vector<std::int32_t> contact;  ///< index in Contacts, or -1
+/// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need
+/// is the distance. 4 columns, 24 bytes a pair. Order, length and padding as in `Contacts`.
+struct Bridges {
+  Column<std::int32_t> i, j;
+  Column<double> size_scale, bridge;
+  std::int32_t count = 0;
+
+  std::int32_t padded() const { return (count + kBatch - 1) / kBatch * kBatch; }
+  void clear() { count = 0; }
+  void reserve(std::int32_t n);
+  void append(std::int32_t a, std::int32_t b, double scale, double alive);
+  void pad(std::int32_t dummy);
 };
-
-/// How far beyond touching two grains can act on each other.
-struct Reach {
-  double formation_gap = 0;  ///< at the reference radius: a bridge may form within it [m]
-  double rupture_gap = 0;    ///< at the reference radius: a living bridge acts within it [m]
-  double reference_radius = 1;
-};
-
-/// Sorts the grains in space (cells of the largest interaction plus skin, x fastest) and lists all pairs whose gap is
-/// below reach + skin. Contacts keep their memory; it is turned where a pair's order changes.
-/// Returns the new place of every grain by its old one, for those who also hold indices.
-std::vector<std::int32_t> rebuild(Particles& particles, Contacts& contacts, Candidates& candidates, const Reach& reach,
-                                  double skin);
-
-/// The deepest overlap of two grains over the smaller radius, and one of them.
-struct Deepest {
-  double overlap = 0;
-  std::int32_t grain = -1;
-};
-
-/// Chooses from the candidates the pairs that act or may act while no gap shrinks by more than `margin`.
-Deepest select_contacts(const Particles& particles, Candidates& candidates, Contacts& contacts, Contacts& scratch,
-                        const Reach& reach, double margin);
 
 }  // namespace pastefit

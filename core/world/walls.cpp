@@ -70,7 +70,8 @@ void move(Wall& wall, double dt) {
 void select_contacts(const Particles& particles, Wall& wall, const Reach& reach, double margin) {
   WallContacts& touching = wall.touching;
   // Both lists are in the order of the grains: one pass merges memory into the new list.
-  Contacts kept;
+  Contacts& kept = touching.scratch;
+  kept.clear();
   std::int32_t old = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     while (old < touching.contacts.count && touching.contacts.i[old] < i) ++old;
@@ -80,14 +81,16 @@ void select_contacts(const Particles& particles, Wall& wall, const Reach& reach,
     const bool bridged = known && touching.contacts.bridge[old] > 0;
     const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
     if (nearest(wall.shape, grain.position).distance >= grain.radius + gap * scale + margin) continue;
+    kept.reserve(kept.count + 1);
     if (known)
       kept.append(touching.contacts, old);
     else
       kept.append(i, i, grain.radius, particles.mass(i), scale, {});
   }
+  kept.reserve(kept.count);
   kept.pad(particles.count());
-  touching.contacts = std::move(kept);
-  const std::size_t n = touching.contacts.i.size();
+  std::swap(touching.contacts, kept);
+  const auto n = static_cast<std::size_t>(touching.contacts.padded());
   for (auto* columns : {&touching.normal, &touching.wall_velocity, &touching.force, &touching.moment})
     for (auto& column : *columns) column.assign(n, 0.0);
   touching.overlap.assign(n, -1.0);
@@ -103,9 +106,11 @@ void renumber(Wall& wall, const std::vector<std::int32_t>& new_place) {
     order[k] = k;
   }
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return contacts.i[a] < contacts.i[b]; });
-  Contacts sorted;
+  Contacts& sorted = wall.touching.scratch;
+  sorted.clear();
+  sorted.reserve(contacts.count);
   for (const std::int32_t k : order) sorted.append(contacts, k);
-  contacts = std::move(sorted);
+  std::swap(contacts, sorted);
 }
 
 }  // namespace pastefit

@@ -9,6 +9,7 @@
 #include "core/vec3.h"
 #include "core/world/aligned.h"
 #include "core/world/contacts.h"
+#include "core/world/neighbours.h"
 
 namespace pastefit {
 
@@ -46,7 +47,7 @@ Nearest nearest(const Shape& shape, const Vec3& centre);
 
 /// Contacts of grains with one wall; columns beside those of `Contacts` (whose j is unused).
 struct WallContacts {
-  Contacts contacts;
+  Contacts contacts, scratch;
   std::array<Column<double>, 3> normal, wall_velocity;
   Column<double> overlap;
   std::array<Column<double>, 3> force, moment;  ///< of the wall on the grain, written by the kernel

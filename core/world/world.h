@@ -5,7 +5,7 @@
 
 #include "core/laws/constants.h"
 #include "core/rigs/materials.h"
-#include "core/world/contacts.h"
+#include "core/world/neighbours.h"
 #include "core/world/particles.h"
 #include "core/world/walls.h"
 
@@ -17,7 +17,7 @@ inline constexpr double kGravity = 9.81;  ///< [m/s^2], downwards along z
 class World {
  public:
   Particles particles;
-  Contacts contacts;
+  Interactions acting;
   Candidates candidates;
   std::vector<Wall> walls;
   PairConstants grain_pair;

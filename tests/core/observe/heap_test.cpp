@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include "core/observe/heap.h"
+
+#include <catch2/catch.hpp>
 
 using namespace pastefit;
 

@@ -18,8 +18,16 @@ SlumpTable small_test(double strength_in_weights) {
   const double weight = test.bulk_density_kg_m3 / 0.6 * 4.19 * r * r * r * 9.81;
   const double c = strength_in_weights * weight;
   if (c > 0)
-    test.contact.bridge = {BridgeShape::polynomial, BridgeFormation::film, c / (0.09 * r * r), 2 * c / (0.3 * r), c,
-                           -0.3 * r, 0.15 * r, 0, 0, 0};
+    test.contact.bridge = {BridgeShape::polynomial,
+                           BridgeFormation::film,
+                           c / (0.09 * r * r),
+                           2 * c / (0.3 * r),
+                           c,
+                           -0.3 * r,
+                           0.15 * r,
+                           0,
+                           0,
+                           0};
   return test;
 }
 
@@ -29,7 +37,8 @@ TEST_CASE("the mould is filled level with its rim") {
   const auto packing = fill_mould(small_test(0));
   REQUIRE_FALSE(packing->failure);
   double top = 0;
-  for (std::size_t i = 0; i < packing->radii.size(); ++i) top = std::max(top, packing->centres[i].z + packing->radii[i]);
+  for (std::size_t i = 0; i < packing->radii.size(); ++i)
+    top = std::max(top, packing->centres[i].z + packing->radii[i]);
   CHECK(top == Approx(0.2).margin(0.002));
   const double fraction = packing->solid_volume_m3 / volume_m3(Mould{});
   CHECK(fraction > 0.54);

@@ -58,7 +58,8 @@ TEST_CASE("the restitution that comes out is the one that was put in") {
 }
 
 TEST_CASE("a sliding impact turns the grain as Coulomb friction says") {
-  // Chung & Ooi 2011, test 4 in gross sliding: tangential restitution 1 - mu(1+e)/tan(theta), spin 5 mu(1+e) v cos/(2R).
+  // Chung & Ooi 2011, test 4 in gross sliding: tangential restitution 1 - mu(1+e)/tan(theta), spin 5 mu(1+e) v
+  // cos/(2R).
   ContactModel model = glass(0.98, 0.092);
   model.youngs_modulus_pa = 7e10;
   model.poissons_ratio = 0.33;
@@ -147,7 +148,8 @@ TEST_CASE("no oblique collision gains energy") {
     const double angle = 0.5 * std::numbers::pi * (n % 20 + 0.5) / 20, e = 0.1 + 0.9 * ((n / 20) % 5) / 4.0;
     const double mu = 0.05 * std::pow(3.0, n / 100);
     Scene scene(glass(e, mu), 0.01, 2800);
-    scene.grain({-0.01 - 1e-9, 0, 0}, {std::cos(angle), std::sin(angle), 0}, {0, 40.0 * (n % 3 - 1), 60.0 * (n % 7 - 3)});
+    scene.grain({-0.01 - 1e-9, 0, 0}, {std::cos(angle), std::sin(angle), 0},
+                {0, 40.0 * (n % 3 - 1), 60.0 * (n % 7 - 3)});
     scene.grain({0.01 + 1e-9, 0, 0});
     scene.run(1e-12, 1e-12);
     const double before = scene.kinetic_energy();

@@ -1,7 +1,8 @@
+#include "core/world/walls.h"
+
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "core/world/walls.h"
 #include "tests/core/scene.h"
 
 using namespace pastefit;
