@@ -85,7 +85,7 @@ def study_file(row, kind):
         "search": {
             "strategy": "default",
             "screening": 12,
-            "budget_simulations": 100,
+            "budget_simulations": 80,
             "packings": 2,
             "confirmation_packings": 8,
             "tolerance_mm": 5,
