@@ -26,11 +26,11 @@ struct Response {
   UnitPoint point;
   std::vector<std::uint64_t> packings;
   std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;  ///< mean over the packings
-  Eigen::VectorXd residuals;    ///< sqrt(weight) (mean - measured)/standard deviation; finite, graded if it failed
-  double misfit = 0;            ///< half the squared norm of the residuals: what is minimised; always finite
-  double misfit_mm = 0;         ///< root mean square difference of the fitted lengths [mm]
-  bool failed = false;          ///< some packing ended in a failure
+  Eigen::VectorXd observables;          ///< mean over the packings
+  Eigen::VectorXd residuals;  ///< sqrt(weight) (mean - measured)/standard deviation; finite, graded if it failed
+  double misfit = 0;          ///< half the squared norm of the residuals: what is minimised; always finite
+  double misfit_mm = 0;       ///< root mean square difference of the fitted lengths [mm]
+  bool failed = false;        ///< some packing ended in a failure
 };
 
 /// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
@@ -42,7 +42,8 @@ class Objective {
   virtual int residuals() const = 0;
   /// Answers all points on the same packings; the answers are in the order of the points.
   /// Points outside the unit cube are a programming error (checked).
-  virtual std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) = 0;
+  virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
+                                         std::span<const std::uint64_t> packings) = 0;
   /// Simulations still allowed by the budget. A point on a packing counts once, however often it is asked.
   virtual int budget_left() const = 0;
   /// True when the user or a limit asked to stop: a search then returns its best so far.

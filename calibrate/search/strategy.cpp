@@ -277,7 +277,7 @@ Faults validate(const SearchOptions& options, int parameters) {
   if (options.strategy != "default") {
     NloptOptions nlopt;
     nlopt.algorithm = options.strategy;
-    for (Fault fault : validate(nlopt, parameters)) {
+    for (const Fault& fault : validate(nlopt, parameters)) {
       demand(false, "search.strategy", fault.what, "default, or " + fault.remedy);
     }
   }

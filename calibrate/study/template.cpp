@@ -59,18 +59,18 @@ constexpr std::string_view study_text =
   // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (the offset then bounds the gap).
   // rolling_model: spring_dashpot, constant_torque or none.
   // friction_basis: elastic (cohesion strengthens friction) or total (of the whole normal force).
-  "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "elastic"},
+  "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
 
   // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.
   // Parameters that are not named have their usual value. R is the mean grain radius.
   "parameters": {
-    "strength_pa": {"free": [200, 60000], "scale": "log"},  // attraction at touch over R^2
+    "strength_pa": {"free": [300, 40000], "scale": "log"},  // attraction at touch over R^2
     "rupture_force_ratio": {"free": [0, 0.5]},   // share of it left when the bridge ruptures
     "curvature": {"free": [-0.5, 1]},            // decay: -1 flat at touch, 0 straight, 1 flat at rupture
-    "rupture_gap_ratio": {"free": [0.05, 0.6]},  // gap at rupture over R
-    "offset_ratio": {"free": [0, 0.3]},          // liquid shell over R
-    "friction": {"value": 0.5},
-    "rolling_friction": {"value": 0.1}
+    "rupture_gap_ratio": {"free": [0.3, 1]},     // gap at rupture over R
+    "offset_ratio": {"free": [0.1, 0.5]},        // liquid shell over R
+    "friction": {"value": 0.15},
+    "rolling_friction": {"value": 0.02}
   },
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
@@ -79,9 +79,9 @@ constexpr std::string_view study_text =
   "search": {
     "strategy": "default",
     "screening": 12,             // candidates spread over the bounds at the start
-    "budget_simulations": 60,    // in all, confirmation included
+    "budget_simulations": 80,    // in all, confirmation included
     "packings": 2,               // random fillings on which every candidate is tried
-    "confirmation_packings": 4,  // fresh fillings for the best candidate
+    "confirmation_packings": 8,  // fresh fillings for the best candidate
     "tolerance_mm": 5,           // good enough
     "seed": 1
   }

@@ -18,7 +18,10 @@ class HeightField {
   double at(int ix, int iy) const { return height_[iy * n_ + ix]; }
   int points() const { return n_; }
   double spacing() const { return spacing_; }
-  double coordinate(int i) const { return (i - n_ / 2) * spacing_; }
+  double coordinate(int i) const {
+    const int middle = n_ / 2;
+    return (i - middle) * spacing_;
+  }
 
  private:
   int n_ = 0;

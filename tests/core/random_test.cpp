@@ -1,7 +1,7 @@
+#include "core/random.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
-
-#include "core/random.h"
 
 using namespace pastefit;
 

@@ -1,0 +1,80 @@
+"""Holds the README against the tree and the program, and runs its example.
+
+usage: check_readme.py PROGRAM SOURCE_DIR
+"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+README = (SOURCE / "README.md").read_text()
+READMES = [file for file in SOURCE.glob("**/README.md") if "build" not in file.relative_to(SOURCE).parts]
+
+
+def help_of(*verb):
+    return subprocess.run([PROGRAM, *verb, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def rows(first_column):
+    """Rows of the README's table with this first column, as lists of cells."""
+    table = README.split(f"\n| {first_column} |", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
+    return [[cell.strip() for cell in row.strip("|").split("|")] for row in table]
+
+
+class Readme(unittest.TestCase):
+    def test_the_two_commands_are_there(self):
+        for command in re.findall(r"\.ci/\w+\b(?!\.)", README):
+            self.assertTrue(os.access(SOURCE / command, os.X_OK), command)
+
+    def test_files_and_folders_that_are_named_exist(self):
+        for readme in READMES:
+            text = readme.read_text()
+            places = re.findall(r"\]\(([\w./-]+)\)", text)
+            places += re.findall(r"`((?:\w+/)+[\w.]*|(?:[\w-]+/)*[\w-]+\.(?:h|cpp|py|md|json|txt))`", text, re.A)
+            for place in places:
+                if place.startswith(("build/", "out/", "share/")) or place in NAMED_OTHERWISE or "NN" in place:
+                    continue
+                tries = [readme.parent / place, SOURCE / place]
+                with self.subTest(readme=str(readme.relative_to(SOURCE)), place=place):
+                    self.assertTrue(any(path.exists() for path in tries))
+
+    def test_verbs_and_options_are_those_of_the_program(self):
+        verbs = re.findall(r"^  (\w+) +\w", help_of().split("Subcommands:")[1], re.M)
+        told = {re.search(r"pastefit (\w+)", cells[0]).group(1): cells[1] for cells in rows("verb")}
+        self.assertEqual(sorted(verbs), sorted(told))
+        for verb, text in told.items():
+            options = set(re.findall(r"--[a-z-]+", help_of(verb))) - {"--help"}
+            named = set(re.findall(r"--[a-z-]+", text + " ".join(row[0] for row in rows("verb") if verb in row[0])))
+            self.assertEqual(options, named, verb)
+
+    def test_parameters_are_those_of_the_schema(self):
+        schema = json.loads((SOURCE / "data/schema/study.schema.json").read_text())
+        names = list(schema["properties"]["parameters"]["properties"])
+        self.assertEqual([cells[0].strip("`") for cells in rows("name")], names)
+
+    def test_the_example_does_what_it_says(self):
+        commands = "\n".join(re.findall(r"```sh\n(.*?)```", README, re.S))
+        with tempfile.TemporaryDirectory(prefix="pastefit-readme-") as folder:
+            environment = dict(os.environ, PATH=f"{PROGRAM.parent}:{os.environ['PATH']}")
+            result = subprocess.run(["sh", "-exc", commands], cwd=folder, env=environment, capture_output=True,
+                                    text=True)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            verdict = re.search(r"^The material (meets|does not meet) the laboratory: .*$", result.stdout, re.M)
+            self.assertIsNotNone(verdict, result.stdout)
+            print(verdict.group(0))
+            for file in ("card.json", "summary.txt", "evaluations.sqlite"):
+                self.assertTrue((pathlib.Path(folder) / "my-paste/out" / file).exists(), file)
+            self.assertTrue((pathlib.Path(folder) / "my-paste/film/grains.pvd").exists())
+
+
+# Files that the text speaks of, but that come into being elsewhere.
+NAMED_OTHERWISE = {"card.json", "summary.txt", "evaluations.sqlite", "lab.json", "study.json"}
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
