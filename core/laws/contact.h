@@ -38,7 +38,9 @@ struct Action {
   BasicVec3<Real> traction;  ///< tangential force on i [N]; its torque is r' n x traction on both bodies
   BasicVec3<Real> moment;    ///< rolling moment on i [N m]
   Real damping;              ///< largest damping coefficient, rotation counted [N s/m]
-  Real stiffness;            ///< largest stiffness, rotation counted [N/m]
+  // For the ledger: energy turned into heat in this step by each mechanism, and energy stored now [J].
+  Real heat_normal, heat_sliding, heat_rolling, heat_bridge, stored;
+  Real stiffness;  ///< largest stiffness, rotation counted [N/m]
 };
 
 /// A solid sphere's surface is 3.5 times as light as its mass: 1/m + r^2/I with I = 2/5 m r^2.
@@ -152,7 +154,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real wide = larger(contact_radius, floor);
   const Real inverse = one / (brakes * squares * wide);
   const Real inverse_brakes = inverse * squares * wide, inverse_squares = inverse * brakes * wide;
-  const Real softened = smaller(one, memory.contact_radius * (inverse * brakes * squares));
+  const Real radius_ratio = memory.contact_radius * (inverse * brakes * squares);
+  const Real softened = smaller(one, radius_ratio);
   const Real damper_n = damping_n * brake_t * inverse_brakes;
   const Real damper_t = damping_t * brake_n * inverse_brakes;
 
@@ -161,9 +164,16 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.push = select(touching, repulsion + damper_n * approach - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
   action.damping = largest_damping;
+  // The damper of this step works along the mean of the velocities before and after it. Summed over steps that is
+  // v^2 (3/4 c_n + 1/4 c_(n-1)) to second order, with c_(n-1)/c_n = sqrt(a_(n-1)/a_n), near 1: r (3 - r)/2.
+  const Real ratio = smaller(radius_ratio, Real(1.5));
+  action.heat_normal = dt * damper_n * approach * approach * (Real(0.75) + Real(0.125) * ratio * (Real(3.0) - ratio));
+  action.heat_rolling = action.heat_bridge = zero;
+  action.stored = (Real(0.4) * repulsion - cohesion) * depth;
 
   if constexpr (Attraction::present) {
-    const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, m.size_scale, memory.bridge);
+    const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, m.size_scale, memory.bridge, action.heat_bridge);
+    action.stored = action.stored - memory.bridge * Attraction::work(k, smaller(m.overlap, zero), m.size_scale);
     action.push = action.push - pull.force;
     action.stiffness = larger(action.stiffness, pull.slope);
   }
@@ -177,7 +187,7 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real traction_square = larger(dot(traction, traction), floor);
 
   BasicVec3<Real> roll{}, moment{};
-  Real moment_square = one, roll_limit = zero;
+  Real moment_square = one, roll_limit = zero, stiffness_r = zero;
   BasicVec3<Real> rolling{};
   const Real radius = m.root_radius * m.root_radius;
   if constexpr (Rolling::present) {
@@ -187,7 +197,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
       const Real lever = Real(k.rolling_friction) * radius;
       const Real roll_factor = softened * detail::restored(roll_turned, inverse_squares * slip_turned.square);
       roll = roll_factor * roll_turned.vector + dt * rolling;
-      moment = Real(2.25) * stiffness_n * lever * lever * roll;
+      stiffness_r = Real(2.25) * stiffness_n * lever * lever;
+      moment = stiffness_r * roll;
       moment_square = larger(dot(moment, moment), floor);
       action.stiffness = larger(action.stiffness, Real(k.roll_stiffness_share) * stiffness_n);
     } else {
@@ -197,8 +208,17 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real inverse_both = one / (traction_square * moment_square);
 
   const Real kept = detail::cap(traction_square, inverse_both * moment_square, Real(k.friction) * load);
-  memory.slip = select(touching, kept, zero) * slip;
   action.traction = -kept * traction;
+  const Real old_stiffness_n = Real(k.normal_stiffness) * memory.contact_radius;
+  const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
+  const Real old_slip_energy = half * old_stiffness_t * dot(memory.slip, memory.slip);
+  memory.slip = select(touching, kept, zero) * slip;
+  const Real slip_energy = half * stiffness_t * dot(memory.slip, memory.slip);
+  const Real mean_spring_work =
+      half * (old_stiffness_t * dot(slip_turned.vector, velocity_t) + kept * stiffness_t * dot(slip, velocity_t));
+  action.heat_sliding =
+      dt * (mean_spring_work + kept * damper_t * dot(velocity_t, velocity_t)) + old_slip_energy - slip_energy;
+  action.stored = action.stored + slip_energy;
 
   if constexpr (Rolling::present) {
     // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the
@@ -206,14 +226,24 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
     const Real inverse_square = inverse_both * traction_square;
     if constexpr (Rolling::elastic) {
       const Real kept_r = detail::cap(moment_square, inverse_square, roll_limit);
+      const Real lever = Real(k.rolling_friction) * radius;
+      const Real old_stiffness_r = Real(2.25) * old_stiffness_n * lever * lever;
+      const Real old_roll_energy = half * old_stiffness_r * dot(memory.roll, memory.roll);
       memory.roll = select(touching, kept_r, zero) * roll;
+      const Real roll_energy = half * stiffness_r * dot(memory.roll, memory.roll);
       // 2 eta sqrt(I_r k_r) with eta = 0.3, braked like the other dampers.
       const Real dashpot = Real(k.roll_damping) * root_impedance * radius * radius * brake_t * inverse_brakes;
-      action.moment = -kept_r * moment - select(kept_r < one, zero, dashpot) * rolling;
+      const Real braking = select(kept_r < one, zero, dashpot);
+      action.moment = -kept_r * moment - braking * rolling;
+      const Real mean_roll_work =
+          half * (old_stiffness_r * dot(roll_turned.vector, rolling) + kept_r * dot(moment, rolling));
+      action.heat_rolling = dt * (mean_roll_work + braking * dot(rolling, rolling)) + old_roll_energy - roll_energy;
+      action.stored = action.stored + roll_energy;
     } else {
       const Real gentle = Real(0.35) * radius * radius * m.root_mass * m.root_mass / larger(dt, floor);
       const Real resistance = smaller(roll_limit * square_root(inverse_square), gentle);
       action.moment = -resistance * rolling;
+      action.heat_rolling = dt * resistance * dot(rolling, rolling);
     }
   } else {
     action.moment = {zero, zero, zero};

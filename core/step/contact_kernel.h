@@ -78,6 +78,19 @@ PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int3
   }
 }
 
+PASTEFIT_INLINE void count(EnergySums& energy, EnergySums::Kind kind, std::int32_t k, Real value) {
+  double* lanes = energy.lane[kind] + k % 8;
+  (Real::load(lanes) + value).store(lanes);
+}
+
+PASTEFIT_INLINE void count(EnergySums& energy, std::int32_t k, const Action<Real>& action) {
+  count(energy, EnergySums::normal_damping, k, action.heat_normal);
+  count(energy, EnergySums::sliding, k, action.heat_sliding);
+  count(energy, EnergySums::rolling, k, action.heat_rolling);
+  count(energy, EnergySums::bridges, k, action.heat_bridge);
+  count(energy, EnergySums::stored, k, action.stored);
+}
+
 /// Memory columns of batch k in and out; roll only where the rolling law has memory.
 template <class Rolling>
 PASTEFIT_INLINE Memory<Real> recall(const ContactView& c, std::int32_t k) {
@@ -127,6 +140,7 @@ void pair_kernel(const KernelTask& task) {
     Memory<Real> memory = recall<Rolling>(c, k);
     const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
     remember<Attraction, Rolling>(c, k, memory);
+    count(*task.energy, k, action);
 
     const Vector force = action.traction - action.push * meeting.normal;
     const Vector turning = cross(meeting.normal, action.traction);
@@ -152,8 +166,11 @@ void bridge_kernel(const KernelTask& task) {
     const Real scale = Real::load(c.size_scale + k);
     const Real overlap = a.radius + b.radius - distance;
     Real alive = Real::load(c.bridge + k);
-    const Pull<Real> pull = bridge_pull<Attraction>(task.pair, overlap, scale, alive);
+    Real spent;
+    const Pull<Real> pull = bridge_pull<Attraction>(task.pair, overlap, scale, alive, spent);
     alive.store(c.bridge + k);
+    count(*task.energy, EnergySums::bridges, k, spent);
+    count(*task.energy, EnergySums::stored, k, -alive * Attraction::work(task.pair, smaller(overlap, zero), scale));
     const Vector force = (pull.force / distance) * between;
     const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
     const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
@@ -184,6 +201,7 @@ void wall_kernel(const KernelTask& task) {
     Memory<Real> memory = recall<Rolling>(c, k);
     const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
     remember<Attraction, Rolling>(c, k, memory);
+    count(*task.energy, k, action);
 
     store(w.force, k, action.traction - action.push * meeting.normal);
     store(w.moment, k, lever * cross(meeting.normal, action.traction) + action.moment);

@@ -9,6 +9,12 @@ const KernelTable& kernels_of_this_processor() {
   return sse2::kernels;
 }
 
+double EnergySums::total(Kind kind) const {
+  double sum = 0;
+  for (const double value : lane[kind]) sum += value;
+  return sum;
+}
+
 int attraction_index(BridgeShape shape) {
   switch (shape) {
     case BridgeShape::none:

@@ -46,6 +46,7 @@ class Runner {
   void changed() { stepper_.forget_lists(); }
 
   const RunSummary& summary();
+  const Ledger& ledger() const { return stepper_.ledger(); }
 
  private:
   struct Wait {
@@ -57,6 +58,9 @@ class Runner {
                      const std::function<bool(const World&)>& free = {},
                      const std::function<bool(const World&)>& done = {});
   std::optional<Failure> tell(std::string_view phase);
+  /// Energy created over energy put in, as of the ledger's last look.
+  double energy_error() const;
+  std::optional<Failure> audit(std::string_view phase);
 
   World& world_;
   const RunOptions& options_;

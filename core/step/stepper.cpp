@@ -70,6 +70,7 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
         "smaller step");
   const double dt = next_time_step();
   if (drive) drive(world_, dt);
+  look_at_energy(dt);
   integrate(dt);
   for (Wall& wall : world_.walls) move(wall, dt);
   world_.time += dt;
@@ -132,7 +133,9 @@ std::optional<Failure> Stepper::maintain_lists() {
 
 void Stepper::compute_forces() {
   const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
+  std::fill(std::begin(energy_.lane[EnergySums::stored]), std::end(energy_.lane[EnergySums::stored]), 0.0);
   KernelTask task{};
+  task.energy = &energy_;
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
@@ -152,6 +155,7 @@ void Stepper::act_on_wall(Wall& wall) {
   const std::int32_t n = touching.contacts.count;
   wall.force = wall.torque = {};
   if (n == 0) return;
+  double work = 0;
   Particles& particles = world_.particles;
   for (std::int32_t k = 0; k < n; ++k) {
     const Motion& grain = particles.motion[touching.contacts.i[k]];
@@ -169,6 +173,7 @@ void Stepper::act_on_wall(Wall& wall) {
   }
 
   KernelTask task{};
+  task.energy = &energy_;
   task.motion = particles.motion.data();
   task.spin = particles.spin.data();
   task.contacts = view(touching.contacts);
@@ -196,11 +201,50 @@ void Stepper::act_on_wall(Wall& wall) {
     // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
     load.stiffness += 0.5 * touching.stiffness[k];
     wall.force += -force;
+    const Vec3 wall_velocity{touching.wall_velocity[0][k], touching.wall_velocity[1][k], touching.wall_velocity[2][k]};
+    work += dt_ * dot(force, wall_velocity);
     const Motion& grain = particles.motion[i];
     const Vec3 normal{touching.normal[0][k], touching.normal[1][k], touching.normal[2][k]};
     const Vec3 arm = grain.position + (grain.radius - touching.overlap[k]) * normal - wall.pivot;
     wall.torque += cross(arm, -force);
   }
+  ledger_.work_of_walls += work;
+  ledger_.effort_of_walls += std::fabs(work);
+}
+
+/// Energies at the time of the positions: the velocities there are the means of the half steps around it.
+void Stepper::look_at_energy(double dt) {
+  const Particles& particles = world_.particles;
+  const double half_kick = 0.25 * (dt_ + dt);
+  if (world_.drag > 0)
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Vec3 &v = particles.motion[i].velocity, &w = particles.spin[i].velocity;
+      const double m = particles.mass(i), r = particles.motion[i].radius;
+      ledger_.heat_drag += world_.drag * dt * (m * dot(v, v) + 0.4 * m * r * r * dot(w, w));
+    }
+  if (world_.step % kLedgerInterval != 0) return;
+  ledger_.kinetic = ledger_.height = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    const Motion& motion = particles.motion[i];
+    const Load& load = particles.load[i];
+    const double lightness = particles.spin[i].inverse_mass, m = 1 / lightness;
+    const double inertia = 0.4 * m * motion.radius * motion.radius;
+    Vec3 v = motion.velocity + (half_kick * lightness) * load.force;
+    v.z -= half_kick * world_.gravity;
+    const Vec3 w = particles.spin[i].velocity + (half_kick / inertia) * load.torque;
+    ledger_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
+    ledger_.height += m * world_.gravity * motion.position.z;
+  }
+  ledger_.stored = energy_.total(EnergySums::stored);
+  ledger_.heat_normal = energy_.total(EnergySums::normal_damping);
+  ledger_.heat_sliding = energy_.total(EnergySums::sliding);
+  ledger_.heat_rolling = energy_.total(EnergySums::rolling);
+  ledger_.heat_bridges = energy_.total(EnergySums::bridges);
+  if (looked_) return;
+  looked_ = true;
+  ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;
+  ledger_.start_height = ledger_.height;
+  ledger_.start_kinetic = ledger_.kinetic;
 }
 
 /// Stable step of the leapfrog: 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the larger of normal

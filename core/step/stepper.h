@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "core/step/kernels.h"
+#include "core/step/ledger.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -45,12 +46,16 @@ class Stepper {
 
   double time_step() const { return dt_; }
   const Health& health() const { return health_; }
+  /// As of the last step that was a multiple of `kLedgerInterval`.
+  const Ledger& ledger() const { return ledger_; }
+  static constexpr std::int64_t kLedgerInterval = 32;
 
  private:
   std::optional<Failure> maintain_lists();
   void compute_forces();
   void act_on_wall(Wall& wall);
   void integrate(double dt);
+  void look_at_energy(double dt);
   double next_time_step();
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
@@ -71,6 +76,9 @@ class Stepper {
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
   Health health_;
+  EnergySums energy_;
+  Ledger ledger_;
+  bool looked_ = false;  ///< the ledger has its start
 };
 
 }  // namespace pastefit

@@ -6,6 +6,9 @@ namespace pastefit {
 
 namespace {
 
+/// Size scale of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
+constexpr double kNoSize = 1e-30;
+
 /// Columns grow by half at a time, so that a steady scene allocates nothing.
 template <class... Columns>
 void grow(std::int32_t n, Columns&... columns) {
@@ -60,7 +63,7 @@ void Contacts::append(const Contacts& other, std::int32_t k) {
 
 void Contacts::pad(std::int32_t dummy) {
   const std::int32_t real = count;
-  while (count % kBatch != 0) append(dummy, dummy, 1.0, 1.0, 1.0, {});
+  while (count % kBatch != 0) append(dummy, dummy, 1.0, 1.0, kNoSize, {});
   count = real;
 }
 
@@ -78,7 +81,7 @@ void Bridges::append(std::int32_t a, std::int32_t b, double scale, double alive)
 
 void Bridges::pad(std::int32_t dummy) {
   const std::int32_t real = count;
-  while (count % kBatch != 0) append(dummy, dummy, 1.0, 0.0);
+  while (count % kBatch != 0) append(dummy, dummy, kNoSize, 0.0);
   count = real;
 }
 

@@ -1,0 +1,35 @@
+#pragma once
+
+namespace pastefit {
+
+/// Where the energy of a run is and went [J]. Heats and works are sums since the start of the run.
+///
+/// Balance: mechanical() - start = work_of_walls - heat(). What is left over, `error()`, is the integration's own:
+/// positive means that energy was created.
+struct Ledger {
+  double kinetic = 0;  ///< translation and rotation, now
+  double stored = 0;   ///< Hertz, tangential and rolling springs less the work living bridges can still do, now
+  double height = 0;   ///< weight times height, now
+  double start = 0;    ///< mechanical() at the first look
+  double start_height = 0;
+  double start_kinetic = 0;
+
+  double heat_normal = 0;   ///< damping along the normal
+  double heat_sliding = 0;  ///< friction and tangential damping
+  double heat_rolling = 0;
+  double heat_bridges = 0;     ///< bridges that formed across a gap: work it will take to part them
+  double heat_drag = 0;        ///< of the phases that have drag
+  double work_of_walls = 0;    ///< on the grains
+  double effort_of_walls = 0;  ///< the same without sign
+
+  double mechanical() const { return kinetic + stored + height; }
+  double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag; }
+  double error() const { return mechanical() + heat() - start - work_of_walls; }
+  /// What drove the run: fall, walls, speed at the start, and attraction set free by bridges.
+  double put_in() const {
+    const double fall = start_height > height ? start_height - height : 0;
+    return fall + effort_of_walls + start_kinetic + heat_bridges;
+  }
+};
+
+}  // namespace pastefit
