@@ -27,6 +27,7 @@ struct SimulateOptions {
   bool force = false;
   bool json = false;
   std::optional<double> vtk_interval_s;
+  std::optional<double> time_step_s;
 };
 
 const std::string kResult = "outcome.json";
@@ -53,6 +54,8 @@ nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
   out["run"] = {{"particles", run.particles},
                 {"steps", run.steps},
                 {"time_step_s", run.time_step_s},
+                {"advised_step_s", run.advised_step_s},
+                {"energy_error", run.energy_error},
                 {"simulated_s", run.simulated_s},
                 {"wall_s", wall_s},
                 {"particle_steps_per_s", wall_s > 0 ? static_cast<double>(run.particle_steps) / wall_s : 0},
@@ -69,6 +72,18 @@ void print_table(const Outcome& outcome, double wall_s) {
       static_cast<long long>(run.particles), static_cast<long long>(run.steps), run.time_step_s, run.simulated_s,
       wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
       run.settled || outcome.failure ? "" : "; the heap was not quite at rest when its time was over");
+}
+
+/// What the program thinks of a step the user has set.
+void judge_step(double given_s, double advised_s) {
+  if (given_s <= advised_s)
+    std::fprintf(stderr, "pastefit: the time step %.3g s was fine: the scene asked for %.3g s or less\n", given_s,
+                 advised_s);
+  else
+    std::fprintf(stderr,
+                 "pastefit: the time step %.3g s is not to be trusted: the scene asked for %.3g s or less; leave "
+                 "--time-step out, or give at most that\n",
+                 given_s, advised_s);
 }
 
 int simulate_file(const SimulateOptions& options) {
@@ -89,7 +104,11 @@ int simulate_file(const SimulateOptions& options) {
     if (options.vtk_interval_s) series.emplace(options.out, kSeries);
   }
 
+  if (options.time_step_s && !(*options.time_step_s >= 1e-9 && *options.time_step_s <= 0.01))
+    return report({{"--time-step", "is not between 1e-9 and 0.01 s", "leave it out: the step follows from the scene"}});
+
   RunOptions run;
+  run.time_step_s = options.time_step_s;
   Faults unwritten;
   if (series) {
     run.watch_interval_s = *options.vtk_interval_s;
@@ -114,6 +133,7 @@ int simulate_file(const SimulateOptions& options) {
     if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
     if (!options.json && series) std::printf("wrote %s\n", series->index().c_str());
   }
+  if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;
   const auto& failure = *outcome.failure;
   std::fprintf(stderr, "pastefit: the simulation failed: %s in %s at %.4g s (step %lld): %s\n",
@@ -135,6 +155,9 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--seed", options->seed, "seed of the random packing");
   verb.add_option("--out", options->out, "folder for " + kResult + " and the ParaView series")->type_name("DIR");
   verb.add_flag("--force", options->force, "replace an earlier result in DIR");
+  verb.add_option("--time-step", options->time_step_s,
+                  "fixed time step of the test; without it the step follows from the scene")
+      ->type_name("SECONDS");
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/rigs/approach.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"
 
@@ -10,21 +11,24 @@ namespace pastefit {
 
 namespace {
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-double effective_modulus(double e1, double nu1, double e2, double nu2) {
-  return 1 / ((1 - nu1 * nu1) / e1 + (1 - nu2 * nu2) / e2);
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-Vec3 velocity_of(const ImpactWall& wall, const Vec3& point) {
-  return wall.velocity_m_s + cross(Vec3{0, wall.turning_rad_s, 0}, point - wall.hinge_m);
-}
-
-double rotor_inertia(const ImpactWall& wall) {
-  const Plate& plate = std::get<Plate>(wall.shape);
-  const Vec3 arm = plate.centre - wall.hinge_m;
-  return *wall.rotor_mass_kg * (plate.half_length * plate.half_length / 3 + arm.x * arm.x + arm.z * arm.z);
-}
+/// Collects faults of an impact.
+class Checker {
+ public:
+  void positive(const std::string& where, double value) {
+    require(std::isfinite(value) && value > 0, where, "is not a positive number", "give a number above 0");
+  }
+  void number(const std::string& where, const Vec3& value) {
+    require(finite(value), where, "is not finite", "give three numbers");
+  }
+  void require(bool holds, const std::string& where, const char* what, const char* remedy) {
+    if (!holds) faults.push_back({where, what, remedy});
+  }
+  Faults faults;
+};
 
 /// The step for `steps_per_contact`, such that the duration is a whole number of it. Speeds that only weight,
 /// cohesion or a bridge will give count as well.
@@ -68,8 +72,6 @@ class ImpactRun {
         now_(n_),
         held_force_(n_) {
     for (std::size_t i = 0; i < n_; ++i) mass_.push_back(mass_kg(test, test.grains[i]));
-    last_time_ = 0;
-    for (const Motion& motion : world_.particles.motion) (void)motion;
   }
 
   Outcome run(const RunOptions& options) {
@@ -149,7 +151,7 @@ class ImpactRun {
     std::vector<Sample> before = states();
     const auto turn_rotors = [&](World&, double dt) { drive_rotors(0.5 * (step_before + dt), dt); };
     if (auto problem = stepper_.step(turn_rotors)) return problem;
-    const double dt = stepper_.time_step(), kick = 0.5 * (step_before + dt);
+    const double kick = 0.5 * (step_before + stepper_.time_step());
     const std::vector<Sample> after = states();
     const Vec3 weight{0, 0, -test_.gravity_m_s2};
     for (std::size_t i = 0; i < n_; ++i) {
@@ -166,7 +168,7 @@ class ImpactRun {
     watch_first(time, depth);
     if (first_) kinetic_at_start_ = kinetic_energy();
     first_ = false;
-    hold(dt);
+    hold();
     last_time_ = time;
     return {};
   }
@@ -200,7 +202,8 @@ class ImpactRun {
         if (test_.walls[w].rotor_mass_kg) world_.walls[w].angular_velocity = {};
   }
 
-  void hold(double) {
+  /// Puts the held grains where they are to be, whatever acted on them.
+  void hold() {
     Particles& particles = world_.particles;
     for (std::int32_t i = 0; i < particles.count(); ++i) {
       const ImpactGrain& grain = test_.grains[particles.identity[i]];
@@ -260,7 +263,7 @@ class ImpactRun {
     Vec3 change, given;
     double size = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      change += (kick * mass_[i]) * ((1 / mass_[i]) * samples[i].force);
+      change += kick * samples[i].force;
       size += mass_[i] * norm(samples[i].velocity);
     }
     for (const Wall& wall : world_.walls) given += -(kick * wall.force);
@@ -340,3 +343,53 @@ class ImpactRun {
 double mass_kg(const Impact& test, const ImpactGrain& grain) {
   return 4.0 / 3.0 * std::numbers::pi * std::pow(grain.radius_m, 3) * test.density_kg_m3;
 }
+
+Faults validate(const Impact& test) {
+  Checker check;
+  check.require(!test.grains.empty(), "grains", "is empty", "give at least one grain: the first is watched");
+  check.positive("density_kg_m3", test.density_kg_m3);
+  check.positive("reference_radius_m", test.reference_radius_m);
+  check.positive("duration_s", test.duration_s);
+  check.positive("contact.youngs_modulus_pa", test.contact.youngs_modulus_pa);
+  check.require(test.contact.restitution > 0 && test.contact.restitution <= 1, "contact.restitution", "is out of range",
+                "give a number above 0 and at most 1");
+  const Bridge& bridge = test.contact.bridge;
+  if (bridge.shape != BridgeShape::none)
+    check.require(rupture_gap(bridge, test.reference_radius_m) > 0, "contact.bridge", "never ruptures",
+                  "give d_c < 0, or a liquid volume");
+  for (std::size_t i = 0; i < test.grains.size(); ++i) {
+    const ImpactGrain& grain = test.grains[i];
+    const std::string place = "grains[" + std::to_string(i) + "].";
+    check.positive(place + "radius_m", grain.radius_m);
+    check.number(place + "centre_m", grain.centre_m);
+    check.number(place + "velocity_m_s", grain.velocity_m_s);
+    check.number(place + "spin_rad_s", grain.spin_rad_s);
+    check.require(!grain.turns_at_s || grain.held, place + "turns_at_s", "is given for a grain that is free",
+                  "set held, or leave it out");
+    for (std::size_t j = 0; j < i; ++j)
+      check.require(norm(grain.centre_m - test.grains[j].centre_m) > 0, place + "centre_m",
+                    "is the centre of another grain too", "put the grains apart");
+  }
+  for (std::size_t w = 0; w < test.walls.size(); ++w) {
+    const ImpactWall& wall = test.walls[w];
+    const std::string place = "walls[" + std::to_string(w) + "].";
+    check.positive(place + "youngs_modulus_pa", wall.surface.youngs_modulus_pa);
+    check.require(wall.surface.restitution > 0 && wall.surface.restitution <= 1, place + "restitution",
+                  "is out of range", "give a number above 0 and at most 1");
+    check.require(wall.turning_rad_s == 0 || !std::holds_alternative<Shell>(wall.shape), place + "turning_rad_s",
+                  "turns a shell, which cannot turn", "turn a plane or a plate");
+    if (!wall.rotor_mass_kg) continue;
+    check.positive(place + "rotor_mass_kg", *wall.rotor_mass_kg);
+    check.require(std::holds_alternative<Plate>(wall.shape), place + "rotor_mass_kg", "is given for no plate",
+                  "only plates turn freely");
+  }
+  if (test.step == ImpactStep::per_contact) check.positive("steps_per_contact", test.steps_per_contact);
+  if (test.step == ImpactStep::fixed) check.positive("step_s", test.step_s);
+  return check.faults;
+}
+
+Outcome simulate(const Impact& test, const RunOptions& options) {
+  return ImpactRun(test).run(options);
+}
+
+}  // namespace pastefit

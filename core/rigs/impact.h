@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,26 +74,6 @@ Faults validate(const Impact& test);
 /// grains), `time_s`; of a rotor that reached its stop: `rotor_time_s`, `rotor_rad_s`.
 /// Requirement: `validate(test)` is empty.
 Outcome simulate(const Impact& test, const RunOptions& options = {});
-
-/// Two bodies on their way to each other, as a contact law sees them: the first grain and a partner.
-struct Approach {
-  Vec3 normal;          ///< from the grain to the partner
-  Vec3 velocity;        ///< of the grain relative to the partner at the contact point, spins included [m/s]
-  double speed = 0;     ///< along the normal; positive: they approach [m/s]
-  double radius = 0;    ///< R* [m]
-  double mass = 0;      ///< m* [kg]; of a rotor the inertia over the squared lever counts
-  double modulus = 0;   ///< E* [Pa]
-  double friction = 0;  ///< of the pair
-  double restitution = 1;
-};
-
-/// Grain `i` of the test as it approaches grain `j`, or a wall.
-Approach approach_of_grains(const Impact& test, std::size_t i, std::size_t j);
-Approach approach_of_wall(const Impact& test, std::size_t i, std::size_t wall);
-
-/// Duration of a Hertz collision 2.868 (m*^2/(R* E*^2 v))^(1/5) [s], v the approach speed.
-/// The constant is 2 (5/4)^(2/5) sqrt(pi) Gamma(7/5)/Gamma(9/10).
-double hertz_contact_time(const Approach& approach, double speed);
 
 /// Mass of a grain of the test [kg].
 double mass_kg(const Impact& test, const ImpactGrain& grain);

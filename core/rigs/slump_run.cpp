@@ -233,6 +233,10 @@ Outcome simulate(const SlumpTable& test, const RunOptions& options) {
   };
   outcome.failure = perform();
   outcome.run = run.summary();
+  if (!options.packing) {
+    outcome.run.steps += packing->run.steps;
+    outcome.run.particle_steps += packing->run.particle_steps;
+  }
   return outcome;
 }
 

@@ -159,6 +159,7 @@ std::optional<Failure> Runner::relax(std::string_view phase, double cap_s, const
 const RunSummary& Runner::summary() {
   summary_.simulated_s = world_.time;
   summary_.energy_error = energy_error();
+  summary_.advised_step_s = stepper_.smallest_advised_step();
   summary_.time_step_s = summary_.steps > 0 ? world_.time / static_cast<double>(summary_.steps) : 0;
   return summary_;
 }

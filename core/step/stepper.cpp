@@ -10,8 +10,9 @@ namespace {
 constexpr double kStepsPerSelection = 12;  // selections are a tenth of the work of a step; see README
 constexpr double kSmallestMargin = 0.01;   // of the mean radius
 constexpr double kLargestMargin = 0.2;
-constexpr double kGrowth = 1.05;       // a step may grow by 5 % between two selections
-constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it
+constexpr double kGrowth = 1.05;         // a step may grow by 5 % between two selections
+constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
+constexpr double kRunawaySpeed = 100;    // [m/s]; nothing in a laboratory test comes near it
 
 ContactView view(Contacts& c) {
   ContactView v{};
@@ -69,6 +70,9 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
         "a grain is pressed into a wall by more than the allowed share of its radius; take stiffer grains or a "
         "smaller step");
   const double dt = next_time_step();
+  if (!options_.fixed_step_s && dt < kSmallestShare * first_advised_)
+    return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * first_advised_,
+                   "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
   if (drive) drive(world_, dt);
   look_at_energy(dt);
   integrate(dt);
@@ -250,8 +254,7 @@ void Stepper::look_at_energy(double dt) {
 /// Stable step of the leapfrog: 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the larger of normal
 /// and 3.5 times tangential stiffness of a contact). Then impacts: the shortest Hertz collision at the present largest
 /// speed takes `impact_resolution` steps; and bridges: none is crossed in fewer than `bridge_resolution` steps.
-double Stepper::next_time_step() {
-  if (options_.fixed_step_s) return *options_.fixed_step_s;
+double Stepper::advised_step() const {
   double stiffest = 0;
   for (std::int32_t i = 0; i < world_.particles.count(); ++i)
     stiffest = std::max(stiffest, world_.particles.load[i].stiffness * world_.particles.spin[i].inverse_mass);
@@ -265,7 +268,16 @@ double Stepper::next_time_step() {
   if (world_.attraction != BridgeShape::none && world_.grain_pair.rupture_gap > 0)
     limit = std::min(limit, world_.grain_pair.rupture_gap * smallest_radius_ / world_.reference_radius /
                                 (options_.bridge_resolution * speed));
-  return dt_ > 0 ? std::min(limit, kGrowth * dt_) : limit;
+  // The last bits of pow differ between processors; the step is rounded to single precision so that the run does not.
+  return static_cast<float>(limit);
+}
+
+double Stepper::next_time_step() {
+  const double advised = advised_step();
+  if (first_advised_ == 0) first_advised_ = advised;
+  smallest_advised_ = std::min(smallest_advised_, advised);
+  if (options_.fixed_step_s) return *options_.fixed_step_s;
+  return dt_ > 0 ? std::min(advised, kGrowth * dt_) : advised;
 }
 
 void Stepper::integrate(double dt) {

@@ -45,6 +45,8 @@ class Stepper {
   void forget_lists() { lists_valid_ = false; }
 
   double time_step() const { return dt_; }
+  /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
+  double smallest_advised_step() const { return smallest_advised_; }
   const Health& health() const { return health_; }
   /// As of the last step that was a multiple of `kLedgerInterval`.
   const Ledger& ledger() const { return ledger_; }
@@ -56,6 +58,7 @@ class Stepper {
   void act_on_wall(Wall& wall);
   void integrate(double dt);
   void look_at_energy(double dt);
+  double advised_step() const;
   double next_time_step();
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
@@ -75,6 +78,7 @@ class Stepper {
   std::int32_t pierced_ = -1;  ///< a grain too deep in a wall
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
+  double first_advised_ = 0, smallest_advised_ = 1e300;
   Health health_;
   EnergySums energy_;
   Ledger ledger_;

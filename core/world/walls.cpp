@@ -51,8 +51,10 @@ Nearest nearest(const Shape& shape, const Vec3& centre) {
 
 void move(Wall& wall, double dt) {
   const Vec3 shift = dt * wall.velocity;
-  const double angle = dt * wall.angular_velocity.y;
-  const double sine = std::sin(angle), cosine = std::cos(angle);
+  // Cayley's rotation: exactly orthogonal, right to third order in the angle of one step, and free of library functions
+  // whose last bit differs between processors.
+  const double half = 0.5 * dt * wall.angular_velocity.y, scale = 1 / (1 + half * half);
+  const double sine = 2 * half * scale, cosine = (1 - half * half) * scale;
   const auto carry = [&](Vec3& point) { point = wall.pivot + turn_about_y(point - wall.pivot, sine, cosine) + shift; };
   if (auto* plane = std::get_if<Plane>(&wall.shape)) {
     carry(plane->point);
