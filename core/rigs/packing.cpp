@@ -17,6 +17,7 @@ constexpr double kSolidFraction = 0.62;
 constexpr double kPackingFriction = 0.5;  // a looser fill than a rodded one: a dense one is brittle (see README)
 constexpr double kLidSpeed = 0.2;         // [m/s]
 constexpr double kFillCap = 4.0;          // [s]
+constexpr double kEmptiest = 0.45;        // solid fraction below which the fill has a hole
 
 double sphere_volume(double r) {
   return 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -94,6 +95,71 @@ void take_grains(const World& world, Packing& packing) {
   }
 }
 
+/// Mould, floor and a hopper of the mould's upper width that reaches to `top`.
+World filling_world(const SlumpTable& test, const Packing& packing, double top) {
+  const Mould& mould = test.mould;
+  const ContactModel model = filling_model(test);
+  World world;
+  world.particles = make_particles(packing.centres, packing.radii, test.bulk_density_kg_m3 / kSolidFraction);
+  set_contact_model(world, model, test.grains.radius_m);
+  const double hopper = std::max(top - mould.height_m, 0.0) + 2 * test.grains.radius_m;
+  world.walls = {
+      make_wall("floor", Plane{}, model, test),
+      make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, model, test),
+      make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper}, model, test)};
+  return world;
+}
+
+double top_of(const Packing& packing) {
+  double top = 0;
+  for (std::size_t i = 0; i < packing.centres.size(); ++i) top = std::max(top, packing.centres[i].z + packing.radii[i]);
+  return top;
+}
+
+void add_work(Packing& packing, const RunSummary& run) {
+  packing.run.particles = run.particles;
+  packing.run.settled = run.settled;
+  packing.run.steps += run.steps;
+  packing.run.particle_steps += run.particle_steps;
+  packing.run.simulated_s += run.simulated_s;
+}
+
+void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packing) {
+  World world = filling_world(test, packing, top_of(packing));
+  Runner runner(world, options, {});
+  packing.failure = runner.settle("fill.pour", kFillCap);
+  add_work(packing, runner.summary());
+  take_grains(world, packing);
+}
+
+/// What has its centre above the rim is scraped away; a lid presses the rest level with the rim and stays until it
+/// rests.
+void strike_off(const SlumpTable& test, const RunOptions& options, Packing& packing) {
+  const double rim = test.mould.height_m;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < packing.centres.size(); ++i) {
+    if (packing.centres[i].z > rim) continue;
+    packing.centres[kept] = packing.centres[i];
+    packing.radii[kept++] = packing.radii[i];
+  }
+  packing.centres.resize(kept);
+  packing.radii.resize(kept);
+
+  const double top = std::max(top_of(packing), rim);
+  World world = filling_world(test, packing, top);
+  world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, filling_model(test), test));
+  Runner runner(world, options, {});
+  world.walls.back().velocity = {0, 0, -kLidSpeed};
+  packing.failure = runner.run("fill.strike", (top - rim) / kLidSpeed);
+  if (!packing.failure) {
+    world.walls.back().velocity = {};
+    std::get<Plane>(world.walls.back().shape).point.z = rim;
+    packing.failure = runner.settle("fill.rest", kFillCap);
+  }
+  add_work(packing, runner.summary());
+  take_grains(world, packing);
+}
+
 }  // namespace
 
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
@@ -119,72 +185,18 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptio
   RunOptions options = asked;
   options.time_step_s.reset();  // a fixed step is meant for the test; the fill is always run at its own
   auto packing = std::make_shared<Packing>();
-  const Mould& mould = test.mould;
   pour(test, *packing);
-  double top = 0;
-  for (std::size_t i = 0; i < packing->centres.size(); ++i)
-    top = std::max(top, packing->centres[i].z + packing->radii[i]);
-
-  const ContactModel model = filling_model(test);
-  const double density = test.bulk_density_kg_m3 / kSolidFraction;
-  World world;
-  world.particles = make_particles(packing->centres, packing->radii, density);
-  set_contact_model(world, model, test.grains.radius_m);
-  world.walls.push_back(make_wall("floor", Plane{}, model, test));
-  world.walls.push_back(
-      make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, model, test));
-  const double hopper = std::max(top - mould.height_m, 0.0) + 2 * test.grains.radius_m;
-  world.walls.push_back(
-      make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper}, model, test));
-
-  const StepOptions steps;
-  Runner pouring(world, options, steps);
-  packing->failure = pouring.settle("fill.pour", kFillCap);
-  packing->run = pouring.summary();
-  if (packing->failure) return packing;
-
-  // Strike off: what has its centre above the rim is scraped away, a lid presses the rest level with the rim.
-  take_grains(world, *packing);
-  std::vector<Vec3> centres;
-  std::vector<double> radii;
-  double highest = mould.height_m;
-  for (std::size_t i = 0; i < packing->centres.size(); ++i) {
-    if (packing->centres[i].z > mould.height_m) continue;
-    centres.push_back(packing->centres[i]);
-    radii.push_back(packing->radii[i]);
-    highest = std::max(highest, centres.back().z + radii.back());
-  }
-  World struck;
-  struck.particles = make_particles(centres, radii, density);
-  set_contact_model(struck, model, test.grains.radius_m);
-  for (Wall& wall : world.walls) struck.walls.push_back(make_wall(wall.name, wall.shape, model, test));
-  struck.walls.push_back(make_wall("lid", Plane{{0, 0, highest}, {0, 0, -1}}, model, test));
-  Runner striking(struck, options, steps);
-  struck.walls.back().velocity = {0, 0, -kLidSpeed};
-  const double stroke = highest - mould.height_m;
-  packing->failure = striking.run("fill.strike", stroke / kLidSpeed);
-  if (!packing->failure) {
-    struck.walls.back().velocity = {};
-    std::get<Plane>(struck.walls.back().shape).point.z = mould.height_m;
-    packing->failure = striking.settle("fill.rest", kFillCap);
-  }
-  const double poured_s = packing->run.simulated_s;
-  const std::int64_t poured_steps = packing->run.steps, poured_work = packing->run.particle_steps;
-  packing->run = striking.summary();
-  packing->run.simulated_s += poured_s;
-  packing->run.steps += poured_steps;
-  packing->run.particle_steps += poured_work;
-  take_grains(struck, *packing);
-
-  const double fraction = packing->solid_volume_m3 / volume_m3(mould);
-  if (!packing->failure && fraction < 0.45)
+  let_fall(test, options, *packing);
+  if (!packing->failure) strike_off(test, options, *packing);
+  const double fraction = packing->solid_volume_m3 / volume_m3(test.mould);
+  if (!packing->failure && fraction < kEmptiest)
     packing->failure = Failure{FailureReason::packing_failed,
                                "fill.rest",
-                               struck.step,
-                               struck.time,
+                               packing->run.steps,
+                               packing->run.simulated_s,
                                -1,
                                fraction,
-                               0.45,
+                               kEmptiest,
                                "the grains bridge in the mould and leave it partly empty; take smaller grains"};
   return packing;
 }

@@ -9,21 +9,23 @@ namespace {
 /// Size scale of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
 constexpr double kNoSize = 1e-30;
 
-/// Columns grow by half at a time, so that a steady scene allocates nothing.
+/// Columns grow by a tenth at a time, so that a steady scene allocates nothing and little is kept in vain.
 template <class... Columns>
-void grow(std::int32_t n, Columns&... columns) {
+void grow_columns(std::int32_t n, Columns&... columns) {
   const auto grow_one = [n](auto& column) {
     const std::size_t needed = static_cast<std::size_t>(n) + kBatch;
-    if (column.size() < needed) column.resize(needed + needed / 2);
+    if (column.size() >= needed) return;
+    column.reserve(needed + needed / 10);
+    column.resize(needed + needed / 10);
   };
   (grow_one(columns), ...);
 }
 
 }  // namespace
 
-void Contacts::reserve(std::int32_t n) {
-  grow(n, i, j, root_radius, root_mass, inverse_mass, size_scale, slip[0], slip[1], slip[2], roll[0], roll[1], roll[2],
-       contact_radius, bridge);
+void Contacts::grow(std::int32_t n) {
+  grow_columns(n, i, j, root_radius, root_mass, inverse_mass, size_scale, slip[0], slip[1], slip[2], roll[0], roll[1],
+               roll[2], contact_radius, bridge);
 }
 
 void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
@@ -67,8 +69,8 @@ void Contacts::pad(std::int32_t dummy) {
   count = real;
 }
 
-void Bridges::reserve(std::int32_t n) {
-  grow(n, i, j, size_scale, bridge);
+void Bridges::grow(std::int32_t n) {
+  grow_columns(n, i, j, size_scale, bridge);
 }
 
 void Bridges::append(std::int32_t a, std::int32_t b, double scale, double alive) {

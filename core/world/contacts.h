@@ -34,7 +34,9 @@ struct Contacts {
   std::int32_t padded() const { return (count + kBatch - 1) / kBatch * kBatch; }
   void clear() { count = 0; }
   /// Makes room for n contacts and their padding.
-  void reserve(std::int32_t n);
+  void reserve(std::int32_t n) {
+    if (i.size() < static_cast<std::size_t>(n) + kBatch) grow(n);
+  }
   /// Requirement: there is room.
   void append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
               const ContactMemory& memory);
@@ -42,6 +44,9 @@ struct Contacts {
   void append(const Contacts& other, std::int32_t k);
   /// Fills up to a multiple of kBatch with contacts of the dummy particle. Requirement: there is room.
   void pad(std::int32_t dummy);
+
+ private:
+  void grow(std::int32_t n);
 };
 
 /// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need
@@ -53,9 +58,14 @@ struct Bridges {
 
   std::int32_t padded() const { return (count + kBatch - 1) / kBatch * kBatch; }
   void clear() { count = 0; }
-  void reserve(std::int32_t n);
+  void reserve(std::int32_t n) {
+    if (i.size() < static_cast<std::size_t>(n) + kBatch) grow(n);
+  }
   void append(std::int32_t a, std::int32_t b, double scale, double alive);
   void pad(std::int32_t dummy);
+
+ private:
+  void grow(std::int32_t n);
 };
 
 }  // namespace pastefit

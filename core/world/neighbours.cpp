@@ -194,8 +194,6 @@ Deepest select_interactions(const Particles& particles, Candidates& candidates, 
   Bridges& bridges = scratch.bridges;
   contacts.clear();
   bridges.clear();
-  contacts.reserve(n);
-  bridges.reserve(n);
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
   for (std::int32_t c = 0; c < n; ++c) {
@@ -214,12 +212,14 @@ Deepest select_interactions(const Particles& particles, Candidates& candidates, 
     }
     if (square >= (touch + margin) * (touch + margin)) {
       candidates.set_bridge(c, bridges.count);
+      bridges.reserve(bridges.count + 1);
       bridges.append(i, j, scale, alive);
       continue;
     }
     const double overlap = (touch - std::sqrt(square)) / std::min(a.radius, b.radius);
     if (overlap > deepest.overlap) deepest = {overlap, i};
     candidates.set_contact(c, contacts.count);
+    contacts.reserve(contacts.count + 1);
     if (contact) {
       contacts.append(acting.contacts, k);
     } else {
@@ -229,6 +229,8 @@ Deepest select_interactions(const Particles& particles, Candidates& candidates, 
       contacts.append(i, j, a.radius * b.radius / touch, 1 / (ma + mb), scale, memory);
     }
   }
+  contacts.reserve(contacts.count);
+  bridges.reserve(bridges.count);
   contacts.pad(particles.count());
   bridges.pad(particles.count());
   std::swap(acting, scratch);
