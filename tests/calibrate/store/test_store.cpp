@@ -38,7 +38,13 @@ StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   out.key = evaluation_key(kIdentity, out.values, packing);
   out.observables.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
   out.observables.set("fill.mass_kg", 9.9999999999999982);
-  out.run = {1250, 60000, 75000000, 4.1e-5, 2.46, true, 1e-4};
+  out.run = {.particles = 1250,
+             .steps = 60000,
+             .particle_steps = 75000000,
+             .time_step_s = 4.1e-5,
+             .simulated_s = 2.46,
+             .settled = true,
+             .energy_error = 1e-4};
   out.wall_s = 1.9;
   return out;
 }
