@@ -17,6 +17,7 @@ using Command = std::function<int()>;
 Command add_calibrate(CLI::App& verb);
 Command add_simulate(CLI::App& verb);
 Command add_template(CLI::App& verb);
+Command add_verify(CLI::App& verb);
 
 /// Prints every fault to standard error; returns `status`.
 int report(const Faults& faults, int status = kBadInput);

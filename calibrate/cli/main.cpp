@@ -31,8 +31,9 @@ int run(int argc, char** argv) {
   };
   constexpr Verb kVerbs[] = {
       {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
-      {"simulate", "run the test of a study, card, laboratory or rig file once", add_simulate},
-      {"template", "print a commented starting file", add_template}};
+      {"simulate", "run the test of a study, card, laboratory, rig or impact file once", add_simulate},
+      {"template", "print a commented starting file", add_template},
+      {"verify", "hold the contact laws against closed forms, case by case", add_verify}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {

@@ -6,6 +6,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/search/objective.h"
+#include "calibrate/study/impact_json.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
@@ -139,8 +140,8 @@ std::optional<SlumpTable> card_scene(const json& document, const Settings& setti
   return with_parameters(card.value().test, std::move(values), settings);
 }
 
-std::optional<SlumpTable> scene_of(const json& document, const Settings& settings, const std::filesystem::path& file,
-                                   Faults& faults) {
+std::optional<SlumpTable> slump_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
+                                      Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, file, faults);
   if (format == "pastefit-card-1") return card_scene(document, settings, file, faults);
@@ -155,22 +156,30 @@ std::optional<SlumpTable> scene_of(const json& document, const Settings& setting
     if (rig.ok()) return with_parameters(rig.value().test, usual_values(), settings);
     return std::nullopt;
   }
-  faults.push_back({file.string() + ": format", "is " + format.dump(),
-                    "\"pastefit-study-1\", \"pastefit-card-1\", \"pastefit-lab-1\" or \"pastefit-rig-1\""});
+  faults.push_back(
+      {file.string() + ": format", "is " + format.dump(),
+       "\"pastefit-study-1\", \"pastefit-card-1\", \"pastefit-lab-1\", \"pastefit-rig-1\" or \"pastefit-impact-1\""});
   return std::nullopt;
 }
 
 }  // namespace
 
-Result<SlumpTable> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts) {
+Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts) {
   Faults faults;
   const auto settings = read_settings(texts, faults);
   const auto document = read_json(file, faults);
   if (!document) return faults;
-  const auto test = scene_of(*document, settings, file, faults);
+  if (document->is_object() && document->value("format", json()) == "pastefit-impact-1") {
+    if (!settings.parameters.empty())
+      faults.push_back({"--set parameters.*", "an impact has none", "set its keys, e.g. contact.friction=0.3"});
+    const auto impact = read_with(*document, settings, file, faults, impact_from_json);
+    if (!faults.empty()) return faults;
+    return Scene(impact.value());
+  }
+  const auto test = slump_scene(*document, settings, file, faults);
   if (test && faults.empty()) faults = in_file(validate_in_file_words(*test), file);
   if (!faults.empty()) return faults;
-  return *test;
+  return Scene(*test);
 }
 
 }  // namespace pastefit

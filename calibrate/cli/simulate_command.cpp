@@ -65,7 +65,7 @@ nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
 }
 
 void print_table(const Outcome& outcome, double wall_s) {
-  for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.4f\n", name.c_str(), value);
+  for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
   std::printf(
       "%lld grains, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
@@ -90,7 +90,11 @@ int simulate_file(const SimulateOptions& options) {
   auto scene = read_scene(options.file, options.settings);
   if (!scene.ok()) return report(scene.faults());
   auto test = std::move(scene).value();
-  if (options.seed) test.packing_seed = *options.seed;
+  if (options.seed) {
+    auto* slump = std::get_if<SlumpTable>(&test);
+    if (!slump) return report({{"--seed", "an impact has no random packing", "leave it out"}});
+    slump->packing_seed = *options.seed;
+  }
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
 
@@ -118,7 +122,7 @@ int simulate_file(const SimulateOptions& options) {
     };
   }
   const auto start = std::chrono::steady_clock::now();
-  const auto outcome = simulate(test, run);
+  const auto outcome = std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
@@ -146,7 +150,7 @@ int simulate_file(const SimulateOptions& options) {
 
 Command add_simulate(CLI::App& verb) {
   const auto options = std::make_shared<SimulateOptions>();
-  verb.add_option("FILE", options->file, "study, card, laboratory or rig file")->required();
+  verb.add_option("FILE", options->file, "study, card, laboratory, rig or impact file")->required();
   verb.add_option("--set", options->settings,
                   "PATH=VALUE, changes the file's content for this run, e.g. parameters.strength_pa=3000 or "
                   "grains.radius_mm=6; may be given again")

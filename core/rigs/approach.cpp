@@ -22,14 +22,14 @@ Approach approach_of_grains(const Impact& test, std::size_t i, std::size_t j) {
   const Vec3 between = b.centre_m - a.centre_m;
   Approach approach;
   approach.normal = (1 / norm(between)) * between;
-  approach.velocity = a.velocity_m_s - b.velocity_m_s +
-                      cross(a.radius_m * a.spin_rad_s + b.radius_m * b.spin_rad_s, approach.normal);
+  approach.velocity =
+      a.velocity_m_s - b.velocity_m_s + cross(a.radius_m * a.spin_rad_s + b.radius_m * b.spin_rad_s, approach.normal);
   approach.speed = dot(approach.velocity, approach.normal);
   approach.radius = a.radius_m * b.radius_m / (a.radius_m + b.radius_m);
   const double ma = mass_kg(test, a), mb = mass_kg(test, b);
   approach.mass = ma * mb / (ma + mb);
-  approach.modulus = effective_modulus(model.youngs_modulus_pa, model.poissons_ratio, model.youngs_modulus_pa,
-                                       model.poissons_ratio);
+  approach.modulus =
+      effective_modulus(model.youngs_modulus_pa, model.poissons_ratio, model.youngs_modulus_pa, model.poissons_ratio);
   approach.friction = model.friction;
   approach.restitution = model.restitution;
   return approach;
@@ -59,7 +59,7 @@ Approach approach_of_wall(const Impact& test, std::size_t i, std::size_t w) {
 }
 
 // 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) (15/16)^(2/5): from the largest overlap over the speed.
-constexpr double kHertzDuration = 2.8682655210;
+constexpr double kHertzDuration = 2.8682656992;
 
 double hertz_contact_time(const Approach& a, double speed) {
   return kHertzDuration * std::pow(a.mass * a.mass / (a.radius * a.modulus * a.modulus * speed), 0.2);

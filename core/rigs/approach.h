@@ -21,7 +21,7 @@ Approach approach_of_grains(const Impact& test, std::size_t i, std::size_t j);
 Approach approach_of_wall(const Impact& test, std::size_t i, std::size_t wall);
 
 /// Duration of a Hertz collision 2.868 (m*^2/(R* E*^2 v))^(1/5) [s], v the approach speed.
-/// The constant is 2 (5/4)^(2/5) sqrt(pi) Gamma(7/5)/Gamma(9/10).
+/// The constant is 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) (15/16)^(2/5).
 double hertz_contact_time(const Approach& approach, double speed);
 
 /// Inertia of a plate that turns freely about its hinge [kg m^2]. Requirement: a plate with a rotor's mass.

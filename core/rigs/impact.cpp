@@ -79,7 +79,13 @@ class ImpactRun {
     bool last = false;
     for (std::int64_t step = 0; !last; ++step) {
       last = world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0;
-      outcome.failure = advance();
+      if (options.watch && world_.time >= next_watch_) {
+        next_watch_ = world_.time + options.watch_interval_s;
+        if (!options.watch({"impact", world_.time, world_.step, &world_}))
+          outcome.failure =
+              Failure{FailureReason::stopped, "", step, world_.time, -1, 0, 0, "the run was asked to stop"};
+      }
+      if (!outcome.failure) outcome.failure = advance();
       if (step >= options.step_limit && !outcome.failure)
         outcome.failure = Failure{FailureReason::step_limit,
                                   "",
@@ -177,8 +183,8 @@ class ImpactRun {
     std::vector<Sample> states(n_);
     const Particles& particles = world_.particles;
     for (std::int32_t i = 0; i < particles.count(); ++i)
-      states[particles.identity[i]] = {particles.motion[i].position, particles.motion[i].velocity,
-                                       particles.spin[i].velocity, {}};
+      states[particles.identity[i]] = {
+          particles.motion[i].position, particles.motion[i].velocity, particles.spin[i].velocity, {}};
     return states;
   }
 
@@ -274,8 +280,7 @@ class ImpactRun {
   void account_work(const std::vector<Sample>& samples) {
     for (std::size_t i = 0; i < n_; ++i) {
       if (!test_.grains[i].held) continue;
-      if (!first_)
-        work_ -= 0.5 * dot(held_force_[i] + samples[i].force, samples[i].position - now_[i].position);
+      if (!first_) work_ -= 0.5 * dot(held_force_[i] + samples[i].force, samples[i].position - now_[i].position);
       held_force_[i] = samples[i].force;
     }
   }
@@ -301,7 +306,9 @@ class ImpactRun {
       set(i, "position", "m", now_[i].position);
       set(i, "velocity", "m_s", now_[i].velocity);
       set(i, "spin", "rad_s", now_[i].spin);
+      readings.set("grain" + std::to_string(i) + ".speed_m_s", norm(now_[i].velocity));
     }
+    if (n_ > 1) readings.set("relative_speed_m_s", norm(now_[0].velocity - now_[1].velocity));
     readings.set("overlap_m", overlap_);
     readings.set("max_overlap_m", max_overlap_);
     readings.set("max_force_n", max_force_);
@@ -324,6 +331,7 @@ class ImpactRun {
   std::vector<double> mass_;
   std::vector<Sample> now_;
   double last_time_ = 0;  ///< of `now_`
+  double next_watch_ = 0;
   bool first_ = true;
 
   Vec3 towards_nearest_;

@@ -65,14 +65,13 @@ Faults validate(const Impact& test);
 
 /// Runs the impact. Velocities are read at the same moment as positions (the mean of the half steps before and after).
 ///
-/// Observables, i the index of a grain: `grain{i}.{position,velocity,spin}_{x,y,z}_{m,m_s,rad_s}`;
-/// of the first grain: `overlap_m` (at the end), `max_overlap_m`, `max_force_n` (all but its weight), `contact_time_s`
-/// (in all), `pull{k}_n` (attraction at the k-th of `pull_gaps_m`, the last time the gap had this value; absent if it
-/// never had);
-/// of all: `kinetic_energy_ratio` (end over start; absent for a start at rest), `momentum_drift` (what the impulses of
-/// walls, weight and hands leave unexplained, over the sum of m |v| at its largest), `work_j` (of the hands that hold
-/// grains), `time_s`; of a rotor that reached its stop: `rotor_time_s`, `rotor_rad_s`.
-/// Requirement: `validate(test)` is empty.
+/// Observables, i the index of a grain: `grain{i}.{position,velocity,spin}_{x,y,z}_{m,m_s,rad_s}`,
+/// `grain{i}.speed_m_s`; of the first grain: `overlap_m` (at the end), `max_overlap_m`, `max_force_n` (all but its
+/// weight), `contact_time_s` (in all), `pull{k}_n` (attraction at the k-th of `pull_gaps_m`, the last time the gap had
+/// this value; absent if it never had); of the first two: `relative_speed_m_s` (of their centres); of all:
+/// `kinetic_energy_ratio` (end over start; absent for a start at rest), `momentum_drift` (what the impulses of walls,
+/// weight and hands leave unexplained, over the sum of m |v| at its largest), `work_j` (of the hands that hold grains),
+/// `time_s`; of a rotor that reached its stop: `rotor_time_s`, `rotor_rad_s`. Requirement: `validate(test)` is empty.
 Outcome simulate(const Impact& test, const RunOptions& options = {});
 
 /// Mass of a grain of the test [kg].

@@ -58,6 +58,7 @@ Stepper::Stepper(World& world, const StepOptions& options)
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
     smallest_mass_ = std::min(smallest_mass_, world.particles.mass(i));
+    fastest_ = std::max(fastest_, norm(world.particles.motion[i].velocity));
   }
 }
 

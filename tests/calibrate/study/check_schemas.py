@@ -11,7 +11,7 @@ import sys
 
 import jsonschema
 
-FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies"}
+FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies", "case": "../tests/cases"}
 
 
 def validator(data, kind):
@@ -69,6 +69,17 @@ SPOILED = {
         (["search", "packings"], 2.5),
         (["search", "packings"], 0),
         (["contact", "formation"], "both"),
+    ],
+    "case": [
+        (["source"], None),
+        (["checks"], []),
+        (["checks", 0, "absolute_tolerance"], None),
+        (["checks", 0, "reading"], 3),
+        (["scene", "contact", "youngs_modulus_pa"], "stiff"),
+        (["scene", "grains", 0, "radius_m"], 0),
+        (["scene", "grains", 0, "velocity_m_s"], [1, 2]),
+        (["scene", "walls", 0, "plane"], 1),
+        (["scene", "gravity"], 9.81),
     ],
 }
 

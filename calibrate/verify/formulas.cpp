@@ -1,0 +1,312 @@
+#include "calibrate/verify/formulas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/laws/constants.h"
+#include "core/rigs/approach.h"
+
+namespace pastefit {
+
+namespace {
+
+using Arguments = FormulaArguments;
+
+Approach pair_of(const Impact& scene) {
+  return scene.grains.size() > 1 ? approach_of_grains(scene, 0, 1) : approach_of_wall(scene, 0, 0);
+}
+
+double along(const Vec3& v, const std::string& axis) {
+  return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
+}
+
+Fault outside(std::string what) {
+  return {"expected.formula", std::move(what), "another scene, or another formula"};
+}
+
+// Normal collisions
+
+double largest_overlap(const Approach& a) {
+  return std::pow(15 * a.mass * a.speed * a.speed / (16 * a.modulus * std::sqrt(a.radius)), 0.4);
+}
+
+Result<double> hertz_max_overlap(const Impact& scene, const Arguments&) {
+  return largest_overlap(pair_of(scene));
+}
+
+Result<double> hertz_max_force(const Impact& scene, const Arguments&) {
+  const Approach a = pair_of(scene);
+  return 4.0 / 3.0 * a.modulus * std::sqrt(a.radius) * std::pow(largest_overlap(a), 1.5);
+}
+
+Result<double> hertz_duration(const Impact& scene, const Arguments&) {
+  const Approach a = pair_of(scene);
+  return hertz_contact_time(a, a.speed);
+}
+
+// Oblique collisions
+
+/// Impulse on the first grain. With the whole contact sliding Coulomb's law gives the tangential part mu (1 + e) m*
+/// v_n, which must not be enough to stop the sliding: (2/7) m* v_s.
+Result<Vec3> impulse(const Impact& scene) {
+  const Approach a = pair_of(scene);
+  if (a.speed <= 0) return outside("the first grain does not approach its partner");
+  const double normal = (1 + a.restitution) * a.mass * a.speed;
+  const Vec3 tangential = a.velocity - a.speed * a.normal;
+  const double sliding = norm(tangential);
+  if (a.friction == 0 || sliding < 1e-12 * a.speed) return -normal * a.normal;
+  const double friction = a.friction * normal;
+  if (3.5 * friction > a.mass * sliding) return outside("the contact does not slide through the whole collision");
+  return -normal * a.normal - (friction / sliding) * tangential;
+}
+
+Result<double> collision_velocity(const Impact& scene, const Arguments& arguments) {
+  const auto on_first = impulse(scene);
+  if (!on_first) return on_first.faults();
+  const ImpactGrain& grain = scene.grains[arguments.grain];
+  const double sign = arguments.grain == 0 ? 1 : -1;
+  return along(grain.velocity_m_s + (sign / mass_kg(scene, grain)) * on_first.value(), arguments.axis);
+}
+
+Result<double> collision_spin(const Impact& scene, const Arguments& arguments) {
+  const auto on_first = impulse(scene);
+  if (!on_first) return on_first.faults();
+  const ImpactGrain& grain = scene.grains[arguments.grain];
+  // Lever and impulse both change sign for the second grain.
+  const Vec3 twist = cross(pair_of(scene).normal, on_first.value());
+  return along(grain.spin_rad_s + (2.5 / (mass_kg(scene, grain) * grain.radius_m)) * twist, arguments.axis);
+}
+
+Result<double> initial_velocity(const Impact& scene, const Arguments& arguments) {
+  return along(scene.grains[arguments.grain].velocity_m_s, arguments.axis);
+}
+
+Result<double> initial_spin(const Impact& scene, const Arguments& arguments) {
+  return along(scene.grains[arguments.grain].spin_rad_s, arguments.axis);
+}
+
+// Cohesion and bridges
+
+double size_scale(const Impact& scene) {
+  return (scene.grains.size() > 1 ? 2 : 1) * pair_of(scene).radius / scene.reference_radius_m;
+}
+
+PairConstants constants(const Impact& scene) {
+  return scene.grains.size() > 1 ? grain_pair(scene.contact, scene.reference_radius_m)
+                                 : wall_pair(scene.contact, scene.walls[0].surface, scene.reference_radius_m);
+}
+
+Result<double> cohesive_overlap(const Impact& scene, const Arguments&) {
+  const Approach a = pair_of(scene);
+  const double s = size_scale(scene);
+  return std::pow(0.75 * constants(scene).cohesion * s * s / (a.modulus * std::sqrt(a.radius)), 2.0 / 3.0);
+}
+
+/// Force of a bridge at a gap, straight from its definition.
+double attraction(const Impact& scene, double gap) {
+  const Bridge& b = scene.contact.bridge;
+  const double s = size_scale(scene), share = scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
+  const double rupture = rupture_gap(b, scene.reference_radius_m);
+  const double d = gap / s;
+  if (d > rupture) return 0;
+  const double at_touch = share * attraction_at_touch(b, scene.reference_radius_m) * s * s;
+  switch (b.shape) {
+    case BridgeShape::none:
+      return 0;
+    case BridgeShape::polynomial:
+      return share * s * s * ((b.a_n_m2 * -d + b.b_n_m) * -d + b.c_n);
+    case BridgeShape::linear:
+      return at_touch * (1 - d / rupture);
+    case BridgeShape::exponential:
+      return at_touch * std::exp(-3 * d / rupture);
+    case BridgeShape::capillary: {
+      const double spread = d * std::sqrt(scene.reference_radius_m / b.liquid_volume_m3);
+      return at_touch / (1 + 1.05 * spread + 2.5 * spread * spread);
+    }
+  }
+  return 0;
+}
+
+/// Work of the attraction between two gaps by Simpson's rule; exact for the polynomial.
+double work(const Impact& scene, double from, double to) {
+  constexpr int kPanels = 1000;
+  double sum = 0;
+  const double h = (to - from) / kPanels;
+  for (int k = 0; k < kPanels; ++k) {
+    // Rounding must not step beyond the rupture.
+    const double left = from + k * h, right = k + 1 == kPanels ? to * (1 - 1e-15) : left + h;
+    sum += h / 6 * (attraction(scene, left) + 4 * attraction(scene, 0.5 * (left + right)) + attraction(scene, right));
+  }
+  return sum;
+}
+
+double living_gap(const Impact& scene) {
+  return rupture_gap(scene.contact.bridge, scene.reference_radius_m) * size_scale(scene);
+}
+
+double forming_gap(const Impact& scene) {
+  return std::min(constants(scene).formation_gap * size_scale(scene), living_gap(scene));
+}
+
+Result<double> bridge_force(const Impact& scene, const Arguments& arguments) {
+  return attraction(scene, arguments.gap_m);
+}
+
+Result<double> bridge_work(const Impact& scene, const Arguments&) {
+  return work(scene, 0, living_gap(scene));
+}
+
+Result<double> bridge_loop_area(const Impact& scene, const Arguments&) {
+  return work(scene, forming_gap(scene), living_gap(scene));
+}
+
+/// Relative speed at which an elastic pair that starts at touch is left by its bridge; 0 if it does not escape.
+Result<double> speed_after_rupture(const Impact& scene, const Arguments&) {
+  const Approach a = pair_of(scene);
+  const double lost = 2 * work(scene, 0, living_gap(scene)) / a.mass;
+  return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
+}
+
+/// The same for a pair that comes from afar, so that its bridge only costs what the formation gap did not give.
+Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
+  const Approach a = pair_of(scene);
+  const double lost = 2 * work(scene, forming_gap(scene), living_gap(scene)) / a.mass;
+  return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
+}
+
+// Sliding and rolling on a wall, along x
+
+struct Slope {
+  double sine, cosine;
+};
+
+Slope slope_of(const Impact& scene) {
+  const Vec3 normal = approach_of_wall(scene, 0, 0).normal;
+  return {norm(cross(normal, {0, 0, 1})), -normal.z};
+}
+
+Result<double> speed_after_slip(const Impact& scene, const Arguments&) {
+  const double wall = scene.walls[0].velocity_m_s.x;
+  const ImpactGrain& grain = scene.grains[0];
+  const double own = grain.velocity_m_s.x - wall, turning = grain.radius_m * grain.spin_rad_s.y;
+  const double slipping = std::fabs(own - turning);
+  const double longest = slipping / (3.5 * scene.walls[0].surface.friction * scene.gravity_m_s2);
+  if (!(longest < scene.duration_s)) return outside("the grain still slips when the test is over");
+  return wall + (5 * own + 2 * turning) / 7;
+}
+
+Result<double> slope_speed(const Impact& scene, const Arguments&) {
+  const Slope slope = slope_of(scene);
+  const WallContact& wall = scene.walls[0].surface;
+  const double drive = slope.sine - wall.rolling_friction * slope.cosine;
+  if (norm(scene.grains[0].velocity_m_s) == 0 && drive < 0) return 0.0;
+  // Friction has to carry the part of the drive that turns the grain.
+  const double needed = slope.sine - 5.0 / 7.0 * drive;
+  if (std::fabs(needed) > wall.friction * slope.cosine) return outside("the grain does not roll, it slips");
+  const double speed = norm(scene.grains[0].velocity_m_s) + 5.0 / 7.0 * scene.gravity_m_s2 * drive * scene.duration_s;
+  return std::max(speed, 0.0);
+}
+
+Result<double> sliding_speed(const Impact& scene, const Arguments&) {
+  const Slope slope = slope_of(scene);
+  const double drive = slope.sine - scene.walls[0].surface.friction * slope.cosine;
+  return norm(scene.grains[0].velocity_m_s) + scene.gravity_m_s2 * drive * scene.duration_s;
+}
+
+/// A grain that spins about y on a wall without friction is only slowed by the rolling torque.
+Result<double> spin_after_decay(const Impact& scene, const Arguments&) {
+  const ImpactGrain& grain = scene.grains[0];
+  if (scene.walls[0].surface.friction > 0) return outside("friction turns the spin into a run");
+  const double lost =
+      2.5 * scene.walls[0].surface.rolling_friction * scene.gravity_m_s2 * scene.duration_s / grain.radius_m;
+  return std::max(grain.spin_rad_s.y - lost, 0.0);
+}
+
+// The free rotor
+
+double start_angle(const ImpactWall& wall) {
+  const Vec3 arm = std::get<Plate>(wall.shape).centre - wall.hinge_m;
+  return std::atan2(arm.z, arm.x);
+}
+
+/// 1/2 I w^2 = moment (sin(start) - sin(angle)), the moment that of the weight in the level position; with a load the
+/// first grain adds m x^2 and m g x, x its distance from the hinge along the plate.
+double rotor_speed_at(const Impact& scene, double angle, bool loaded) {
+  const ImpactWall& wall = scene.walls[0];
+  const Plate& plate = std::get<Plate>(wall.shape);
+  double moment = *wall.rotor_mass_kg * norm(plate.centre - wall.hinge_m), inertia = rotor_inertia(wall);
+  if (loaded) {
+    const double mass = mass_kg(scene, scene.grains[0]);
+    const double x = dot(scene.grains[0].centre_m - wall.hinge_m, plate.along);
+    moment += mass * x;
+    inertia += mass * x * x;
+  }
+  const double fallen = std::sin(start_angle(wall)) - std::sin(angle);
+  return std::sqrt(2 * moment * scene.gravity_m_s2 * fallen / inertia);
+}
+
+/// Integral of d(angle)/w; with angle = start (1 - u^2) the integrand has no singularity. Midpoints.
+double rotor_time_to_level(const Impact& scene, bool loaded) {
+  constexpr int kPoints = 20000;
+  const double start = start_angle(scene.walls[0]);
+  double sum = 0;
+  for (int k = 0; k < kPoints; ++k) {
+    const double u = (k + 0.5) / kPoints;
+    sum += 2 * start * u / rotor_speed_at(scene, start * (1 - u * u), loaded) / kPoints;
+  }
+  return sum;
+}
+
+Result<double> rotor_speed(const Impact& scene, const Arguments&) {
+  return rotor_speed_at(scene, 0, false);
+}
+
+Result<double> rotor_time(const Impact& scene, const Arguments&) {
+  return rotor_time_to_level(scene, false);
+}
+
+Result<double> loaded_rotor_speed(const Impact& scene, const Arguments&) {
+  return rotor_speed_at(scene, 0, true);
+}
+
+Result<double> loaded_rotor_time(const Impact& scene, const Arguments&) {
+  return rotor_time_to_level(scene, true);
+}
+
+Result<double> falling_velocity(const Impact& scene, const Arguments&) {
+  return scene.grains[0].velocity_m_s.z - scene.gravity_m_s2 * scene.duration_s;
+}
+
+constexpr Formula kFormulas[] = {
+    {"hertz_max_overlap", hertz_max_overlap, "(15 m* v^2/(16 E* sqrt(R*)))^(2/5)"},
+    {"hertz_max_force", hertz_max_force, "4/3 E* sqrt(R*) d^(3/2) at the largest overlap"},
+    {"hertz_contact_time", hertz_duration, "2.868 (m*^2/(R* E*^2 v))^(1/5)"},
+    {"collision_velocity", collision_velocity,
+     "after a collision with impulse (1+e) m* v_n and gross sliding mu (1+e) m* v_n"},
+    {"collision_spin", collision_spin, "w + 5/(2 m R) n x impulse, gross sliding"},
+    {"initial_velocity", initial_velocity, "as at the start"},
+    {"initial_spin", initial_spin, "as at the start"},
+    {"cohesive_overlap", cohesive_overlap, "at rest: (3 F_coh/(4 E* sqrt(R*)))^(2/3)"},
+    {"bridge_force", bridge_force, "F(d) at a gap, zero beyond the rupture"},
+    {"bridge_work", bridge_work, "integral of F from touch to rupture"},
+    {"bridge_loop_area", bridge_loop_area, "integral of F from the formation gap to rupture"},
+    {"speed_after_rupture", speed_after_rupture, "sqrt(v^2 - 2 W/m*), from touch"},
+    {"speed_after_rebound", speed_after_rebound, "sqrt(v^2 - 2 W/m*), W from the formation gap to rupture"},
+    {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls"},
+    {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan"},
+    {"sliding_speed", sliding_speed, "v + g (sin - mu cos) t"},
+    {"spin_after_decay", spin_after_decay, "w - 5 mu_r g t/(2 r)"},
+    {"rotor_speed", rotor_speed, "sqrt(3 g sin(angle)/L) for a plate hinged at its edge"},
+    {"rotor_time", rotor_time, "integral of d(angle)/w"},
+    {"loaded_rotor_speed", loaded_rotor_speed, "the same with the first grain on the plate, its contact stiff"},
+    {"loaded_rotor_time", loaded_rotor_time, "the same with the first grain on the plate, its contact stiff"},
+    {"falling_velocity", falling_velocity, "v - g t"},
+};
+
+}  // namespace
+
+std::span<const Formula> formulas() {
+  return kFormulas;
+}
+
+}  // namespace pastefit
