@@ -39,7 +39,7 @@ struct RunSummary {
   std::int64_t particles = 0;
   std::int64_t steps = 0;
   std::int64_t particle_steps = 0;
-  double time_step_s = 0;  ///< mean over the run
+  double time_step_s = 0;     ///< mean over the run
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
   bool settled = false;     ///< every rest phase ended by its criterion, not by its cap
