@@ -1,0 +1,176 @@
+#include "tests/stability/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "core/rigs/packing.h"
+#include "core/simulate.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+namespace {
+
+// A valid run may have created this share of the energy put in: the engine's own promise (core/README.md).
+constexpr double kCreated = 0.05;
+constexpr double kGround = 0.1;  // depth of the ground below the table [m]
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// Looks at the grains while the test runs: what the engine should have noticed itself.
+class Witness {
+ public:
+  explicit Witness(const StressCase& stress) : stress_(stress) {}
+
+  void look(const Moment& moment) {
+    if (!complaint_.empty()) return;
+    const Particles& grains = moment.world->particles;
+    const bool filling = moment.phase.starts_with("fill");
+    if (!filling && count_ == 0) {
+      count_ = grains.count();
+      over_rim_.resize(count_);
+    }
+    if (!filling && grains.count() != count_) return complain(moment, "the number of grains changed");
+    for (std::int32_t i = 0; i < grains.count(); ++i) {
+      const Motion& grain = grains.motion[i];
+      if (!std::isfinite(norm(grain.position)))
+        return complain(moment, "a position is not a number", grains.identity[i]);
+      if (grain.position.z < (filling ? 0 : -kGround))
+        return complain(moment, "a grain's centre is below the floor or ground", grains.identity[i]);
+      if (filling) continue;
+      // What is squeezed out over the rim may run down outside.
+      const auto who = static_cast<std::size_t>(grains.identity[i]);
+      if (grain.position.z > stress_.test.mould.height_m - 3 * grain.radius) over_rim_[who] = true;
+      if (moment.phase == "step1.relax" && !over_rim_[who] && outside_mould(grain.position))
+        return complain(moment, "a grain's centre is outside the standing mould", grains.identity[i]);
+    }
+  }
+
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  bool outside_mould(const Vec3& p) const {
+    const Mould& mould = stress_.test.mould;
+    if (p.z > mould.height_m) return false;
+    const double inner =
+        mould.base_radius_m + std::max(p.z, 0.0) / mould.height_m * (mould.top_radius_m - mould.base_radius_m);
+    return p.x * p.x + p.y * p.y > inner * inner;
+  }
+
+  void complain(const Moment& moment, const char* what, std::int32_t grain = -1) {
+    complaint_ = std::string(what) + " (" + std::string(moment.phase) + ", t = " + number(moment.time_s) +
+                 " s, grain " + std::to_string(grain) + ")";
+  }
+
+  const StressCase& stress_;
+  std::int32_t count_ = 0;
+  std::vector<bool> over_rim_;  // by identity
+  std::string complaint_;
+};
+
+/// What is wrong with the readings of a run without a failure; empty if nothing is.
+std::string fault_of(const Outcome& outcome, const StressCase& stress) {
+  const SlumpTable& test = stress.test;
+  const double tall = 1e3 * test.mould.height_m, radius = 1e3 * test.grains.largest_m;
+  const double diagonal = 1e3 * std::numbers::sqrt2 * test.table_length_m;
+  const std::vector<std::string> names = observable_names(test);
+  if (outcome.observables.all().size() != names.size()) return "readings are missing";
+  for (const Observable& reading : outcome.observables.all()) {
+    const auto within = [&](double lower, double upper) { return reading.value >= lower && reading.value <= upper; };
+    const auto named = [&](const char* part) { return reading.name.find(part) != std::string::npos; };
+    bool right = std::isfinite(reading.value);
+    // Grains that start in overlap push the heap up; a third of the mould's height is more than any was seen to do.
+    if (named("height")) right = right && within(-1e-3, 1.33 * tall + radius);
+    if (named("slump")) right = right && within(-0.33 * tall - radius, tall + 1e-3);
+    if (named("spread")) right = right && within(0, diagonal + 2 * radius);
+    if (named("spilled")) right = right && within(0, 1);
+    if (named("plateau_sag")) right = right && within(-2 * tall, 2 * tall);
+    if (named("plateau_width")) right = right && within(0, diagonal);
+    if (named("mass"))
+      right = right && std::fabs(reading.value / (test.bulk_density_kg_m3 * volume_m3(test.mould)) - 1) < 1e-9;
+    if (named("solid_fraction")) right = right && within(0.4, 0.75 * std::pow(1 + stress.enlarged, 3));
+    if (!right) return reading.name + " = " + number(reading.value) + " is out of range";
+  }
+  if (!(outcome.run.energy_error < kCreated)) return "energy created: " + number(outcome.run.energy_error);
+  return {};
+}
+
+/// The filled mould, its grains grown: every contact starts in overlap.
+std::shared_ptr<const Packing> grown(const Packing& packing, double share) {
+  auto result = std::make_shared<Packing>(packing);
+  for (double& radius : result->radii) radius *= 1 + share;
+  result->solid_volume_m3 *= std::pow(1 + share, 3);
+  return result;
+}
+
+void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict) {
+  const auto defect = [&](std::string message) {
+    verdict.end = "defect";
+    verdict.message = std::move(message);
+  };
+  if (const Faults faults = validate(stress.test); !faults.empty())
+    return defect("an admissible test has faults: " + faults[0].where + " " + faults[0].what);
+  const double start = cpu_seconds();
+  Witness witness(stress);
+  RunOptions options;
+  options.step_limit = bounds.steps;
+  options.watch = [&](const Moment& moment) {
+    witness.look(moment);
+    return cpu_seconds() - start < bounds.cpu_s;
+  };
+  if (stress.enlarged > 0) {
+    options.packing = fill_mould(stress.test, options);
+    if (!options.packing->failure) options.packing = grown(*options.packing, stress.enlarged);
+  }
+  const Outcome outcome = simulate(stress.test, options);
+  verdict.particles = outcome.run.particles;
+  verdict.steps = outcome.run.steps;
+  verdict.simulated_s = outcome.run.simulated_s;
+  verdict.energy_error = outcome.run.energy_error;
+  verdict.settled = outcome.run.settled;
+  if (outcome.failure) {
+    verdict.end = name_of(outcome.failure->reason);
+    verdict.phase = outcome.failure->phase;
+    verdict.message = outcome.failure->message;
+    if (verdict.phase.empty() || verdict.message.empty()) defect(verdict.end + " without phase or message");
+  } else if (const std::string fault = fault_of(outcome, stress); !fault.empty()) {
+    defect(fault);
+  } else {
+    verdict.end = "valid";
+    verdict.height1_mm = *outcome.observables.find("step1.height_mm");
+    verdict.height2_mm = outcome.observables.find("step2.height_mm").value_or(0);
+    verdict.spread_mm = *outcome.observables.find("step1.spread_mm");
+  }
+  if (!witness.complaint().empty()) defect(verdict.end + ", but " + witness.complaint());
+}
+
+}  // namespace
+
+Verdict judge(const StressCase& stress, const Bounds& bounds) {
+  Verdict verdict;
+  const double start = cpu_seconds();
+  try {
+    judge_run(stress, bounds, verdict);
+  } catch (const std::exception& error) {
+    verdict.end = "defect";
+    verdict.message = std::string("exception: ") + error.what();
+  }
+  verdict.cpu_s = cpu_seconds() - start;
+  return verdict;
+}
+
+}  // namespace pastefit
