@@ -1,0 +1,93 @@
+// pastefit-front: error of the slump test's readings against run time, for a ladder of settings. See README.md.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "tests/bench/front_figure.h"
+#include "tests/bench/ladder_csv.h"
+
+using namespace pastefit;
+
+namespace {
+
+void print_row(const std::vector<Row>& rows, const Row& row) {
+  const Row& reference = reference_of(rows, row);
+  int failed = 0;
+  double worst = 0;
+  for (const Run& run : row.runs) {
+    failed += !run.readings;
+    worst = std::max(worst, std::fabs(run.energy_error));
+  }
+  std::printf("| %s | %s%s | %d | %.2e | %.2f |", row.setting.ladder.c_str(), row.setting.name.c_str(),
+              &reference == &row ? " (reference)" : "", static_cast<int>(row.runs.size()), row.runs[0].time_step_s,
+              cpu_of(row).value);
+  if (failed == static_cast<int>(row.runs.size())) {
+    std::printf(" all runs fail: %s | | | | |\n", row.runs[0].failure.c_str());
+    return;
+  }
+  for (std::size_t k = 0; k < kReadings.size(); ++k) {
+    const Mean mean = reading_of(row, k);
+    if (&reference == &row) {
+      std::printf(" %.1f +- %.1f |", mean.value, mean.error);
+      continue;
+    }
+    const Deviation d = deviation(row, reference, k);
+    std::printf(d.is_noise() ? " (%+.1f +- %.1f) |" : " **%+.1f +- %.1f** |", d.value, d.noise);
+  }
+  std::printf(" %.1e%s |\n", worst, failed > 0 ? ", some runs fail" : "");
+}
+
+void print_table(const std::vector<Row>& rows, const std::string& scene) {
+  std::printf("\n### %s\n\n| ladder | setting | packings | mean step [s] | processor time [s] |", scene.c_str());
+  for (const char* name : kReadingNames) std::printf(" %s [mm] |", name);
+  std::printf(" energy error |\n|---|---|---:|---:|---:|");
+  for (std::size_t k = 0; k <= kReadings.size(); ++k) std::printf("---:|");
+  std::printf("\n");
+  for (const Row& row : rows)
+    if (row.setting.scene == scene) print_row(rows, row);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool quick = false;
+  std::string ladder, csv_path, svg_path;
+  CLI::App app{"Error of h1, h2, sag and spread of the slump test against run time."};
+  app.add_flag("--quick", quick, "few coarse settings, to see that the program works");
+  app.add_option("--ladder", ladder, "measure this one only")->check(CLI::IsMember({"step", "grains"}));
+  app.add_option("--csv", csv_path, "file for one row per run; settings that it has already are not run again");
+  app.add_option("--svg", svg_path, "file for the figure");
+  CLI11_PARSE(app, argc, argv);
+
+  std::vector<Row> rows;
+  std::ifstream file(csv_path);
+  const std::string known{std::istreambuf_iterator<char>(file), {}};
+  Fills fills;
+  for (const Setting& setting : ladders(quick)) {
+    if (!ladder.empty() && setting.ladder != ladder) continue;
+    std::istringstream before(known);
+    Row row{setting, read_csv(before, setting)};
+    if (static_cast<int>(row.runs.size()) < setting.packings) row = measure(setting, fills);
+    rows.push_back(row);
+    std::cerr << setting.scene << ", " << setting.ladder << ": " << setting.name << '\n';
+    // Written after every row, so that a run cut short leaves what it has.
+    if (!csv_path.empty()) {
+      std::ofstream csv(csv_path);
+      write_csv(csv, rows);
+    }
+  }
+  std::printf(
+      "Of a reference: mean +- standard error over packings. Else: deviation from it +- noise of the difference "
+      "(one standard\nerror); in brackets where it is within twice the noise, which is no difference.\n");
+  for (const char* scene : {"dry", "cohesive"}) print_table(rows, scene);
+  if (!svg_path.empty()) {
+    std::ofstream svg(svg_path);
+    write_figure(svg, rows, 0);
+  }
+}

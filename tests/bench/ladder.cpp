@@ -1,0 +1,150 @@
+#include "tests/bench/ladder.h"
+
+#include <cmath>
+#include <ctime>
+
+#include "core/rigs/packing.h"
+
+namespace pastefit {
+
+namespace {
+
+Mean mean_of(const std::vector<double>& values) {
+  Mean mean;
+  const auto n = static_cast<double>(values.size());
+  for (const double v : values) mean.value += v / n;
+  if (values.size() < 2) return mean;
+  double square = 0;
+  for (const double v : values) square += (v - mean.value) * (v - mean.value);
+  mean.error = std::sqrt(square / (n - 1) / n);
+  return mean;
+}
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The smallest step that this scene asks for: of the first packing, at the engine's own step.
+double advised_step(const SlumpTable& test, const RunOptions& options) {
+  return simulate(test, options).run.advised_step_s;
+}
+
+}  // namespace
+
+Mean reading_of(const Row& row, std::size_t reading) {
+  std::vector<double> values;
+  for (const Run& run : row.runs)
+    if (run.readings) values.push_back((*run.readings)[reading]);
+  return mean_of(values);
+}
+
+Mean cpu_of(const Row& row) {
+  std::vector<double> finished, all;
+  for (const Run& run : row.runs) {
+    all.push_back(run.cpu_s);
+    if (run.readings) finished.push_back(run.cpu_s);
+  }
+  return mean_of(finished.empty() ? all : finished);
+}
+
+Deviation deviation(const Row& row, const Row& reference, std::size_t reading) {
+  if (row.setting.radius_m == reference.setting.radius_m) {
+    std::vector<double> differences;
+    for (const Run& run : row.runs)
+      for (const Run& other : reference.runs)
+        if (run.packing_seed == other.packing_seed && run.readings && other.readings)
+          differences.push_back((*run.readings)[reading] - (*other.readings)[reading]);
+    const Mean mean = mean_of(differences);
+    return {mean.value, mean.error};
+  }
+  const Mean here = reading_of(row, reading), there = reading_of(reference, reading);
+  return {here.value - there.value, std::hypot(here.error, there.error)};
+}
+
+const Row& reference_of(const std::vector<Row>& rows, const Row& row) {
+  for (const Row& other : rows)
+    if (other.setting.reference && other.setting.scene == row.setting.scene &&
+        other.setting.ladder == row.setting.ladder)
+      return other;
+  return row;
+}
+
+SlumpTable front_scene(bool cohesive, double radius_m) {
+  SlumpTable test;
+  test.grains.radius_m = radius_m;
+  test.lift_velocity_m_s = 0.2;
+  test.drop = DropPlate{};
+  test.contact.friction = 0.15;
+  test.contact.rolling_friction = 0.02;
+  test.contact.friction_basis = FrictionBasis::total;
+  if (!cohesive) return test;
+  constexpr double kStrength = 2500;     // c/R^2 [Pa]
+  constexpr double kRuptureShare = 0.2;  // force at rupture over c
+  Bridge& bridge = test.contact.bridge;
+  bridge.shape = BridgeShape::polynomial;
+  bridge.c_n = kStrength * radius_m * radius_m;
+  bridge.d_c_m = -0.8 * radius_m;
+  bridge.b_n_m = (1 - kRuptureShare) * bridge.c_n / -bridge.d_c_m;
+  bridge.offset_m = 0.4 * radius_m;
+  return test;
+}
+
+std::vector<Setting> ladders(bool quick) {
+  struct Size {
+    const char* name;
+    double radius_m;
+    int packings;
+  };
+  const std::vector<Size> sizes =
+      quick ? std::vector<Size>{{"12 mm", 0.012, 3}, {"10 mm", 0.010, 3}}
+            : std::vector<Size>{
+                  {"10 mm", 0.010, 8}, {"8 mm", 0.008, 8}, {"6 mm", 0.006, 5}, {"5 mm", 0.005, 4}, {"4 mm", 0.004, 3}};
+  const double radius = sizes[0].radius_m;
+  const int packings = quick ? 3 : 24;
+  std::vector<Setting> all;
+  for (const char* scene : {"dry", "cohesive"}) {
+    all.push_back({scene, "step", "fixed, 1/4 of advised", radius, 0.25, packings, true});
+    if (!quick) all.push_back({scene, "step", "fixed, 1/2 of advised", radius, 0.5, packings});
+    all.push_back({scene, "step", "fixed, advised", radius, 1.0, packings});
+    all.push_back({scene, "step", "the engine's own", radius, {}, packings});
+    all.push_back({scene, "step", "fixed, 2 x advised", radius, 2.0, packings});
+    if (!quick) all.push_back({scene, "step", "fixed, 4 x advised", radius, 4.0, packings});
+  }
+  // From coarse to fine, so that a run cut short has what is cheap. The finest is the reference.
+  for (const Size& size : sizes)
+    for (const char* scene : {"dry", "cohesive"})
+      all.push_back({scene, "grains", size.name, size.radius_m, {}, size.packings, &size == &sizes.back()});
+  return all;
+}
+
+Row measure(const Setting& setting, Fills& fills) {
+  Row row{setting, {}};
+  SlumpTable test = front_scene(setting.scene == "cohesive", setting.radius_m);
+  std::optional<double> fixed_step;
+  for (int n = 0; n < setting.packings; ++n) {
+    Run run;
+    run.packing_seed = test.packing_seed = static_cast<std::uint64_t>(n) + 1;
+    RunOptions options;
+    std::shared_ptr<const Packing>& fill = fills[{setting.radius_m, run.packing_seed}];
+    if (!fill) fill = fill_mould(test);
+    options.packing = fill;
+    if (setting.step_share && !fixed_step) fixed_step = *setting.step_share * advised_step(test, options);
+    options.time_step_s = fixed_step;
+    const double start = cpu_seconds();
+    const Outcome outcome = simulate(test, options);
+    run.cpu_s = cpu_seconds() - start;
+    run.time_step_s = outcome.run.time_step_s;
+    run.energy_error = outcome.run.energy_error;
+    if (outcome.failure) {
+      run.failure = name_of(outcome.failure->reason);
+    } else {
+      run.readings.emplace();
+      for (std::size_t k = 0; k < kReadings.size(); ++k)
+        (*run.readings)[k] = outcome.observables.find(kReadings[k]).value_or(NAN);
+    }
+    row.runs.push_back(run);
+  }
+  return row;
+}
+
+}  // namespace pastefit

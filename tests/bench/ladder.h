@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/simulate.h"
+
+namespace pastefit {
+
+/// Readings whose errors are measured, and their names in tables.
+inline constexpr std::array kReadings{"step1.height_mm", "step2.height_mm", "step2.plateau_sag_mm", "step2.spread_mm"};
+inline constexpr std::array kReadingNames{"h1", "h2", "sag", "spread"};
+using Readings = std::array<double, kReadings.size()>;
+
+/// What is varied: one row of a ladder.
+struct Setting {
+  std::string scene;   ///< "dry" or "cohesive"
+  std::string ladder;  ///< "step" or "grains"
+  std::string name;
+  double radius_m = 0.008;
+  std::optional<double> step_share;  ///< fixed step over the smallest that the scene asks for; empty: the engine's own
+  int packings = 4;
+  bool reference = false;  ///< the rows of the same scene and ladder are compared with it
+};
+
+/// One run of a setting.
+struct Run {
+  std::uint64_t packing_seed = 0;
+  std::optional<Readings> readings;  ///< empty: it failed
+  std::string failure;
+  double time_step_s = 0, cpu_s = 0, energy_error = 0;
+};
+
+/// A setting and all its runs. Means and standard errors are over the runs that did not fail.
+struct Row {
+  Setting setting;
+  std::vector<Run> runs;
+};
+
+/// Mean and standard error of a mean (0 for less than two numbers).
+struct Mean {
+  double value = 0, error = 0;
+};
+
+Mean reading_of(const Row& row, std::size_t reading);
+Mean cpu_of(const Row& row);  ///< of the runs that did not fail, else of all
+
+/// A row's deviation from its reference, and the noise (standard error) of that difference: a difference within twice
+/// the noise is not a difference. With grains of one size packing is compared with packing, otherwise mean with mean.
+struct Deviation {
+  double value = 0, noise = 0;
+  bool is_noise() const { return value < 2 * noise && value > -2 * noise; }
+};
+Deviation deviation(const Row& row, const Row& reference, std::size_t reading);
+
+/// The reference of a row.
+const Row& reference_of(const std::vector<Row>& rows, const Row& row);
+
+/// The two-step slump test of EN 12350-5 with grains of radius R, as paste (`cohesive`) or dry. Everything but R is a
+/// share of R or a strength, so that every R is the same paste.
+SlumpTable front_scene(bool cohesive, double radius_m);
+
+/// All rows to be measured; `quick`: few and coarse, to see that the program works.
+std::vector<Setting> ladders(bool quick);
+
+/// Filled moulds by radius and seed; a fill serves dry grains and paste alike.
+using Fills = std::map<std::pair<double, std::uint64_t>, std::shared_ptr<const Packing>>;
+
+/// Runs a setting with its packings. Fills that are missing are made and kept; their time does not count.
+Row measure(const Setting& setting, Fills& fills);
+
+}  // namespace pastefit
