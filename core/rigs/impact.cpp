@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/rigs/approach.h"
+#include "core/rigs/rotor.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"
 
@@ -191,17 +192,11 @@ class ImpactRun {
   void drive_rotors(double kick, double dt) {
     for (std::size_t w = 0; w < test_.walls.size(); ++w) {
       if (!test_.walls[w].rotor_mass_kg || rotor_time_) continue;
-      Wall& wall = world_.walls[w];
-      const Vec3 arm = std::get<Plate>(wall.shape).centre - wall.pivot;
-      const double torque = wall.torque.y + arm.x * *test_.walls[w].rotor_mass_kg * test_.gravity_m_s2;
-      double& turning = wall.angular_velocity.y;
-      turning += kick * torque / rotor_inertia(test_.walls[w]);
-      const double angle = std::atan2(arm.z, arm.x);
-      // Without weight the rotor is no falling plate: it has no stop.
-      if (test_.gravity_m_s2 == 0 || turning * dt < angle) continue;
-      rotor_time_ = world_.time + angle / turning;
-      rotor_speed_ = turning;
-      turning = angle / dt;
+      const Rotor plate{*test_.walls[w].rotor_mass_kg, rotor_inertia(test_.walls[w])};
+      const auto landing = turn_freely(plate, world_.walls[w], world_.gravity, kick, dt);
+      if (!landing) continue;
+      rotor_time_ = world_.time + landing->after_s;
+      rotor_speed_ = landing->turning_rad_s;
     }
     if (rotor_time_ && world_.time > *rotor_time_)
       for (std::size_t w = 0; w < test_.walls.size(); ++w)
