@@ -14,6 +14,8 @@ std::string_view name_of(FailureReason reason) {
       return "runaway_speed";
     case FailureReason::energy_created:
       return "energy_created";
+    case FailureReason::energy_lost:
+      return "energy_lost";
     case FailureReason::step_collapse:
       return "step_collapse";
     case FailureReason::never_settled:

@@ -9,6 +9,7 @@
 #include "core/observe/observables.h"
 #include "core/result.h"
 #include "core/rigs/slump_table.h"
+#include "core/step/step_options.h"
 
 namespace pastefit {
 
@@ -27,7 +28,8 @@ struct Moment {
 
 /// What the caller may ask of a run besides its answer.
 struct RunOptions {
-  std::optional<double> time_step_s;         ///< fixed step instead of the one the scene asks for
+  StepOptions steps;  ///< with a fixed step, if wanted, instead of the one the scene asks for
+  RestCriterion rest;
   std::int64_t step_limit = 20'000'000;      ///< a run beyond it fails with `step_limit`
   double watch_interval_s = 0.01;            ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run

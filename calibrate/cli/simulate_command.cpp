@@ -112,7 +112,7 @@ int simulate_file(const SimulateOptions& options) {
     return report({{"--time-step", "is not between 1e-9 and 0.01 s", "leave it out: the step follows from the scene"}});
 
   RunOptions run;
-  run.time_step_s = options.time_step_s;
+  run.steps.fixed_step_s = options.time_step_s;
   Faults unwritten;
   if (series) {
     run.watch_interval_s = *options.vtk_interval_s;

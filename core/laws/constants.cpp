@@ -17,9 +17,11 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
   const double g_star = 1 / ((2 - nu1) / shear_modulus(e1, nu1) + (2 - nu2) / shear_modulus(e2, nu2));
   pair.hertz = 4.0 / 3.0 * e_star;
   pair.normal_stiffness = 2 * e_star;
+  pair.root_normal_stiffness = std::sqrt(pair.normal_stiffness);
   pair.tangential_ratio = 4 * g_star / e_star;
-  pair.root_tangential_ratio = std::sqrt(pair.tangential_ratio);
   pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
+  pair.tangential_damping = pair.damping * std::sqrt(pair.tangential_ratio);
+  pair.largest_damping = std::max(pair.damping, kSurfaceLightness * pair.tangential_damping);
 }
 
 void set_rolling(PairConstants& pair, double rolling_friction) {

@@ -4,14 +4,19 @@
 
 namespace pastefit {
 
+/// A solid sphere's surface is 3.5 times as light as its mass: 1/m + r^2/I with I = 2/5 m r^2.
+inline constexpr double kSurfaceLightness = 3.5;
+
 /// What a contact law needs to know of a pair of surfaces, computed once per pair before a run.
 /// Lengths and forces of the attraction are those of a pair of reference grains; see `Bridge` for other sizes.
 struct PairConstants {
   double hertz = 0;                  ///< 4/3 E* [Pa]
   double normal_stiffness = 0;       ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
+  double root_normal_stiffness = 0;  ///< sqrt(2 E*)
   double tangential_ratio = 0;       ///< S_t / S_n = 4 G*/E*
-  double root_tangential_ratio = 0;  ///< sqrt(S_t / S_n)
   double damping = 0;                ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
+  double tangential_damping = 0;     ///< the same times sqrt(S_t / S_n)
+  double largest_damping = 0;        ///< the larger of the normal and 3.5 times the tangential
   double friction = 0;               ///< Coulomb coefficient
   bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
   double rolling_friction = 0;       ///< mu_r

@@ -15,6 +15,7 @@ struct Meeting {
   BasicVec3<Real> velocity;  ///< of i relative to j at the contact point, spins included
   BasicVec3<Real> spin;      ///< w_i - w_j
   Real twist;                ///< mean spin about the normal: how fast the contact itself turns
+  Real smaller_radius;       ///< of the two bodies' radii [m]
   Real root_radius;          ///< sqrt(R*)
   Real root_mass;            ///< sqrt(m*)
   Real inverse_mass;         ///< 1/m*
@@ -26,9 +27,12 @@ struct Meeting {
 template <class Real>
 struct Memory {
   BasicVec3<Real> slip;  ///< accumulated tangential displacement [m]
-  BasicVec3<Real> roll;  ///< accumulated relative rotation across the normal [rad]
-  Real contact_radius;   ///< sqrt(R* d) at the last step [m], 0 if the bodies did not touch
-  Real bridge;           ///< 1 while a liquid bridge lives, else 0
+  BasicVec3<Real>
+      roll;  ///< accumulated relative rotation across the normal [rad]; constant torque: the last torque [N m]
+  Real root_contact_radius;  ///< sqrt(a), a = sqrt(R* d), at the last step [m^(1/2)], 0 if the bodies did not touch
+  Real damper;               ///< normal damping force at the last step [N]
+  Real drag;    ///< coefficient of the tangential damper at the last step, as far as friction let it act [N s/m]
+  Real bridge;  ///< 1 while a liquid bridge lives, else 0
 };
 
 /// What a contact does to body i (body j gets the opposite), and what it means for the time step.
@@ -42,9 +46,6 @@ struct Action {
   Real heat_normal, heat_sliding, heat_rolling, heat_bridge, stored;
   Real stiffness;  ///< largest stiffness, rotation counted [N/m]
 };
-
-/// A solid sphere's surface is 3.5 times as light as its mass: 1/m + r^2/I with I = 2/5 m r^2.
-inline constexpr double kSurfaceLightness = 3.5;
 
 namespace detail {
 
@@ -96,8 +97,9 @@ struct SpringDashpotRolling {
   static constexpr bool elastic = true;
 };
 
-/// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot that takes at most a quarter
-/// of the relative spin in one step: without that the torque's sign would alternate and heat the heap.
+/// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot: without that the torque's
+/// sign would alternate and heat the heap. In one step a dashpot takes at most a fifth of a grain's spin, a tenth among
+/// equal grains, so that all the contacts of a grain together stay below twice of it.
 struct ConstantTorqueRolling {
   static constexpr bool present = true;
   static constexpr bool elastic = false;
@@ -133,11 +135,16 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real stiffness_t = Real(k.tangential_ratio) * stiffness_n;
   const Real repulsion = Real(k.hertz) * contact_radius * depth;
 
-  const Real root_impedance = square_root(stiffness_n) * m.root_mass;  // sqrt(S_n m*)
+  const Real root_contact_radius = square_root(contact_radius);
+  // sqrt(S_n m*) over the root of the contact radius: all dampers grow with that root.
+  const Real impedance_per_root = Real(k.root_normal_stiffness) * m.root_mass;
+  const Real root_impedance = impedance_per_root * root_contact_radius;
   const Real damping_n = Real(k.damping) * root_impedance;
-  const Real damping_t = Real(k.root_tangential_ratio) * damping_n;
-  const Real largest_damping = larger(damping_n, Real(kSurfaceLightness) * damping_t);
-  const Real others = larger(m.neighbour_damping - largest_damping * m.inverse_mass, zero);
+  const Real damping_t = Real(k.tangential_damping) * root_impedance;
+  const Real largest_damping_per_root = Real(k.largest_damping) * impedance_per_root;
+  const Real largest_damping = largest_damping_per_root * root_contact_radius;
+  const Real old_largest_damping = largest_damping_per_root * memory.root_contact_radius;
+  const Real others = larger(m.neighbour_damping - old_largest_damping * m.inverse_mass, zero);
   const Real calm = one + dt * others;
   const Real half_step = half * dt * m.inverse_mass;
   const Real brake_n = calm + half_step * damping_n;
@@ -154,20 +161,21 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real wide = larger(contact_radius, floor);
   const Real inverse = one / (brakes * squares * wide);
   const Real inverse_brakes = inverse * squares * wide, inverse_squares = inverse * brakes * wide;
-  const Real radius_ratio = memory.contact_radius * (inverse * brakes * squares);
-  const Real softened = smaller(one, radius_ratio);
+  const Real old_contact_radius = memory.root_contact_radius * memory.root_contact_radius;
+  const Real softened = smaller(one, old_contact_radius * (inverse * brakes * squares));
   const Real damper_n = damping_n * brake_t * inverse_brakes;
   const Real damper_t = damping_t * brake_n * inverse_brakes;
+  const Real damper = damper_n * approach;
 
   Action<Real> action;
   const Real cohesion = Real(k.cohesion) * m.size_scale * m.size_scale;
-  action.push = select(touching, repulsion + damper_n * approach - cohesion, zero);
+  action.push = select(touching, repulsion + damper - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
   action.damping = largest_damping;
-  // The damper of this step works along the mean of the velocities before and after it. Summed over steps that is
-  // v^2 (3/4 c_n + 1/4 c_(n-1)) to second order, with c_(n-1)/c_n = sqrt(a_(n-1)/a_n), near 1: r (3 - r)/2.
-  const Real ratio = smaller(radius_ratio, Real(1.5));
-  action.heat_normal = dt * damper_n * approach * approach * (Real(0.75) + Real(0.125) * ratio * (Real(3.0) - ratio));
+  // The damper of a step works along the mean of the velocities before and after it: half of its work is known now, the
+  // other half one step later.
+  action.heat_normal = half * dt * (damper + memory.damper) * approach;
+  memory.damper = damper;
   action.heat_rolling = action.heat_bridge = zero;
   action.stored = (Real(0.4) * repulsion - cohesion) * depth;
 
@@ -209,15 +217,20 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
 
   const Real kept = detail::cap(traction_square, inverse_both * moment_square, Real(k.friction) * load);
   action.traction = -kept * traction;
-  const Real old_stiffness_n = Real(k.normal_stiffness) * memory.contact_radius;
+  const Real old_stiffness_n = Real(k.normal_stiffness) * old_contact_radius;
   const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
   const Real old_slip_energy = half * old_stiffness_t * dot(memory.slip, memory.slip);
   memory.slip = select(touching, kept, zero) * slip;
   const Real slip_energy = half * stiffness_t * dot(memory.slip, memory.slip);
+  // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
+  // for three quarters, that of the last for one.
+  const Real drag = kept * damper_t;
+  const Real mean_drag = Real(0.75) * drag + Real(0.25) * memory.drag;
+  memory.drag = drag;
   const Real mean_spring_work =
       half * (old_stiffness_t * dot(slip_turned.vector, velocity_t) + kept * stiffness_t * dot(slip, velocity_t));
   action.heat_sliding =
-      dt * (mean_spring_work + kept * damper_t * dot(velocity_t, velocity_t)) + old_slip_energy - slip_energy;
+      dt * (mean_spring_work + mean_drag * dot(velocity_t, velocity_t)) + old_slip_energy - slip_energy;
   action.stored = action.stored + slip_energy;
 
   if constexpr (Rolling::present) {
@@ -240,15 +253,18 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
       action.heat_rolling = dt * (mean_roll_work + braking * dot(rolling, rolling)) + old_roll_energy - roll_energy;
       action.stored = action.stored + roll_energy;
     } else {
-      const Real gentle = Real(0.35) * radius * radius * m.root_mass * m.root_mass / larger(dt, floor);
+      const Real gentle =
+          Real(0.08) * m.smaller_radius * m.smaller_radius * m.root_mass * m.root_mass / larger(dt, floor);
       const Real resistance = smaller(roll_limit * square_root(inverse_square), gentle);
-      action.moment = -resistance * rolling;
-      action.heat_rolling = dt * resistance * dot(rolling, rolling);
+      const BasicVec3<Real> torque = resistance * rolling;
+      action.moment = -torque;
+      action.heat_rolling = half * dt * dot(torque + memory.roll, rolling);
+      memory.roll = torque;
     }
   } else {
     action.moment = {zero, zero, zero};
   }
-  memory.contact_radius = contact_radius;
+  memory.root_contact_radius = root_contact_radius;
   return action;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/observe/heap.h"
 #include "core/rigs/packing.h"
+#include "core/rigs/rotor.h"
 #include "core/simulate.h"
 #include "core/step/runner.h"
 
@@ -22,7 +23,7 @@ constexpr double kGroundDepth = 0.1;  // [m] below the table
 class SlumpRun {
  public:
   SlumpRun(const SlumpTable& test, const Packing& packing, const RunOptions& options)
-      : test_(test), world_(make_world(test, packing)), runner_(world_, options, step_options(options)) {}
+      : test_(test), world_(make_world(test, packing)), runner_(world_, options) {}
 
   /// The struck-off surface is level with the rim by definition: the ruler is set to zero slump there. Between the tops
   /// of coarse grains the surface lies a little below it, here as in every later reading, and soft grains settle by a
@@ -75,20 +76,10 @@ class SlumpRun {
   /// Lets the plate go: a rigid rotor under its own weight and the grains on it, stopped dead when it is level.
   std::optional<Failure> let_plate_fall() {
     const DropPlate& drop = *test_.drop;
-    const double inertia = drop.mass_kg * drop.length_m * drop.length_m / 3;
+    const Rotor plate{drop.mass_kg, drop.mass_kg * drop.length_m * drop.length_m / 3};
     bool stopped = false;
     const auto fall = [&](World& world, double dt) {
-      Wall& table = world.walls[kTable];
-      const Plate& plate = std::get<Plate>(table.shape);
-      const Vec3 arm = plate.centre - table.pivot;
-      const double torque = table.torque.y + arm.x * drop.mass_kg * kGravity;
-      double& turning = table.angular_velocity.y;
-      turning += dt * torque / inertia;
-      const double angle = std::atan2(arm.z, arm.x);
-      if (turning * dt >= angle) {
-        turning = angle / dt;
-        stopped = true;
-      }
+      if (turn_freely(plate, world.walls[kTable], world.gravity, dt, dt)) stopped = true;
     };
     if (auto problem = runner_.run("step2.drop", kDropCap, fall, [&](const World&) { return stopped; })) return problem;
     Wall& table = world_.walls[kTable];
@@ -108,8 +99,9 @@ class SlumpRun {
   void read(std::string_view step, Observables& readings) const {
     const Particles grains = on_table();
     const double radius = test_.grains.radius_m, probe = test_.reading.probe_diameter_m;
-    const double axis = axis_zero_ + height_at_axis(grains, radius, probe);
-    const double highest = highest_zero_ + highest_point(grains);
+    // A fill that stood above the rim has a ruler that would read less than nothing where all has flowed away.
+    const double axis = std::max(axis_zero_ + height_at_axis(grains, radius, probe), 0.0);
+    const double highest = std::max(highest_zero_ + highest_point(grains), 0.0);
     const double height = test_.reading.height == HeightReading::axis ? axis : highest;
     const auto set = [&](const char* name, double value) { readings.set(std::string(step) + name, value); };
     set(".height_mm", 1e3 * height);
@@ -141,12 +133,6 @@ class SlumpRun {
   static double turned_share(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return s * s * (3 - 2 * s);
-  }
-
-  static StepOptions step_options(const RunOptions& options) {
-    StepOptions steps;
-    steps.fixed_step_s = options.time_step_s;
-    return steps;
   }
 
   Particles on_table() const {

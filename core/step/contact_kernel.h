@@ -97,9 +97,11 @@ PASTEFIT_INLINE Memory<Real> recall(const ContactView& c, std::int32_t k) {
   Memory<Real> memory;
   memory.slip = pastefit::PASTEFIT_ISA::load(c.slip, k);
   if constexpr (Rolling::present) {
-    if constexpr (Rolling::elastic) memory.roll = pastefit::PASTEFIT_ISA::load(c.roll, k);
+    memory.roll = pastefit::PASTEFIT_ISA::load(c.roll, k);
   }
-  memory.contact_radius = Real::load(c.contact_radius + k);
+  memory.root_contact_radius = Real::load(c.root_contact_radius + k);
+  memory.damper = Real::load(c.damper + k);
+  memory.drag = Real::load(c.drag + k);
   memory.bridge = Real::load(c.bridge + k);
   return memory;
 }
@@ -108,9 +110,11 @@ template <class Attraction, class Rolling>
 PASTEFIT_INLINE void remember(const ContactView& c, std::int32_t k, const Memory<Real>& memory) {
   store(c.slip, k, memory.slip);
   if constexpr (Rolling::present) {
-    if constexpr (Rolling::elastic) store(c.roll, k, memory.roll);
+    store(c.roll, k, memory.roll);
   }
-  memory.contact_radius.store(c.contact_radius + k);
+  memory.root_contact_radius.store(c.root_contact_radius + k);
+  memory.damper.store(c.damper + k);
+  memory.drag.store(c.drag + k);
   if constexpr (Attraction::present) memory.bridge.store(c.bridge + k);
 }
 
@@ -131,6 +135,7 @@ void pair_kernel(const KernelTask& task) {
     meeting.velocity = a.velocity - b.velocity + cross(lever_a * a.spin + lever_b * b.spin, meeting.normal);
     meeting.spin = a.spin - b.spin;
     meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
+    meeting.smaller_radius = smaller(a.radius, b.radius);
     meeting.root_radius = Real::load(c.root_radius + k);
     meeting.root_mass = Real::load(c.root_mass + k);
     meeting.inverse_mass = Real::load(c.inverse_mass + k);
@@ -192,6 +197,7 @@ void wall_kernel(const KernelTask& task) {
         a.velocity - pastefit::PASTEFIT_ISA::load(w.wall_velocity, k) + cross(lever * a.spin, meeting.normal);
     meeting.spin = a.spin;
     meeting.twist = Real(0.5) * dot(a.spin, meeting.normal);
+    meeting.smaller_radius = a.radius;
     meeting.root_radius = Real::load(c.root_radius + k);
     meeting.root_mass = Real::load(c.root_mass + k);
     meeting.inverse_mass = Real::load(c.inverse_mass + k);

@@ -14,7 +14,7 @@ namespace pastefit {
 struct ContactView {
   const std::int32_t *i, *j;
   const double *root_radius, *root_mass, *inverse_mass, *size_scale;
-  double *slip[3], *roll[3], *contact_radius, *bridge;
+  double *slip[3], *roll[3], *root_contact_radius, *damper, *drag, *bridge;
   std::int32_t count;
 };
 

@@ -13,6 +13,7 @@ struct Ledger {
   double start = 0;    ///< mechanical() at the first look
   double start_height = 0;
   double start_kinetic = 0;
+  double start_elastic = 0;  ///< in overlaps at the first look
 
   double heat_normal = 0;   ///< damping along the normal
   double heat_sliding = 0;  ///< friction and tangential damping
@@ -25,10 +26,10 @@ struct Ledger {
   double mechanical() const { return kinetic + stored + height; }
   double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag; }
   double error() const { return mechanical() + heat() - start - work_of_walls; }
-  /// What drove the run: fall, walls, speed at the start, and attraction set free by bridges.
+  /// What drove the run: fall, walls, speed and overlaps at the start, and attraction set free by bridges.
   double put_in() const {
     const double fall = start_height > height ? start_height - height : 0;
-    return fall + effort_of_walls + start_kinetic + heat_bridges;
+    return fall + effort_of_walls + start_kinetic + start_elastic + heat_bridges;
   }
 };
 

@@ -9,19 +9,10 @@
 
 namespace pastefit {
 
-/// When a heap counts as at rest: the grains' root mean square speed is below a bound, and neither the top, nor the
-/// mean height, nor the mean distance from the axis has changed by more than a share of a radius over the last window.
-/// A stiff heap swings for long like a jelly; that moves no reading by more than these bounds.
-struct RestCriterion {
-  double window_s = 0.05;
-  double speed_over_fall = 0.03;     ///< bound on the speed over sqrt(g R)
-  double change_over_radius = 0.02;  ///< bound on the changes over the mean radius
-};
-
 /// Runs a world through the phases of a test, watched by the caller, until each phase's own end.
 class Runner {
  public:
-  Runner(World& world, const RunOptions& options, const StepOptions& steps);
+  Runner(World& world, const RunOptions& options);
 
   using Drive = std::function<void(World&, double dt)>;
 
@@ -32,15 +23,14 @@ class Runner {
   /// Runs `run` in windows until the heap is at rest and `free` holds, or `done` does, for `longest_s` at most.
   std::optional<Failure> run_until_rest(std::string_view phase, double longest_s,
                                         const std::function<bool(const World&)>& free,
-                                        const std::function<bool(const World&)>& done,
-                                        const RestCriterion& criterion = {});
+                                        const std::function<bool(const World&)>& done);
 
   /// Steps until the heap is at rest, for `cap_s` at most; at the cap the run goes on, marked as not settled, unless
   /// the heap still moves fast enough that its readings mean nothing.
-  std::optional<Failure> settle(std::string_view phase, double cap_s, const RestCriterion& criterion = {});
+  std::optional<Failure> settle(std::string_view phase, double cap_s);
 
   /// As `settle`, but it does not matter whether rest is reached within the time.
-  std::optional<Failure> relax(std::string_view phase, double cap_s, const RestCriterion& criterion = {});
+  std::optional<Failure> relax(std::string_view phase, double cap_s);
 
   /// To be called after walls, laws or grains were changed from outside.
   void changed() { stepper_.forget_lists(); }
@@ -54,8 +44,7 @@ class Runner {
     bool rested = false;
     double change = 0;  ///< in the last window [m]
   };
-  Wait wait_for_rest(std::string_view phase, double cap_s, const RestCriterion& criterion,
-                     const std::function<bool(const World&)>& free = {},
+  Wait wait_for_rest(std::string_view phase, double cap_s, const std::function<bool(const World&)>& free = {},
                      const std::function<bool(const World&)>& done = {});
   std::optional<Failure> tell(std::string_view phase);
   /// Energy created over energy put in, as of the ledger's last look.

@@ -10,7 +10,6 @@ namespace {
 constexpr double kStepsPerSelection = 12;  // selections are a tenth of the work of a step; see README
 constexpr double kSmallestMargin = 0.01;   // of the mean radius
 constexpr double kLargestMargin = 0.2;
-constexpr double kGrowth = 1.05;         // a step may grow by 5 % between two selections
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
 constexpr double kRunawaySpeed = 100;    // [m/s]; nothing in a laboratory test comes near it
 
@@ -26,7 +25,9 @@ ContactView view(Contacts& c) {
     v.slip[k] = c.slip[k].data();
     v.roll[k] = c.roll[k].data();
   }
-  v.contact_radius = c.contact_radius.data();
+  v.root_contact_radius = c.root_contact_radius.data();
+  v.damper = c.damper.data();
+  v.drag = c.drag.data();
   v.bridge = c.bridge.data();
   v.count = c.padded();
   return v;
@@ -50,6 +51,23 @@ double speed_of(const Wall& wall) {
   return norm(wall.velocity) + norm(wall.angular_velocity) * reach;
 }
 
+/// What the normal springs of all contacts hold [J].
+double elastic_energy(const World& world) {
+  const auto spring = [](const PairConstants& pair, double root_radius, double overlap) {
+    return 0.4 * pair.hertz * root_radius * std::pow(std::max(overlap, 0.0), 2.5);
+  };
+  double sum = 0;
+  const Contacts& contacts = world.acting.contacts;
+  for (std::int32_t k = 0; k < contacts.count; ++k) {
+    const Motion &a = world.particles.motion[contacts.i[k]], &b = world.particles.motion[contacts.j[k]];
+    sum += spring(world.grain_pair, contacts.root_radius[k], a.radius + b.radius - norm(b.position - a.position));
+  }
+  for (const Wall& wall : world.walls)
+    for (std::int32_t k = 0; k < wall.touching.contacts.count; ++k)
+      sum += spring(wall.pair, wall.touching.contacts.root_radius[k], wall.touching.overlap[k]);
+  return sum;
+}
+
 }  // namespace
 
 Stepper::Stepper(World& world, const StepOptions& options)
@@ -70,11 +88,14 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
         FailureReason::grain_lost, world_.particles.identity[pierced_], options_.overlap_limit, options_.overlap_limit,
         "a grain is pressed into a wall by more than the allowed share of its radius; take stiffer grains or a "
         "smaller step");
-  const double dt = next_time_step();
-  if (!options_.fixed_step_s && dt < kSmallestShare * first_advised_)
-    return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * first_advised_,
+  const double advised = time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_}, options_));
+  const double dt = options_.fixed_step_s.value_or(advised);
+  if (dt < kSmallestShare * time_step_.first() && !options_.fixed_step_s)
+    return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
                    "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
+  account_walls(dt_);
   if (drive) drive(world_, dt);
+  account_walls(dt);
   look_at_energy(dt);
   integrate(dt);
   for (Wall& wall : world_.walls) move(wall, dt);
@@ -160,7 +181,6 @@ void Stepper::act_on_wall(Wall& wall) {
   const std::int32_t n = touching.contacts.count;
   wall.force = wall.torque = {};
   if (n == 0) return;
-  double work = 0;
   Particles& particles = world_.particles;
   for (std::int32_t k = 0; k < n; ++k) {
     const Motion& grain = particles.motion[touching.contacts.i[k]];
@@ -206,15 +226,20 @@ void Stepper::act_on_wall(Wall& wall) {
     // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
     load.stiffness += 0.5 * touching.stiffness[k];
     wall.force += -force;
-    const Vec3 wall_velocity{touching.wall_velocity[0][k], touching.wall_velocity[1][k], touching.wall_velocity[2][k]};
-    work += dt_ * dot(force, wall_velocity);
     const Motion& grain = particles.motion[i];
     const Vec3 normal{touching.normal[0][k], touching.normal[1][k], touching.normal[2][k]};
     const Vec3 arm = grain.position + (grain.radius - touching.overlap[k]) * normal - wall.pivot;
     wall.torque += cross(arm, -force);
   }
-  ledger_.work_of_walls += work;
-  ledger_.effort_of_walls += std::fabs(work);
+}
+
+/// A force acts for half of the step before and half of the step after: this is one of the halves.
+void Stepper::account_walls(double dt) {
+  for (const Wall& wall : world_.walls) {
+    const double work = -0.5 * dt * (dot(wall.force, wall.velocity) + dot(wall.torque, wall.angular_velocity));
+    ledger_.work_of_walls += work;
+    ledger_.effort_of_walls += std::fabs(work);
+  }
 }
 
 /// Energies at the time of the positions: the velocities there are the means of the half steps around it.
@@ -250,35 +275,7 @@ void Stepper::look_at_energy(double dt) {
   ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;
   ledger_.start_height = ledger_.height;
   ledger_.start_kinetic = ledger_.kinetic;
-}
-
-/// Stable step of the leapfrog: 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the larger of normal
-/// and 3.5 times tangential stiffness of a contact). Then impacts: the shortest Hertz collision at the present largest
-/// speed takes `impact_resolution` steps; and bridges: none is crossed in fewer than `bridge_resolution` steps.
-double Stepper::advised_step() const {
-  double stiffest = 0;
-  for (std::int32_t i = 0; i < world_.particles.count(); ++i)
-    stiffest = std::max(stiffest, world_.particles.load[i].stiffness * world_.particles.spin[i].inverse_mass);
-  double limit = stiffest > 0 ? options_.safety * std::sqrt(2 / stiffest) : 1e300;
-  const double speed = std::max(fastest_, 0.01);
-  const double effective_mass = 0.5 * smallest_mass_, effective_radius = 0.5 * smallest_radius_;
-  const double e_star = 0.5 * world_.grain_pair.normal_stiffness;
-  const double collision =
-      2.87 * std::pow(effective_mass * effective_mass / (effective_radius * e_star * e_star * speed), 0.2);
-  limit = std::min(limit, collision / options_.impact_resolution);
-  if (world_.attraction != BridgeShape::none && world_.grain_pair.rupture_gap > 0)
-    limit = std::min(limit, world_.grain_pair.rupture_gap * smallest_radius_ / world_.reference_radius /
-                                (options_.bridge_resolution * speed));
-  // The last bits of pow differ between processors; the step is rounded to single precision so that the run does not.
-  return static_cast<float>(limit);
-}
-
-double Stepper::next_time_step() {
-  const double advised = advised_step();
-  if (first_advised_ == 0) first_advised_ = advised;
-  smallest_advised_ = std::min(smallest_advised_, advised);
-  if (options_.fixed_step_s) return *options_.fixed_step_s;
-  return dt_ > 0 ? std::min(advised, kGrowth * dt_) : advised;
+  ledger_.start_elastic = elastic_energy(world_);
 }
 
 void Stepper::integrate(double dt) {

@@ -6,20 +6,10 @@
 #include "core/result.h"
 #include "core/step/kernels.h"
 #include "core/step/ledger.h"
+#include "core/step/time_step.h"
 #include "core/world/world.h"
 
 namespace pastefit {
-
-/// How steps are taken.
-struct StepOptions {
-  std::optional<double> fixed_step_s;    ///< empty: the step follows from stiffness, impacts and bridges
-  double safety = 0.8;                   ///< share of the stable step
-  double impact_resolution = 15;         ///< steps in the shortest Hertz collision
-  double bridge_resolution = 10;         ///< steps in which the fastest grain crosses a bridge
-  double overlap_limit = 0.5;            ///< largest overlap over the smaller radius; beyond it the run is invalid
-  double skin = 0.8;                     ///< skin of the candidate list over the mean radius
-  const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
-};
 
 /// What the last steps showed; renewed at every selection of contacts.
 struct Health {
@@ -46,7 +36,7 @@ class Stepper {
 
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
-  double smallest_advised_step() const { return smallest_advised_; }
+  double smallest_advised_step() const { return time_step_.smallest(); }
   const Health& health() const { return health_; }
   /// As of the last step that was a multiple of `kLedgerInterval`.
   const Ledger& ledger() const { return ledger_; }
@@ -56,10 +46,9 @@ class Stepper {
   std::optional<Failure> maintain_lists();
   void compute_forces();
   void act_on_wall(Wall& wall);
+  void account_walls(double dt);
   void integrate(double dt);
   void look_at_energy(double dt);
-  double advised_step() const;
-  double next_time_step();
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
   World& world_;
@@ -78,7 +67,7 @@ class Stepper {
   std::int32_t pierced_ = -1;  ///< a grain too deep in a wall
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
-  double first_advised_ = 0, smallest_advised_ = 1e300;
+  TimeStep time_step_;
   Health health_;
   EnergySums energy_;
   Ledger ledger_;

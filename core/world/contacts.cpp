@@ -25,7 +25,7 @@ void grow_columns(std::int32_t n, Columns&... columns) {
 
 void Contacts::grow(std::int32_t n) {
   grow_columns(n, i, j, root_radius, root_mass, inverse_mass, size_scale, slip[0], slip[1], slip[2], roll[0], roll[1],
-               roll[2], contact_radius, bridge);
+               roll[2], root_contact_radius, damper, drag, bridge);
 }
 
 void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
@@ -43,7 +43,9 @@ void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, d
   roll[0][k] = memory.roll.x;
   roll[1][k] = memory.roll.y;
   roll[2][k] = memory.roll.z;
-  contact_radius[k] = memory.contact_radius;
+  root_contact_radius[k] = memory.root_contact_radius;
+  damper[k] = memory.damper;
+  drag[k] = memory.drag;
   bridge[k] = memory.bridge;
 }
 
@@ -59,7 +61,9 @@ void Contacts::append(const Contacts& other, std::int32_t k) {
     slip[c][n] = other.slip[c][k];
     roll[c][n] = other.roll[c][k];
   }
-  contact_radius[n] = other.contact_radius[k];
+  root_contact_radius[n] = other.root_contact_radius[k];
+  damper[n] = other.damper[k];
+  drag[n] = other.drag[k];
   bridge[n] = other.bridge[k];
 }
 

@@ -17,18 +17,20 @@ inline constexpr int kBatch = 8;
 struct ContactMemory {
   Vec3 slip;
   Vec3 roll;
-  double contact_radius = 0;
+  double root_contact_radius = 0;
+  double damper = 0;
+  double drag = 0;
   double bridge = 0;
 };
 
-/// Pairs that touch or may touch before the next selection, as columns: 14 of them, 112 bytes a contact.
+/// Pairs that touch or may touch before the next selection, as columns: 16 of them, 120 bytes a contact.
 /// Order: by i, then by j; the sums of a step are taken in this order on every machine.
 /// The columns are as long as the longest list so far and are not cleared: `count` says how much of them is meant.
 struct Contacts {
   Column<std::int32_t> i, j;
   Column<double> root_radius, root_mass, inverse_mass, size_scale;
   std::array<Column<double>, 3> slip, roll;
-  Column<double> contact_radius, bridge;
+  Column<double> root_contact_radius, damper, drag, bridge;
   std::int32_t count = 0;  ///< without padding
 
   std::int32_t padded() const { return (count + kBatch - 1) / kBatch * kBatch; }

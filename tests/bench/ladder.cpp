@@ -129,7 +129,7 @@ Row measure(const Setting& setting, Fills& fills) {
     if (!fill) fill = fill_mould(test);
     options.packing = fill;
     if (setting.step_share && !fixed_step) fixed_step = *setting.step_share * advised_step(test, options);
-    options.time_step_s = fixed_step;
+    options.steps.fixed_step_s = fixed_step;
     const double start = cpu_seconds();
     const Outcome outcome = simulate(test, options);
     run.cpu_s = cpu_seconds() - start;

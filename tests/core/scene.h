@@ -60,6 +60,8 @@ class Scene {
     while (world.time < duration) problem = stepper_->step({});
   }
 
+  const Ledger& ledger() const { return stepper_->ledger(); }
+
   /// Grain by the order in which it was added.
   const Motion& motion(int identity) const { return world.particles.motion[place(identity)]; }
   const Vec3& spin(int identity) const { return world.particles.spin[place(identity)].velocity; }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+namespace pastefit {
+
+struct KernelTable;
+
+/// How steps are taken.
+struct StepOptions {
+  std::optional<double> fixed_step_s;    ///< empty: the step follows from stiffness, impacts and bridges
+  double safety = 0.8;                   ///< share of the stable step
+  double impact_resolution = 18;         ///< steps in the shortest Hertz collision that loses all its energy
+  double bridge_resolution = 10;         ///< steps in which the fastest grain crosses a bridge
+  double overlap_limit = 0.5;            ///< largest overlap over the smaller radius; beyond it the run is invalid
+  double skin = 0.8;                     ///< skin of the candidate list over the mean radius
+  const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
+};
+
+/// When a heap counts as at rest: the grains' root mean square speed is below a bound, and neither the top, nor the
+/// mean height, nor the mean distance from the axis has changed by more than a share of a radius over the last window.
+/// A stiff heap swings for long like a jelly; that moves no reading by more than these bounds.
+struct RestCriterion {
+  double window_s = 0.05;
+  double speed_over_fall = 0.03;     ///< bound on the speed over sqrt(g R)
+  double change_over_radius = 0.02;  ///< bound on the changes over the mean radius
+};
+
+}  // namespace pastefit

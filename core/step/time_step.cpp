@@ -1,0 +1,76 @@
+#include "core/step/time_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kSlowest = 0.01;     // [m/s] speed that is always reckoned with
+constexpr double kLeastLoss = 0.3;    // share of a collision's energy beyond which losing less asks for no more steps
+constexpr double kFastCrossing = 10;  // over the speed a bridge can give
+constexpr double kLevelsPerOctave = 16;
+
+/// Share of its energy that a head-on collision of this pair loses: 1 - e^2.
+double lost_share(const PairConstants& pair) {
+  const double beta = pair.damping / (2 * std::sqrt(5.0 / 6.0));
+  const double restitution = std::exp(-std::numbers::pi * beta / std::sqrt(std::max(1 - beta * beta, 1e-12)));
+  return 1 - restitution * restitution;
+}
+
+/// The level at or below a step. The last bits of pow and exp differ between processors; levels do not.
+double level_below(double step) {
+  int octave = 0;
+  const double mantissa = std::frexp(step, &octave);
+  return std::ldexp(std::floor(mantissa * 2 * kLevelsPerOctave) / (2 * kLevelsPerOctave), octave);
+}
+
+double stability_limit(const World& world) {
+  double stiffest = 0;
+  for (std::int32_t i = 0; i < world.particles.count(); ++i)
+    stiffest = std::max(stiffest, world.particles.load[i].stiffness * world.particles.spin[i].inverse_mass);
+  return stiffest > 0 ? std::sqrt(2 / stiffest) : 1e300;
+}
+
+double impact_limit(const World& world, const Pace& pace) {
+  double loss = lost_share(world.grain_pair);
+  for (const Wall& wall : world.walls) loss = std::min(loss, lost_share(wall.pair));
+  const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
+  const double modulus = 0.5 * world.grain_pair.normal_stiffness;
+  const double speed = std::max(pace.fastest, kSlowest);
+  return std::max(loss, kLeastLoss) * 2.87 * std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
+}
+
+double bridge_limit(const World& world, const Pace& pace) {
+  const PairConstants& pair = world.grain_pair;
+  if (world.attraction == BridgeShape::none || pair.rupture_gap <= 0) return 1e300;
+  const double scale = pace.smallest_radius / world.reference_radius;
+  const double gap = pair.rupture_gap * scale;
+  const double escape = std::sqrt(2 * pair.bridge_c * scale * scale * gap / (0.5 * pace.smallest_mass));
+  return gap / std::clamp(pace.fastest, kSlowest, std::max(kSlowest, kFastCrossing * escape));
+}
+
+}  // namespace
+
+double advised_step(const World& world, const Pace& pace, const StepOptions& options) {
+  return std::min({options.safety * stability_limit(world), impact_limit(world, pace) / options.impact_resolution,
+                   bridge_limit(world, pace) / options.bridge_resolution});
+}
+
+double TimeStep::next(double advised) {
+  if (first_ == 0) first_ = advised;
+  smallest_ = std::min(smallest_, advised);
+  const double level = level_below(advised);
+  lowest_ = std::min(lowest_, level);
+  if (step_ == 0 || level < step_) step_ = level;
+  if (++in_window_ < kWindow) return step_;
+  step_ = std::max(step_, level_below(std::min({lowest_, lowest_before_, kRise * step_})));
+  lowest_before_ = lowest_;
+  lowest_ = 1e300;
+  in_window_ = 0;
+  return step_;
+}
+
+}  // namespace pastefit
