@@ -26,9 +26,9 @@ struct PolynomialAttraction {
   static constexpr bool present = true;
   template <class Real>
   PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
-    const Real slope = Real(k.bridge_a) * d + Real(k.bridge_b) * s;
-    const Real tangent = slope + Real(k.bridge_a) * d;
-    return {slope * d + Real(k.bridge_c) * s * s, larger(tangent, -tangent)};
+    const Real slope = fused(Real(k.bridge_a), d, Real(k.bridge_b) * s);
+    const Real tangent = fused(Real(k.bridge_a), d, slope);
+    return {fused(slope, d, Real(k.bridge_c) * s * s), larger(tangent, -tangent)};
   }
   template <class Real>
   PASTEFIT_INLINE static Real work(const PairConstants& k, Real d, Real s) {
@@ -88,6 +88,7 @@ struct CapillaryAttraction {
 
 /// Attraction of a pair at overlap d, none while it touches; forms and ruptures its bridge (`alive` 0 or 1).
 /// A bridge that forms will take work to be pulled apart: the ledger counts that work as spent when it forms (`spent`).
+/// Few form in a step, so that the work is computed only where one does.
 template <class Attraction, class Real>
 PASTEFIT_INLINE Pull<Real> bridge_pull(const PairConstants& k, Real overlap, Real scale, Real& alive, Real& spent) {
   const Real zero(0.0), one(1.0);
@@ -95,7 +96,8 @@ PASTEFIT_INLINE Pull<Real> bridge_pull(const PairConstants& k, Real overlap, Rea
   const Real formed = select(gap <= Real(k.formation_gap) * scale, one, alive);
   const Real before = alive;
   alive = select(gap <= Real(k.rupture_gap) * scale, formed, zero);
-  spent = larger(alive - before, zero) * Attraction::work(k, smaller(overlap, zero), scale);
+  spent = zero;
+  if (any(alive > before)) spent = larger(alive - before, zero) * Attraction::work(k, smaller(overlap, zero), scale);
   const Pull<Real> pull = Attraction::at(k, smaller(overlap, zero), scale);
   const Real pulling = select(overlap > zero, zero, alive);
   return {pulling * pull.force, pulling * pull.slope};

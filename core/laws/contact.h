@@ -65,21 +65,23 @@ struct Turned {
 template <class Real>
 PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Real>& n, Real twist_angle) {
   const Real along = dot(a, n);
-  const BasicVec3<Real> b = a - along * n;
-  return {b + twist_angle * cross(n, b), along * along, larger(dot(b, b), Real(kFloor))};
+  const BasicVec3<Real> b = fused(-along, n, a);
+  return {fused(twist_angle, cross(n, b), b), along * along, larger(dot(b, b), Real(kFloor))};
 }
 
 /// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step.
 template <class Real>
 PASTEFIT_INLINE Real restored(const Turned<Real>& t, Real inverse_square) {
-  return Real(1.0) + Real(0.5) * t.lost * inverse_square;
+  return fused(Real(0.5) * t.lost, inverse_square, Real(1.0));
 }
 
-/// The factor that brings a vector down to `limit`; 1 if it is not longer. Takes the inverse of its squared length.
+/// The factor that brings a vector down to `limit`; 1 if it is not longer. Where all contacts of a batch hold, as in a
+/// heap at rest, there is nothing to divide.
 template <class Real>
-PASTEFIT_INLINE Real cap(Real square, Real inverse_square, Real limit) {
-  const Real allowed = limit * limit;
-  return select(square > allowed, square_root(allowed * inverse_square), Real(1.0));
+PASTEFIT_INLINE Real cap(Real square, Real limit) {
+  const auto yields = square > limit * limit;
+  if (!any(yields)) return Real(1.0);
+  return select(yields, limit / square_root(square), Real(1.0));
 }
 
 }  // namespace detail
@@ -105,7 +107,8 @@ struct ConstantTorqueRolling {
   static constexpr bool elastic = false;
 };
 
-/// Force of one contact or bridge for one time step `dt`; updates its memory.
+/// Force of one contact or bridge for one time step `dt`; updates its memory. What living bridges can still do is left
+/// out of the energy stored unless it is asked for.
 ///
 /// overlap d > 0: Hertz repulsion 4/3 E* sqrt(R*) d^(3/2), constant cohesion against it, damping
 ///   2 sqrt(5/6) beta sqrt(S_n m*), Mindlin spring S_t on the slip, Coulomb limit on spring and damper together,
@@ -124,7 +127,8 @@ struct ConstantTorqueRolling {
 /// Square roots and divisions are what this function costs: there are five of the one and three of the other; what can
 /// be divided together is.
 template <class Attraction, class Rolling, class Real>
-PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt) {
+PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt,
+                                 bool with_stored) {
   const Real zero(0.0), one(1.0), half(0.5), floor(detail::kFloor);
   const auto touching = m.overlap > zero;
   const Real depth = larger(m.overlap, zero);
@@ -144,11 +148,11 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real largest_damping_per_root = Real(k.largest_damping) * impedance_per_root;
   const Real largest_damping = largest_damping_per_root * root_contact_radius;
   const Real old_largest_damping = largest_damping_per_root * memory.root_contact_radius;
-  const Real others = larger(m.neighbour_damping - old_largest_damping * m.inverse_mass, zero);
-  const Real calm = one + dt * others;
+  const Real others = larger(fused(-old_largest_damping, m.inverse_mass, m.neighbour_damping), zero);
+  const Real calm = fused(dt, others, one);
   const Real half_step = half * dt * m.inverse_mass;
-  const Real brake_n = calm + half_step * damping_n;
-  const Real brake_t = calm + half_step * Real(kSurfaceLightness) * damping_t;
+  const Real brake_n = fused(half_step, damping_n, calm);
+  const Real brake_t = fused(half_step, Real(kSurfaceLightness) * damping_t, calm);
 
   const Real twist_angle = m.twist * dt;
   const auto slip_turned = detail::turned(memory.slip, m.normal, twist_angle);
@@ -177,85 +181,84 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.heat_normal = half * dt * (damper + memory.damper) * approach;
   memory.damper = damper;
   action.heat_rolling = action.heat_bridge = zero;
-  action.stored = (Real(0.4) * repulsion - cohesion) * depth;
+  action.stored = fused(Real(0.4), repulsion, -cohesion) * depth;
 
   if constexpr (Attraction::present) {
     const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, m.size_scale, memory.bridge, action.heat_bridge);
-    action.stored = action.stored - memory.bridge * Attraction::work(k, smaller(m.overlap, zero), m.size_scale);
+    if (with_stored)
+      action.stored = fused(-memory.bridge, Attraction::work(k, smaller(m.overlap, zero), m.size_scale), action.stored);
     action.push = action.push - pull.force;
     action.stiffness = larger(action.stiffness, pull.slope);
   }
 
   const Real load = k.friction_of_total ? larger(action.push, zero) : repulsion;
 
-  const BasicVec3<Real> velocity_t = m.velocity - approach * m.normal;
+  const BasicVec3<Real> velocity_t = fused(-approach, m.normal, m.velocity);
   const Real slip_factor = softened * detail::restored(slip_turned, inverse_squares * roll_turned.square);
-  const BasicVec3<Real> slip = slip_factor * slip_turned.vector + dt * velocity_t;
-  const BasicVec3<Real> traction = stiffness_t * slip + damper_t * velocity_t;
+  const BasicVec3<Real> slip = fused(slip_factor, slip_turned.vector, dt * velocity_t);
+  const BasicVec3<Real> traction = fused(stiffness_t, slip, damper_t * velocity_t);
   const Real traction_square = larger(dot(traction, traction), floor);
 
-  BasicVec3<Real> roll{}, moment{};
-  Real moment_square = one, roll_limit = zero, stiffness_r = zero;
+  BasicVec3<Real> roll{};
+  Real roll_square = zero, moment_square = one, roll_limit = zero, stiffness_r = zero;
   BasicVec3<Real> rolling{};
   const Real radius = m.root_radius * m.root_radius;
   if constexpr (Rolling::present) {
-    rolling = m.spin - dot(m.spin, m.normal) * m.normal;
+    rolling = fused(-dot(m.spin, m.normal), m.normal, m.spin);
     roll_limit = Real(k.rolling_friction) * load * radius;
     if constexpr (Rolling::elastic) {
       const Real lever = Real(k.rolling_friction) * radius;
       const Real roll_factor = softened * detail::restored(roll_turned, inverse_squares * slip_turned.square);
-      roll = roll_factor * roll_turned.vector + dt * rolling;
+      roll = fused(roll_factor, roll_turned.vector, dt * rolling);
       stiffness_r = Real(2.25) * stiffness_n * lever * lever;
-      moment = stiffness_r * roll;
-      moment_square = larger(dot(moment, moment), floor);
+      roll_square = dot(roll, roll);
+      moment_square = larger(stiffness_r * stiffness_r * roll_square, floor);
       action.stiffness = larger(action.stiffness, Real(k.roll_stiffness_share) * stiffness_n);
     } else {
       moment_square = larger(dot(rolling, rolling), floor);
     }
   }
-  const Real inverse_both = one / (traction_square * moment_square);
-
-  const Real kept = detail::cap(traction_square, inverse_both * moment_square, Real(k.friction) * load);
+  const Real kept = detail::cap(traction_square, Real(k.friction) * load);
   action.traction = -kept * traction;
   const Real old_stiffness_n = Real(k.normal_stiffness) * old_contact_radius;
   const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
-  const Real old_slip_energy = half * old_stiffness_t * dot(memory.slip, memory.slip);
+  const Real old_slip_energy = half * old_stiffness_t * (slip_turned.square + slip_turned.lost);
+  const Real slip_energy = half * stiffness_t * kept * kept * dot(slip, slip);
   memory.slip = select(touching, kept, zero) * slip;
-  const Real slip_energy = half * stiffness_t * dot(memory.slip, memory.slip);
   // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
   // for three quarters, that of the last for one.
   const Real drag = kept * damper_t;
-  const Real mean_drag = Real(0.75) * drag + Real(0.25) * memory.drag;
+  const Real mean_drag = fused(Real(0.75), drag, Real(0.25) * memory.drag);
   memory.drag = drag;
-  const Real mean_spring_work =
-      half * (old_stiffness_t * dot(slip_turned.vector, velocity_t) + kept * stiffness_t * dot(slip, velocity_t));
-  action.heat_sliding =
-      dt * (mean_spring_work + mean_drag * dot(velocity_t, velocity_t)) + old_slip_energy - slip_energy;
+  const Real sliding = dot(velocity_t, velocity_t), back = dot(slip_turned.vector, velocity_t);
+  const Real forth = fused(slip_factor, back, dt * sliding);  // slip . velocity_t
+  const Real spring_work = half * fused(old_stiffness_t, back, kept * stiffness_t * forth);
+  action.heat_sliding = fused(dt, fused(mean_drag, sliding, spring_work), old_slip_energy - slip_energy);
   action.stored = action.stored + slip_energy;
 
   if constexpr (Rolling::present) {
     // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the
     // same expression serves all sizes.
-    const Real inverse_square = inverse_both * traction_square;
     if constexpr (Rolling::elastic) {
-      const Real kept_r = detail::cap(moment_square, inverse_square, roll_limit);
+      const Real kept_r = detail::cap(moment_square, roll_limit);
       const Real lever = Real(k.rolling_friction) * radius;
       const Real old_stiffness_r = Real(2.25) * old_stiffness_n * lever * lever;
-      const Real old_roll_energy = half * old_stiffness_r * dot(memory.roll, memory.roll);
+      const Real old_roll_energy = half * old_stiffness_r * (roll_turned.square + roll_turned.lost);
+      const Real kept_stiffness = kept_r * stiffness_r;
+      const Real roll_energy = half * kept_stiffness * kept_r * roll_square;
       memory.roll = select(touching, kept_r, zero) * roll;
-      const Real roll_energy = half * stiffness_r * dot(memory.roll, memory.roll);
       // 2 eta sqrt(I_r k_r) with eta = 0.3, braked like the other dampers.
       const Real dashpot = Real(k.roll_damping) * root_impedance * radius * radius * brake_t * inverse_brakes;
       const Real braking = select(kept_r < one, zero, dashpot);
-      action.moment = -kept_r * moment - braking * rolling;
-      const Real mean_roll_work =
-          half * (old_stiffness_r * dot(roll_turned.vector, rolling) + kept_r * dot(moment, rolling));
-      action.heat_rolling = dt * (mean_roll_work + braking * dot(rolling, rolling)) + old_roll_energy - roll_energy;
+      action.moment = -fused(kept_stiffness, roll, braking * rolling);
+      const Real roll_work =
+          half * fused(old_stiffness_r, dot(roll_turned.vector, rolling), kept_stiffness * dot(roll, rolling));
+      action.heat_rolling = fused(dt, fused(braking, dot(rolling, rolling), roll_work), old_roll_energy - roll_energy);
       action.stored = action.stored + roll_energy;
     } else {
       const Real gentle =
           Real(0.08) * m.smaller_radius * m.smaller_radius * m.root_mass * m.root_mass / larger(dt, floor);
-      const Real resistance = smaller(roll_limit * square_root(inverse_square), gentle);
+      const Real resistance = smaller(roll_limit / square_root(moment_square), gentle);
       const BasicVec3<Real> torque = resistance * rolling;
       action.moment = -torque;
       action.heat_rolling = half * dt * dot(torque + memory.roll, rolling);

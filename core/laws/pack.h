@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/inline.h"
+#include "core/vec3.h"
 
 namespace pastefit {
 
@@ -23,9 +23,9 @@ PASTEFIT_LANES(4)
 PASTEFIT_LANES(8)
 #undef PASTEFIT_LANES
 
-/// W doubles that are computed on together. Each lane gets the bits that plain doubles would: only operations that
-/// IEEE 754 rounds correctly are offered (+ - * / sqrt, comparisons), so the kernels give the same result on every
-/// instruction set.
+/// W doubles that are computed on together. Only operations that IEEE 754 rounds correctly are offered (+ - * / sqrt,
+/// a b + c rounded once, comparisons), so the kernels give the same bits with AVX2 and AVX-512. SSE2 has no `fused` of
+/// one rounding: its bits are its own.
 template <int W>
 struct Pack {
   using Lanes = typename LaneTypes<W>::Lanes;
@@ -33,7 +33,8 @@ struct Pack {
   Lanes v;
 
   PASTEFIT_INLINE Pack() : v{} {}
-  PASTEFIT_INLINE Pack(double s) : v(Lanes{} + s) {}
+  /// The same number in all lanes: s - 0 is s for every s, so that the compiler drops the subtraction.
+  PASTEFIT_INLINE Pack(double s) : v(s - Lanes{}) {}
   PASTEFIT_INLINE explicit Pack(Lanes lanes) : v(lanes) {}
 
   PASTEFIT_INLINE static Pack load(const double* p) { return Pack(*reinterpret_cast<const Lanes*>(p)); }
@@ -67,6 +68,17 @@ PASTEFIT_INLINE Pack<W> square_root(Pack<W> a) {
 }
 
 template <int W>
+PASTEFIT_INLINE Pack<W> fused(Pack<W> a, Pack<W> b, Pack<W> c) {
+#ifdef __AVX512F__
+  if constexpr (W == 8) return Pack<W>(_mm512_fmadd_pd(a.v, b.v, c.v));
+#endif
+#ifdef __FMA__
+  if constexpr (W == 4) return Pack<W>(_mm256_fmadd_pd(a.v, b.v, c.v));
+#endif
+  if constexpr (W == 2) return a * b + c;
+}
+
+template <int W>
 PASTEFIT_INLINE Pack<W> larger(Pack<W> a, Pack<W> b) {
   return Pack<W>(a.v > b.v ? a.v : b.v);
 }
@@ -74,6 +86,18 @@ PASTEFIT_INLINE Pack<W> larger(Pack<W> a, Pack<W> b) {
 template <int W>
 PASTEFIT_INLINE Pack<W> smaller(Pack<W> a, Pack<W> b) {
   return Pack<W>(a.v < b.v ? a.v : b.v);
+}
+
+/// True in some lane.
+template <class Mask>
+PASTEFIT_INLINE bool any(Mask mask) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(Mask) == 64) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;
+#endif
+#ifdef __AVX__
+  if constexpr (sizeof(Mask) == 32) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#endif
+  if constexpr (sizeof(Mask) == 16) return _mm_movemask_pd(reinterpret_cast<__m128d>(mask)) != 0;
 }
 
 // The same vocabulary on plain doubles, so that a law is written once.

@@ -78,18 +78,31 @@ PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int3
   }
 }
 
-PASTEFIT_INLINE void count(EnergySums& energy, EnergySums::Kind kind, std::int32_t k, Real value) {
-  double* lanes = energy.lane[kind] + k % 8;
-  (Real::load(lanes) + value).store(lanes);
-}
+/// The energies of a kernel's contacts, in the lanes of `EnergySums`, kept in registers until all are counted.
+class Tally {
+ public:
+  PASTEFIT_INLINE void count(EnergySums::Kind kind, std::int32_t k, Real value) {
+    Real& lanes = sum_[kind][k % 8 / kWidth];
+    lanes = lanes + value;
+  }
+  PASTEFIT_INLINE void count(std::int32_t k, const Action<Real>& action) {
+    count(EnergySums::normal_damping, k, action.heat_normal);
+    count(EnergySums::sliding, k, action.heat_sliding);
+    count(EnergySums::rolling, k, action.heat_rolling);
+    count(EnergySums::bridges, k, action.heat_bridge);
+    count(EnergySums::stored, k, action.stored);
+  }
+  PASTEFIT_INLINE void add_to(EnergySums& energy) const {
+    for (int kind = 0; kind < EnergySums::kinds; ++kind)
+      for (int part = 0; part < 8 / kWidth; ++part) {
+        double* lanes = energy.lane[kind] + part * kWidth;
+        (Real::load(lanes) + sum_[kind][part]).store(lanes);
+      }
+  }
 
-PASTEFIT_INLINE void count(EnergySums& energy, std::int32_t k, const Action<Real>& action) {
-  count(energy, EnergySums::normal_damping, k, action.heat_normal);
-  count(energy, EnergySums::sliding, k, action.heat_sliding);
-  count(energy, EnergySums::rolling, k, action.heat_rolling);
-  count(energy, EnergySums::bridges, k, action.heat_bridge);
-  count(energy, EnergySums::stored, k, action.stored);
-}
+ private:
+  Real sum_[EnergySums::kinds][8 / kWidth];
+};
 
 /// Memory columns of batch k in and out; roll only where the rolling law has memory.
 template <class Rolling>
@@ -121,6 +134,9 @@ PASTEFIT_INLINE void remember(const ContactView& c, std::int32_t k, const Memory
 template <class Attraction, class Rolling>
 void pair_kernel(const KernelTask& task) {
   const ContactView& c = task.contacts;
+  const PairConstants pair = task.pair;
+  const Real dt(task.dt);
+  Tally tally;
   for (std::int32_t k = 0; k < c.count; k += kWidth) {
     const Grains a = gather(task, c.i + k), b = gather(task, c.j + k);
     const Vector between = b.position - a.position;
@@ -132,7 +148,7 @@ void pair_kernel(const KernelTask& task) {
     meeting.overlap = a.radius + b.radius - distance;
     const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
     const Real lever_a = a.radius - half_depth, lever_b = b.radius - half_depth;
-    meeting.velocity = a.velocity - b.velocity + cross(lever_a * a.spin + lever_b * b.spin, meeting.normal);
+    meeting.velocity = a.velocity - b.velocity + cross(fused(lever_a, a.spin, lever_b * b.spin), meeting.normal);
     meeting.spin = a.spin - b.spin;
     meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
     meeting.smaller_radius = smaller(a.radius, b.radius);
@@ -143,20 +159,21 @@ void pair_kernel(const KernelTask& task) {
     meeting.neighbour_damping = a.damping_rate + b.damping_rate;
 
     Memory<Real> memory = recall<Rolling>(c, k);
-    const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
+    const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
     remember<Attraction, Rolling>(c, k, memory);
-    count(*task.energy, k, action);
+    tally.count(k, action);
 
-    const Vector force = action.traction - action.push * meeting.normal;
+    const Vector force = fused(-action.push, meeting.normal, action.traction);
     const Vector turning = cross(meeting.normal, action.traction);
-    const Vector torque_a = lever_a * turning + action.moment;
-    const Vector torque_b = lever_b * turning - action.moment;
+    const Vector torque_a = fused(lever_a, turning, action.moment);
+    const Vector torque_b = fused(lever_b, turning, -action.moment);
     const Real on_a[8] = {force.x,    force.y,    force.z,    action.damping,
                           torque_a.x, torque_a.y, torque_a.z, action.stiffness};
     const Real on_b[8] = {-force.x,   -force.y,   -force.z,   action.damping,
                           torque_b.x, torque_b.y, torque_b.z, action.stiffness};
     add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
   }
+  tally.add_to(*task.energy);
 }
 
 /// Pairs held apart by more than they can approach before the next selection: attraction along the line of centres.
@@ -164,6 +181,8 @@ template <class Attraction>
 void bridge_kernel(const KernelTask& task) {
   const ContactView& c = task.contacts;
   const Real zero(0.0);
+  const PairConstants pair = task.pair;
+  Tally tally;
   for (std::int32_t k = 0; k < c.count; k += kWidth) {
     const Place a = locate(task, c.i + k), b = locate(task, c.j + k);
     const Vector between = b.position - a.position;
@@ -172,21 +191,26 @@ void bridge_kernel(const KernelTask& task) {
     const Real overlap = a.radius + b.radius - distance;
     Real alive = Real::load(c.bridge + k);
     Real spent;
-    const Pull<Real> pull = bridge_pull<Attraction>(task.pair, overlap, scale, alive, spent);
+    const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
     alive.store(c.bridge + k);
-    count(*task.energy, EnergySums::bridges, k, spent);
-    count(*task.energy, EnergySums::stored, k, -alive * Attraction::work(task.pair, smaller(overlap, zero), scale));
+    tally.count(EnergySums::bridges, k, spent);
+    if (task.with_stored)
+      tally.count(EnergySums::stored, k, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
     const Vector force = (pull.force / distance) * between;
     const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
     const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
     add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
   }
+  tally.add_to(*task.energy);
 }
 
 template <class Attraction, class Rolling>
 void wall_kernel(const KernelTask& task) {
   const ContactView& c = task.contacts;
   const WallView& w = task.wall;
+  const PairConstants pair = task.pair;
+  const Real dt(task.dt);
+  Tally tally;
   for (std::int32_t k = 0; k < c.count; k += kWidth) {
     const Grains a = gather(task, c.i + k);
     Meeting<Real> meeting;
@@ -205,15 +229,16 @@ void wall_kernel(const KernelTask& task) {
     meeting.neighbour_damping = a.damping_rate;
 
     Memory<Real> memory = recall<Rolling>(c, k);
-    const Action<Real> action = act<Attraction, Rolling>(task.pair, meeting, memory, Real(task.dt));
+    const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
     remember<Attraction, Rolling>(c, k, memory);
-    count(*task.energy, k, action);
+    tally.count(k, action);
 
     store(w.force, k, action.traction - action.push * meeting.normal);
     store(w.moment, k, lever * cross(meeting.normal, action.traction) + action.moment);
     action.damping.store(w.damping + k);
     action.stiffness.store(w.stiffness + k);
   }
+  tally.add_to(*task.energy);
 }
 
 }  // namespace

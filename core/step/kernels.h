@@ -41,6 +41,7 @@ struct KernelTask {
   PairConstants pair;
   double dt;
   EnergySums* energy;
+  bool with_stored;  ///< the energy stored is wanted in this step: it costs the work of every bridge
 };
 
 /// Laws are composed at compile time: one function per combination, chosen once per run.

@@ -8,8 +8,8 @@ namespace pastefit {
 namespace {
 
 constexpr double kStepsPerSelection = 12;  // selections are a tenth of the work of a step; see README
-constexpr double kSmallestMargin = 0.01;   // of the mean radius
-constexpr double kLargestMargin = 0.2;
+constexpr double kSmallestLeeway = 0.005;  // of the mean radius
+constexpr double kLargestLeeway = 0.1;
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
 constexpr double kRunawaySpeed = 100;    // [m/s]; nothing in a laboratory test comes near it
 
@@ -106,11 +106,9 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
 }
 
 std::optional<Failure> Stepper::maintain_lists() {
-  double fastest = fastest_;
-  for (const Wall& wall : world_.walls) fastest = std::max(fastest, speed_of(wall));
-  const double moved = fastest * dt_;
-  used_margin_ += 2 * moved;
-  moved_since_listed_ += moved;
+  double fastest_wall = 0;
+  for (const Wall& wall : world_.walls) fastest_wall = std::max(fastest_wall, speed_of(wall));
+  wall_moved_ += fastest_wall * dt_;
   if (runaway_ >= 0) {
     const double speed = norm(world_.particles.motion[runaway_].velocity);
     const bool finite = std::isfinite(speed);
@@ -121,20 +119,18 @@ std::optional<Failure> Stepper::maintain_lists() {
                          "or less cohesive grains"
                        : "a velocity is not a number; take a smaller step");
   }
-  if (lists_valid_ && used_margin_ <= margin_) return {};
+  if (lists_valid_ && !strayed_ && wall_moved_ <= wall_leeway_) return {};
 
   Particles& particles = world_.particles;
   const double radius = world_.reference_radius;
   const double skin = options_.skin * radius;
-  margin_ = std::clamp(2 * fastest * dt_ * kStepsPerSelection, kSmallestMargin * radius, kLargestMargin * radius);
-  if (lists_valid_ && 2 * moved_since_listed_ > skin - margin_) {
+  if (lists_valid_) {
     double farthest = 0;
     for (std::int32_t i = 0; i < particles.count(); ++i) {
       const Vec3 shift = particles.motion[i].position - listed_position_[i];
       farthest = std::max(farthest, dot(shift, shift));
     }
-    moved_since_listed_ = std::sqrt(farthest);
-    lists_valid_ = 2 * moved_since_listed_ <= skin - margin_;
+    lists_valid_ = 2 * std::sqrt(farthest) <= skin - 2 * kLargestLeeway * radius;
   }
   if (!lists_valid_) {
     const std::vector<std::int32_t> new_place =
@@ -142,13 +138,16 @@ std::optional<Failure> Stepper::maintain_lists() {
     for (Wall& wall : world_.walls) renumber(wall, new_place);
     listed_position_.resize(particles.count());
     for (std::int32_t i = 0; i < particles.count(); ++i) listed_position_[i] = particles.motion[i].position;
-    moved_since_listed_ = 0;
     lists_valid_ = true;
   }
+  const double duration = dt_ * kStepsPerSelection;
+  set_leeway(particles, world_.candidates, duration, kSmallestLeeway * radius, kLargestLeeway * radius, leeway_);
+  wall_leeway_ = std::clamp(fastest_wall * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
   const Deepest deepest =
-      select_interactions(particles, world_.candidates, world_.acting, scratch_, world_.reach(), margin_);
-  for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), margin_);
-  used_margin_ = 0;
+      select_interactions(particles, world_.candidates, world_.acting, scratch_, world_.reach(), leeway_);
+  for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), leeway_, wall_leeway_);
+  strayed_ = false;
+  wall_moved_ = 0;
   health_ = {fastest_, deepest.overlap, deepest.grain};
   if (deepest.overlap > options_.overlap_limit)
     return failure(FailureReason::excessive_overlap, particles.identity[deepest.grain], deepest.overlap,
@@ -162,6 +161,7 @@ void Stepper::compute_forces() {
   std::fill(std::begin(energy_.lane[EnergySums::stored]), std::end(energy_.lane[EnergySums::stored]), 0.0);
   KernelTask task{};
   task.energy = &energy_;
+  task.with_stored = world_.step % kLedgerInterval == 0;
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
@@ -199,6 +199,7 @@ void Stepper::act_on_wall(Wall& wall) {
 
   KernelTask task{};
   task.energy = &energy_;
+  task.with_stored = world_.step % kLedgerInterval == 0;
   task.motion = particles.motion.data();
   task.spin = particles.spin.data();
   task.contacts = view(touching.contacts);
@@ -293,12 +294,14 @@ void Stepper::integrate(double dt) {
     motion.velocity.z -= fall;
     motion.velocity = kept * motion.velocity;
     motion.position += dt * motion.velocity;
+    const Vec3 way = motion.position - leeway_.from[i];
+    // Written so that a value that is not a number counts as beyond the bound.
+    strayed_ |= !(dot(way, way) <= leeway_.distance[i] * leeway_.distance[i]);
     motion.damping_rate = load.damping * lightness;
     const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
     spin.velocity += (kick * inverse_inertia) * load.torque;
     spin.velocity = kept * spin.velocity;
     const double square = dot(motion.velocity, motion.velocity);
-    // Written so that a value that is not a number counts as beyond the bound.
     if (!(square < kRunawaySpeed * kRunawaySpeed)) runaway_ = i;
     fastest = std::max(fastest, square);
     load = {};

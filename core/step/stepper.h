@@ -54,13 +54,14 @@ class Stepper {
   World& world_;
   StepOptions options_;
   const KernelTable& kernels_;
-  Interactions scratch_;
+  Scratch scratch_;
+  Leeway leeway_;
   std::vector<Vec3> listed_position_;
 
   bool lists_valid_ = false;
-  double margin_ = 0;              ///< gap closure the selected contacts allow for
-  double used_margin_ = 0;         ///< bound on what has been used of it
-  double moved_since_listed_ = 0;  ///< bound on any displacement since the candidates were listed
+  bool strayed_ = false;    ///< a grain has left its leeway
+  double wall_leeway_ = 0;  ///< way of a wall that the selected contacts allow for [m]
+  double wall_moved_ = 0;   ///< bound on what has been used of it [m]
 
   double dt_ = 0;              ///< step that led to the present positions; 0 before the first
   double fastest_ = 0;         ///< largest speed of a grain at the last step

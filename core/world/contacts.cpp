@@ -23,54 +23,38 @@ void grow_columns(std::int32_t n, Columns&... columns) {
 
 }  // namespace
 
-void Contacts::grow(std::int32_t n) {
-  grow_columns(n, i, j, root_radius, root_mass, inverse_mass, size_scale, slip[0], slip[1], slip[2], roll[0], roll[1],
-               roll[2], root_contact_radius, damper, drag, bridge);
+void Choice::grow() {
+  grow_columns(count + 1, i, j, source);
 }
 
-void Contacts::append(std::int32_t a, std::int32_t b, double effective_radius, double effective_mass, double scale,
-                      const ContactMemory& memory) {
-  const std::int32_t k = count++;
-  i[k] = a;
-  j[k] = b;
+void Contacts::rearrange(Choice& choice, std::int32_t dummy) {
+  count = choice.count;
+  while (choice.count % kBatch != 0) choice.add(dummy, dummy, Choice::kNew);
+  const std::int32_t* source = choice.source.data();
+  const std::int32_t n = choice.count;
+  const auto gather = [&](Column<double>& column) {
+    if (spare_.size() < static_cast<std::size_t>(n)) {
+      spare_.clear();
+      grow_columns(n, spare_);
+    }
+    const double* from = column.data();
+    for (std::int32_t k = 0; k < n; ++k) spare_[k] = source[k] < 0 ? 0.0 : from[source[k]];
+    std::swap(column, spare_);
+  };
+  for (auto* column : {&root_radius, &root_mass, &inverse_mass, &size_scale, &slip[0], &slip[1], &slip[2], &roll[0],
+                       &roll[1], &roll[2], &root_contact_radius, &damper, &drag, &bridge})
+    gather(*column);
+  std::swap(i, choice.i);
+  std::swap(j, choice.j);
+  for (std::int32_t k = count; k < n; ++k) describe(k, 1.0, 1.0, kNoSize);
+  choice.clear();
+}
+
+void Contacts::describe(std::int32_t k, double effective_radius, double effective_mass, double scale) {
   root_radius[k] = std::sqrt(effective_radius);
   root_mass[k] = std::sqrt(effective_mass);
   inverse_mass[k] = 1 / effective_mass;
   size_scale[k] = scale;
-  slip[0][k] = memory.slip.x;
-  slip[1][k] = memory.slip.y;
-  slip[2][k] = memory.slip.z;
-  roll[0][k] = memory.roll.x;
-  roll[1][k] = memory.roll.y;
-  roll[2][k] = memory.roll.z;
-  root_contact_radius[k] = memory.root_contact_radius;
-  damper[k] = memory.damper;
-  drag[k] = memory.drag;
-  bridge[k] = memory.bridge;
-}
-
-void Contacts::append(const Contacts& other, std::int32_t k) {
-  const std::int32_t n = count++;
-  i[n] = other.i[k];
-  j[n] = other.j[k];
-  root_radius[n] = other.root_radius[k];
-  root_mass[n] = other.root_mass[k];
-  inverse_mass[n] = other.inverse_mass[k];
-  size_scale[n] = other.size_scale[k];
-  for (int c = 0; c < 3; ++c) {
-    slip[c][n] = other.slip[c][k];
-    roll[c][n] = other.roll[c][k];
-  }
-  root_contact_radius[n] = other.root_contact_radius[k];
-  damper[n] = other.damper[k];
-  drag[n] = other.drag[k];
-  bridge[n] = other.bridge[k];
-}
-
-void Contacts::pad(std::int32_t dummy) {
-  const std::int32_t real = count;
-  while (count % kBatch != 0) append(dummy, dummy, 1.0, 1.0, kNoSize, {});
-  count = real;
 }
 
 void Bridges::grow(std::int32_t n) {
@@ -79,6 +63,7 @@ void Bridges::grow(std::int32_t n) {
 
 void Bridges::append(std::int32_t a, std::int32_t b, double scale, double alive) {
   const std::int32_t k = count++;
+  if (i.size() < static_cast<std::size_t>(count) + kBatch) grow(count);
   i[k] = a;
   j[k] = b;
   size_scale[k] = scale;

@@ -140,7 +140,7 @@ void Candidates::add(std::int32_t a, std::int32_t b, std::int32_t place) {
 }
 
 std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Candidates& candidates,
-                                  const Reach& reach, double skin) {
+                                  const AttractionReach& reach, double skin) {
   const std::int32_t n = particles.count();
   const double largest = largest_radius(particles);
   const double farthest = std::max(reach.formation_gap, reach.rupture_gap) / reach.reference_radius;
@@ -187,13 +187,31 @@ std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Ca
   return new_place;
 }
 
-Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting,
-                            Interactions& scratch, const Reach& reach, double margin) {
+void set_leeway(const Particles& particles, const Candidates& candidates, double duration, double least, double most,
+                Leeway& leeway) {
+  const std::int32_t n = particles.count();
+  leeway.from.resize(n);
+  std::vector<double> own(n);
+  for (std::int32_t i = 0; i < n; ++i) {
+    leeway.from[i] = particles.motion[i].position;
+    own[i] = std::clamp(norm(particles.motion[i].velocity) * duration, least, most);
+  }
+  leeway.distance = own;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    const std::int32_t i = candidates.i[c], j = candidates.j[c];
+    leeway.distance[i] = std::max(leeway.distance[i], own[j]);
+    leeway.distance[j] = std::max(leeway.distance[j], own[i]);
+  }
+}
+
+Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting, Scratch& scratch,
+                            const AttractionReach& reach, const Leeway& leeway) {
   const auto n = static_cast<std::int32_t>(candidates.size());
-  Contacts& contacts = scratch.contacts;
+  Choice& choice = scratch.choice;
   Bridges& bridges = scratch.bridges;
-  contacts.clear();
+  choice.clear();
   bridges.clear();
+  scratch.alive.clear();
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
   for (std::int32_t c = 0; c < n; ++c) {
@@ -201,6 +219,7 @@ Deepest select_interactions(const Particles& particles, Candidates& candidates, 
     const Motion &a = particles.motion[i], &b = particles.motion[j];
     const Vec3 between = b.position - a.position;
     const double square = dot(between, between), touch = a.radius + b.radius;
+    const double margin = leeway.distance[i] + leeway.distance[j];
     const bool contact = candidates.is_contact(c), bridge = candidates.is_bridge(c);
     const std::int32_t k = candidates.index(c);
     const double alive = contact ? acting.contacts.bridge[k] : bridge ? acting.bridges.bridge[k] : 0.0;
@@ -212,28 +231,29 @@ Deepest select_interactions(const Particles& particles, Candidates& candidates, 
     }
     if (square >= (touch + margin) * (touch + margin)) {
       candidates.set_bridge(c, bridges.count);
-      bridges.reserve(bridges.count + 1);
       bridges.append(i, j, scale, alive);
       continue;
     }
-    const double overlap = (touch - std::sqrt(square)) / std::min(a.radius, b.radius);
-    if (overlap > deepest.overlap) deepest = {overlap, i};
-    candidates.set_contact(c, contacts.count);
-    contacts.reserve(contacts.count + 1);
-    if (contact) {
-      contacts.append(acting.contacts, k);
-    } else {
-      const double ma = particles.spin[i].inverse_mass, mb = particles.spin[j].inverse_mass;
-      ContactMemory memory;
-      memory.bridge = alive;
-      contacts.append(i, j, a.radius * b.radius / touch, 1 / (ma + mb), scale, memory);
+    if (square < touch * touch) {
+      const double overlap = (touch - std::sqrt(square)) / std::min(a.radius, b.radius);
+      if (overlap > deepest.overlap) deepest = {overlap, i};
     }
+    candidates.set_contact(c, choice.count);
+    choice.add(i, j, contact ? k : Choice::kNew);
+    scratch.alive.push_back(contact ? -1.0 : alive);
   }
-  contacts.reserve(contacts.count);
-  bridges.reserve(bridges.count);
-  contacts.pad(particles.count());
+  Contacts& contacts = acting.contacts;
+  contacts.rearrange(choice, particles.count());
+  for (std::int32_t k = 0; k < contacts.count; ++k) {
+    if (scratch.alive[k] < 0) continue;
+    const std::int32_t i = contacts.i[k], j = contacts.j[k];
+    const double ra = particles.motion[i].radius, rb = particles.motion[j].radius;
+    const double ma = particles.spin[i].inverse_mass, mb = particles.spin[j].inverse_mass;
+    contacts.describe(k, ra * rb / (ra + rb), 1 / (ma + mb), size_scale(ra, rb, reach.reference_radius));
+    contacts.bridge[k] = scratch.alive[k];
+  }
   bridges.pad(particles.count());
-  std::swap(acting, scratch);
+  std::swap(acting.bridges, bridges);
   return deepest;
 }
 

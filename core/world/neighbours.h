@@ -40,7 +40,7 @@ class Candidates {
 };
 
 /// How far beyond touching two grains can act on each other.
-struct Reach {
+struct AttractionReach {
   double formation_gap = 0;  ///< at the reference radius: a bridge may form within it [m]
   double rupture_gap = 0;    ///< at the reference radius: a living bridge acts within it [m]
   double reference_radius = 1;
@@ -50,7 +50,18 @@ struct Reach {
 /// below reach + skin. Contacts and bridges keep their memory; it is turned where a pair's order changes.
 /// Returns the new place of every grain by its old one, for those who also hold indices.
 std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Candidates& candidates,
-                                  const Reach& reach, double skin);
+                                  const AttractionReach& reach, double skin);
+
+/// How far every grain may move before the acting pairs are chosen anew, and from where. Where all is slow the lists
+/// are tight; a grain near a fast one may be hit and has as much leeway as that.
+struct Leeway {
+  std::vector<Vec3> from;
+  std::vector<double> distance;  ///< [m]
+};
+
+/// Sets it to what each grain or its fastest candidate moves in `duration`, between the bounds [m].
+void set_leeway(const Particles& particles, const Candidates& candidates, double duration, double least, double most,
+                Leeway& leeway);
 
 /// The deepest overlap of two grains over the smaller radius, and one of them.
 struct Deepest {
@@ -58,9 +69,16 @@ struct Deepest {
   std::int32_t grain = -1;
 };
 
-/// Chooses from the candidates the pairs that act or may act while no gap shrinks by more than `margin`: contacts those
+/// Lists that `select_interactions` fills and uses up, kept so that nothing is allocated in a steady scene.
+struct Scratch {
+  Choice choice;
+  Bridges bridges;
+  std::vector<double> alive;  ///< by chosen contact: its bridge
+};
+
+/// Chooses from the candidates the pairs that act or may act while no grain moves beyond its leeway: contacts those
 /// that may touch, bridges the rest.
-Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting,
-                            Interactions& scratch, const Reach& reach, double margin);
+Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting, Scratch& scratch,
+                            const AttractionReach& reach, const Leeway& leeway);
 
 }  // namespace pastefit

@@ -69,29 +69,30 @@ void move(Wall& wall, double dt) {
   wall.pivot += shift;
 }
 
-void select_contacts(const Particles& particles, Wall& wall, const Reach& reach, double margin) {
+void select_contacts(const Particles& particles, Wall& wall, const AttractionReach& reach, const Leeway& leeway,
+                     double wall_leeway) {
   WallContacts& touching = wall.touching;
   // Both lists are in the order of the grains: one pass merges memory into the new list.
-  Contacts& kept = touching.scratch;
-  kept.clear();
+  Contacts& contacts = touching.contacts;
+  touching.choice.clear();
   std::int32_t old = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
-    while (old < touching.contacts.count && touching.contacts.i[old] < i) ++old;
-    const bool known = old < touching.contacts.count && touching.contacts.i[old] == i;
+    while (old < contacts.count && contacts.i[old] < i) ++old;
+    const bool known = old < contacts.count && contacts.i[old] == i;
     const Motion& grain = particles.motion[i];
     const double scale = grain.radius / reach.reference_radius;
-    const bool bridged = known && touching.contacts.bridge[old] > 0;
+    const bool bridged = known && contacts.bridge[old] > 0;
     const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
+    const double margin = leeway.distance[i] + wall_leeway;
     if (nearest(wall.shape, grain.position).distance >= grain.radius + gap * scale + margin) continue;
-    kept.reserve(kept.count + 1);
-    if (known)
-      kept.append(touching.contacts, old);
-    else
-      kept.append(i, i, grain.radius, particles.mass(i), scale, {});
+    touching.choice.add(i, i, known ? old : Choice::kNew);
   }
-  kept.reserve(kept.count);
-  kept.pad(particles.count());
-  std::swap(touching.contacts, kept);
+  contacts.rearrange(touching.choice, particles.count());
+  for (std::int32_t k = 0; k < contacts.count; ++k) {
+    const std::int32_t i = contacts.i[k];
+    const double radius = particles.motion[i].radius;
+    contacts.describe(k, radius, particles.mass(i), radius / reach.reference_radius);
+  }
   const auto n = static_cast<std::size_t>(touching.contacts.padded());
   for (auto* columns : {&touching.normal, &touching.wall_velocity, &touching.force, &touching.moment})
     for (auto& column : *columns) column.assign(n, 0.0);
@@ -104,15 +105,14 @@ void renumber(Wall& wall, const std::vector<std::int32_t>& new_place) {
   Contacts& contacts = wall.touching.contacts;
   std::vector<std::int32_t> order(contacts.count);
   for (std::int32_t k = 0; k < contacts.count; ++k) {
-    contacts.i[k] = contacts.j[k] = new_place[contacts.i[k]];
+    contacts.i[k] = new_place[contacts.i[k]];
     order[k] = k;
   }
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return contacts.i[a] < contacts.i[b]; });
-  Contacts& sorted = wall.touching.scratch;
-  sorted.clear();
-  sorted.reserve(contacts.count);
-  for (const std::int32_t k : order) sorted.append(contacts, k);
-  std::swap(contacts, sorted);
+  Choice& choice = wall.touching.choice;
+  choice.clear();
+  for (const std::int32_t k : order) choice.add(contacts.i[k], contacts.i[k], k);
+  contacts.rearrange(choice, static_cast<std::int32_t>(new_place.size()));
 }
 
 }  // namespace pastefit

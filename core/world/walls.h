@@ -47,7 +47,8 @@ Nearest nearest(const Shape& shape, const Vec3& centre);
 
 /// Contacts of grains with one wall; columns beside those of `Contacts` (whose j is unused).
 struct WallContacts {
-  Contacts contacts, scratch;
+  Contacts contacts;
+  Choice choice;
   std::array<Column<double>, 3> normal, wall_velocity;
   Column<double> overlap;
   std::array<Column<double>, 3> force, moment;  ///< of the wall on the grain, written by the kernel
@@ -70,8 +71,9 @@ struct Wall {
 /// Moves the wall by its own rigid motion over `dt`. Rotation is about the y axis through `pivot` only.
 void move(Wall& wall, double dt);
 
-/// Lists the grains that touch the wall or may do so while no gap shrinks by more than `margin`.
-void select_contacts(const Particles& particles, Wall& wall, const Reach& reach, double margin);
+/// Lists the grains that touch the wall or may do so while they stay within their leeway, and the wall within its own.
+void select_contacts(const Particles& particles, Wall& wall, const AttractionReach& reach, const Leeway& leeway,
+                     double wall_leeway);
 
 /// Gives the wall's contacts the grains' new places.
 void renumber(Wall& wall, const std::vector<std::int32_t>& new_place);

@@ -30,7 +30,7 @@ class World {
   double time = 0;  ///< [s]
   std::int64_t step = 0;
 
-  Reach reach() const { return {grain_pair.formation_gap, grain_pair.rupture_gap, reference_radius}; }
+  AttractionReach reach() const { return {grain_pair.formation_gap, grain_pair.rupture_gap, reference_radius}; }
 };
 
 /// Sets the laws of a contact model between grains; walls are given theirs by `wall_pair`.
