@@ -226,9 +226,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real slip_energy = half * stiffness_t * kept * kept * dot(slip, slip);
   memory.slip = select(touching, kept, zero) * slip;
   // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
-  // for three quarters, that of the last for one.
+  // for three quarters, that of the last for one; not for more where a contact that held is suddenly torn away.
   const Real drag = kept * damper_t;
-  const Real mean_drag = fused(Real(0.75), drag, Real(0.25) * memory.drag);
+  const Real mean_drag = fused(Real(0.75), drag, Real(0.25) * smaller(memory.drag, Real(1.5) * drag));
   memory.drag = drag;
   const Real sliding = dot(velocity_t, velocity_t), back = dot(slip_turned.vector, velocity_t);
   const Real forth = fused(slip_factor, back, dt * sliding);  // slip . velocity_t

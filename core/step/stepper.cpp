@@ -93,7 +93,6 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
   if (dt < kSmallestShare * time_step_.first() && !options_.fixed_step_s)
     return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
                    "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
-  account_walls(dt_);
   if (drive) drive(world_, dt);
   account_walls(dt);
   look_at_energy(dt);
@@ -191,7 +190,7 @@ void Stepper::act_on_wall(Wall& wall) {
     touching.overlap[k] = grain.radius - point.distance;
     if (touching.overlap[k] > options_.overlap_limit * grain.radius) pierced_ = touching.contacts.i[k];
     const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
-    const Vec3 velocity = wall.velocity + cross(wall.angular_velocity, arm);
+    const Vec3 velocity = wall.velocity_before + cross(wall.angular_velocity_before, arm);
     touching.wall_velocity[0][k] = velocity.x;
     touching.wall_velocity[1][k] = velocity.y;
     touching.wall_velocity[2][k] = velocity.z;
@@ -234,12 +233,13 @@ void Stepper::act_on_wall(Wall& wall) {
   }
 }
 
-/// A force acts for half of the step before and half of the step after: this is one of the halves.
+/// A force acts for half of the step before and half of the step after.
 void Stepper::account_walls(double dt) {
   for (const Wall& wall : world_.walls) {
-    const double work = -0.5 * dt * (dot(wall.force, wall.velocity) + dot(wall.torque, wall.angular_velocity));
-    ledger_.work_of_walls += work;
-    ledger_.effort_of_walls += std::fabs(work);
+    const double before = dot(wall.force, wall.velocity_before) + dot(wall.torque, wall.angular_velocity_before);
+    const double after = dot(wall.force, wall.velocity) + dot(wall.torque, wall.angular_velocity);
+    ledger_.work_of_walls -= 0.5 * (dt_ * before + dt * after);
+    ledger_.effort_of_walls += 0.5 * (dt_ * std::fabs(before) + dt * std::fabs(after));
   }
 }
 
@@ -247,12 +247,6 @@ void Stepper::account_walls(double dt) {
 void Stepper::look_at_energy(double dt) {
   const Particles& particles = world_.particles;
   const double half_kick = 0.25 * (dt_ + dt);
-  if (world_.drag > 0)
-    for (std::int32_t i = 0; i < particles.count(); ++i) {
-      const Vec3 &v = particles.motion[i].velocity, &w = particles.spin[i].velocity;
-      const double m = particles.mass(i), r = particles.motion[i].radius;
-      ledger_.heat_drag += world_.drag * dt * (m * dot(v, v) + 0.4 * m * r * r * dot(w, w));
-    }
   if (world_.step % kLedgerInterval != 0) return;
   ledger_.kinetic = ledger_.height = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
@@ -290,6 +284,7 @@ void Stepper::integrate(double dt) {
     Spin& spin = particles.spin[i];
     Load& load = particles.load[i];
     const double lightness = spin.inverse_mass;
+    const Vec3 velocity_before = motion.velocity, spin_before = spin.velocity;
     motion.velocity += (kick * lightness) * load.force;
     motion.velocity.z -= fall;
     motion.velocity = kept * motion.velocity;
@@ -301,6 +296,11 @@ void Stepper::integrate(double dt) {
     const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
     spin.velocity += (kick * inverse_inertia) * load.torque;
     spin.velocity = kept * spin.velocity;
+    if (world_.drag > 0) {
+      const double rate = 0.5 * kick * world_.drag;
+      ledger_.heat_drag += rate / lightness * dot(motion.velocity, velocity_before + motion.velocity) +
+                           rate / inverse_inertia * dot(spin.velocity, spin_before + spin.velocity);
+    }
     const double square = dot(motion.velocity, motion.velocity);
     if (!(square < kRunawaySpeed * kRunawaySpeed)) runaway_ = i;
     fastest = std::max(fastest, square);

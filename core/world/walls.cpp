@@ -50,6 +50,8 @@ Nearest nearest(const Shape& shape, const Vec3& centre) {
 }
 
 void move(Wall& wall, double dt) {
+  wall.velocity_before = wall.velocity;
+  wall.angular_velocity_before = wall.angular_velocity;
   const Vec3 shift = dt * wall.velocity;
   // Cayley's rotation: exactly orthogonal, right to third order in the angle of one step, and free of library functions
   // whose last bit differs between processors.

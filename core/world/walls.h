@@ -63,8 +63,9 @@ struct Wall {
   Vec3 velocity;          ///< of the point `pivot` [m/s]
   Vec3 angular_velocity;  ///< about `pivot` [rad/s]
   Vec3 pivot;
-  Vec3 force;   ///< of the grains on the wall at the last step [N]
-  Vec3 torque;  ///< about `pivot` [N m]
+  Vec3 velocity_before, angular_velocity_before;  ///< those of the move that led here
+  Vec3 force;                                     ///< of the grains on the wall at the last step [N]
+  Vec3 torque;                                    ///< about `pivot` [N m]
   WallContacts touching;
 };
 
