@@ -104,6 +104,9 @@ PASTEFIT_INLINE bool any(Mask mask) {
 PASTEFIT_INLINE double select(bool mask, double yes, double no) {
   return mask ? yes : no;
 }
+PASTEFIT_INLINE bool any(bool mask) {
+  return mask;
+}
 PASTEFIT_INLINE double square_root(double a) {
   return std::sqrt(a);
 }
