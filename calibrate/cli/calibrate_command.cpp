@@ -1,5 +1,3 @@
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,8 +5,11 @@
 #include "calibrate/card/atomic_file.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
+#include "calibrate/inference/examination.h"
+#include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/strategy.h"
@@ -27,6 +28,7 @@ struct CalibrateOptions {
   bool force = false;
   int threads = 0;
   int budget = 0;
+  double wall_budget_s = 0;
   std::optional<std::uint64_t> seed;
 };
 
@@ -37,21 +39,6 @@ const std::vector<std::string> kResults = {kCard, kSummary, kStore, kStore + "-w
 
 constexpr std::uintmax_t kSpace = 16u << 20;             // card, summary, SQLite's own files
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
-
-std::atomic<bool> stop_requested = false;
-
-extern "C" void request_stop(int) {
-  stop_requested = true;
-}
-
-/// The first Ctrl-C ends with the best so far; the second one kills, as usual.
-void listen_for_stop() {
-  struct sigaction action {};
-  action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string lab_file_of(const std::string& study_file) {
   Faults faults;
@@ -65,9 +52,16 @@ std::vector<std::string> readings_of(const Study& study) {
   return names;
 }
 
+std::vector<std::string> fitted_of(const Study& study) {
+  std::vector<std::string> names;
+  for (const auto& weight : study.weights)
+    if (weight.weight > 0) names.push_back(weight.observable);
+  return names;
+}
+
 /// Card and summary, to the folder and to the person.
-int deliver(const Card& card, const OutputFolder& folder) {
-  const auto summary = summary_of(card);
+int deliver(const Card& card, const Inference& inference, const OutputFolder& folder) {
+  const auto summary = summary_of(card, words_of(inference));
   auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   std::printf("\n%s", summary.c_str());
@@ -98,32 +92,39 @@ int calibrate(const CalibrateOptions& options) {
   auto store = Store::open(folder.value().file(kStore), {study.hash, study.lab.hash, program_identity()});
   if (!store.ok()) return report(store.faults());
 
-  listen_for_stop();
   std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
               budget, store.value().size());
+  std::printf("%s", warning_before(free_count(study), fitted_of(study)).c_str());
   ProgressLine line(budget);
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
   evaluator.budget = budget;
-  evaluator.stop = &stop_requested;
+  evaluator.wall_budget_s = options.wall_budget_s;
+  evaluator.stop = &listen_for_stop();
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
   SimulationObjective objective(study, store.value(), evaluator);
   const auto calibration = search(
       objective, search_options, [&](const Progress& progress) { line.show(progress); }, readings_of(study));
+  const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
+  std::optional<Inference> inference;
+  if (found)
+    inference = examine(study, objective, store.value(), calibration, search_options.examination_simulations,
+                        search_options.seed);
   line.end();
 
   if (const auto faults = objective.store_faults(); !faults.empty()) return report(faults, kFailed);
   const auto counts = objective.counts();
-  if (calibration.best.point.size() == 0 || calibration.best.failed) {
+  if (!found) {
     std::fprintf(stderr, "pastefit: no material to report: %s\n", calibration.reason.c_str());
     for (const auto& [reason, count] : counts.failures)
       std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
     std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.value().file(kStore).c_str());
     return kFailed;
   }
-  return deliver(
-      card_of(study, calibration, search_options, store.value(), counts, options.study, lab_file_of(options.study)),
-      folder.value());
+  auto card =
+      card_of(study, calibration, search_options, store.value(), counts, options.study, lab_file_of(options.study));
+  card.inference = card_inference(*inference);
+  return deliver(card, *inference, folder.value());
 }
 
 }  // namespace
@@ -142,6 +143,9 @@ Command add_calibrate(CLI::App& verb) {
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
+  verb.add_option("--wall-budget", options->wall_budget_s, "end after this time with the best so far; --resume goes on")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");
   return [options] { return calibrate(*options); };
 }

@@ -63,9 +63,9 @@ std::string verdict_of(const Card& card) {
   return "The material does not meet the laboratory: " + misfit + ". " + card.search.reason;
 }
 
-std::string summary_of(const Card& card) {
+std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = card.title + "\n\n" + bridge_lines(card.test) + "\n" + parameter_lines(card) + "\n" +
-                    observable_lines(card) + "\n";
+                    observable_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());

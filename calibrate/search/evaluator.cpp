@@ -90,6 +90,7 @@ int SimulationObjective::budget_left() const {
 
 bool SimulationObjective::stop_requested() const {
   if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
+  if (options_.wall_budget_s > 0 && seconds_since(begin_) > options_.wall_budget_s) return true;
   const std::lock_guard lock(mutex_);
   return !store_faults_.empty();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <future>
 #include <map>
@@ -26,7 +27,7 @@ struct Simulator {
 /// Tally of the evaluations one objective was asked for; each is counted once, however often it was asked.
 struct EvaluationCounts {
   int simulated = 0;                      ///< finished now
-  int answered = 0;                       ///< known to the store from an earlier session
+  int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
   double best_misfit_mm = -1;             ///< of the candidates that did not fail; negative: none yet
 };
@@ -35,6 +36,7 @@ struct EvaluatorOptions {
   int threads = 0;                          ///< simulations at the same time; 0: one for each core
   int budget = 0;                           ///< evaluations in all, known ones included; 0: the study's budget
   double wall_limit_s = 600;                ///< a simulation that takes longer fails with `stopped`
+  double wall_budget_s = 0;                 ///< from now on; then as if `stop` had become true; 0: no end
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
   Simulator simulator;
@@ -84,6 +86,7 @@ class SimulationObjective : public Objective {
   const Study& study_;
   Store& store_;
   EvaluatorOptions options_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 
   mutable std::mutex mutex_;  // guards what follows
   std::map<std::uint64_t, std::shared_future<std::shared_ptr<const Packing>>> packings_;

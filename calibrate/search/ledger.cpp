@@ -7,7 +7,10 @@
 namespace pastefit {
 
 Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress)
-    : objective_(objective), progress_(progress), at_start_(objective.budget_left()) {
+    : objective_(objective),
+      progress_(progress),
+      at_start_(objective.budget_left()),
+      common_packings_(options.packings) {
   budget_ = std::min(options.budget_simulations, at_start_);
 }
 
@@ -19,11 +22,15 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
   std::vector<Response> responses = objective_.evaluate(points, packings);
   // What a stop cuts off counts as failed; it says nothing about the point.
   if (objective_.stop_requested()) return responses;
+  for (Response& response : responses) weigh(response);
   if (packings.size() == 1) {
     for (const Response& response : responses) keep_single(response);
   } else {
     for (const std::uint64_t packing : packings) {
-      for (const Response& response : objective_.evaluate(points, {&packing, 1})) keep_single(response);
+      for (Response& response : objective_.evaluate(points, {&packing, 1})) {
+        weigh(response);
+        keep_single(response);
+      }
     }
   }
   history_.insert(history_.end(), responses.begin(), responses.end());
@@ -40,7 +47,47 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
 
 void Ledger::enter(std::string_view phase) {
   phase_ = phase;
+  measure_noise();
   report();
+}
+
+void Ledger::weigh(Response& response) const {
+  if (factors_.size() == 0 || !is_feasible(response)) return;
+  response.residuals.array() *= factors_.array();
+  response.misfit = 0.5 * response.residuals.squaredNorm();
+}
+
+void Ledger::measure_noise() {
+  // Squares of the laboratory's deviations; the present factors are taken out first.
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(objective_.residuals());
+  int freedom = 0;
+  for (std::size_t i = 0; i < singles_.size(); ++i) {
+    std::vector<const Response*> same;
+    bool first = is_feasible(singles_[i]);
+    for (std::size_t j = 0; first && j < singles_.size(); ++j) {
+      if (!is_feasible(singles_[j]) || singles_[j].point != singles_[i].point) continue;
+      first = j >= i;
+      same.push_back(&singles_[j]);
+    }
+    if (!first || same.size() < 2) continue;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(squares.size());
+    for (const Response* one : same) mean += one->residuals / static_cast<double>(same.size());
+    for (const Response* one : same) squares += (one->residuals - mean).cwiseAbs2();
+    freedom += static_cast<int>(same.size()) - 1;
+  }
+  if (freedom == 0) return;
+  if (factors_.size() == 0) factors_ = Eigen::VectorXd::Ones(squares.size());
+  const Eigen::ArrayXd variance = squares.array() / freedom / factors_.array().square();
+  const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
+  const Eigen::VectorXd change = factors / factors_.array();
+  factors_ = factors;
+  for (std::vector<Response>* kept : {&history_, &singles_}) {
+    for (Response& response : *kept) {
+      if (!is_feasible(response)) continue;
+      response.residuals.array() *= change.array();
+      response.misfit = 0.5 * response.residuals.squaredNorm();
+    }
+  }
 }
 
 void Ledger::report() const {

@@ -13,6 +13,11 @@ namespace pastefit {
 
 /// The objective as the strategy lends it to its optimisers: it keeps every answer, holds back the simulations of the
 /// next confirmation, and tells the caller where the search is.
+///
+/// Residuals are weighted by the noise of the packings as well as by the laboratory's own deviation: each is divided by
+/// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
+/// packings. A reading that wobbles says less. v is measured from candidates that ran on several packings; it changes
+/// only between phases, so that an optimiser's objective stays the same while it runs.
 class Ledger : public Objective {
  public:
   Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
@@ -24,6 +29,7 @@ class Ledger : public Objective {
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
 
   void hold_back(int simulations) { held_back_ = simulations; }
+  /// Begins a phase: weighs anew all that was answered.
   void enter(std::string_view phase);
 
   /// Best answer on exactly these packings.
@@ -36,6 +42,8 @@ class Ledger : public Objective {
 
  private:
   void keep_single(const Response& response);
+  void weigh(Response& response) const;
+  void measure_noise();
   void report() const;
 
   Objective& objective_;
@@ -46,6 +54,8 @@ class Ledger : public Objective {
   std::string_view phase_;
   double best_misfit_mm_ = -1;
   std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
+  double common_packings_ = 1;
+  Eigen::VectorXd factors_;  // of the residuals; empty: all 1
   std::vector<Response> history_;
   std::vector<Response> singles_;
 };

@@ -161,6 +161,13 @@ class Answerer {
   bool ended_ = false;
 };
 
+/// Questions of an algorithm's first division of the cube, two a coordinate. NLopt 2.7.1 crashes if the original DIRECT
+/// is stopped within it (it follows a pointer that was never set), so that they are all answered, with the worst number
+/// once the run has ended.
+int undivided(Eigen::Index dimension) {
+  return 2 * static_cast<int>(dimension) + 2;
+}
+
 /// What NLopt's callback carries. The objective's exceptions cross NLopt in here, because NLopt would forget their
 /// type.
 struct Question {
@@ -168,6 +175,7 @@ struct Question {
   nlopt::opt& optimiser;
   Eigen::Index dimension;
   std::exception_ptr thrown;
+  int asked = 0;
 };
 
 double ask(unsigned, const double* x, double*, void* data) {
@@ -179,7 +187,8 @@ double ask(unsigned, const double* x, double*, void* data) {
     question.thrown = std::current_exception();
     question.answerer.end(SearchStatus::failed, "the objective threw");
   }
-  if (question.answerer.ended()) question.optimiser.force_stop();
+  ++question.asked;
+  if (question.answerer.ended() && question.asked > undivided(question.dimension)) question.optimiser.force_stop();
   if (question.answerer.late_calls() > most_late_calls) throw nlopt::forced_stop();
   return value;
 }
@@ -189,7 +198,7 @@ void configure(nlopt::opt& optimiser, const AlgorithmRow& row, unsigned dimensio
   optimiser.set_upper_bounds(1.0);
   optimiser.set_xtol_abs(options.step_tolerance);
   optimiser.set_initial_step(options.initial_step);
-  optimiser.set_maxeval(options.evaluations + 1);
+  optimiser.set_maxeval(std::max(options.evaluations, undivided(dimension)) + 1);
   const bool evolves = row.algorithm == nlopt::GN_CRS2_LM || row.algorithm == nlopt::GN_ISRES;
   if (evolves) {
     // NLopt's own choice, ten or twenty a coordinate, would spend a small budget on the first generation.
@@ -235,7 +244,7 @@ void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOption
   const int dimension = std::max(static_cast<int>(start.size()), row.fewest);
   nlopt::opt optimiser(row.algorithm, static_cast<unsigned>(dimension));
   configure(optimiser, row, static_cast<unsigned>(dimension), options);
-  Question question{answerer, optimiser, start.size(), nullptr};
+  Question question{answerer, optimiser, start.size(), nullptr, 0};
   optimiser.set_min_objective(ask, &question);
   nlopt::srand(static_cast<unsigned long>(options.seed));
   std::vector<double> x(static_cast<std::size_t>(dimension), 0.5);

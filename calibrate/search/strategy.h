@@ -54,7 +54,7 @@ struct Calibration {
   int rounds = 0;                 ///< confirmations
 };
 
-/// Names of the strategies: "default" and every NLopt algorithm.
+/// Names of the strategies: "default", the two trust regions of Ceres, and every NLopt algorithm.
 std::vector<std::string_view> strategy_names();
 
 /// Everything wrong with the options of a search over so many parameters; empty: fit to run.
@@ -65,7 +65,7 @@ Faults validate(const SearchOptions& options, int parameters);
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
 ///      point of least expected misfit, which is simulated on the common packings, until the goal is met or nothing
 ///      new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
-///      screening point, with half of what is left of the budget.
+///      screening point, with half of what is left of the budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
 ///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
 ///      packings join the common set, and the search goes on from 2 with what they taught.

@@ -49,14 +49,6 @@ enum Slot {
 };
 static_assert(mould_cohesion + 1 == kinds.size());
 
-double value_between(const Parameter& parameter, double unit) {
-  if (unit <= 0) return parameter.lower;
-  if (unit >= 1) return parameter.upper;
-  if (parameter.scale == Scale::linear) return std::lerp(parameter.lower, parameter.upper, unit);
-  const double value = std::exp(std::lerp(std::log(parameter.lower), std::log(parameter.upper), unit));
-  return std::clamp(value, parameter.lower, parameter.upper);
-}
-
 }  // namespace
 
 std::span<const ParameterKind> parameter_kinds() {
@@ -71,6 +63,14 @@ std::vector<double> usual_values() {
 
 int free_count(const Study& study) {
   return static_cast<int>(std::ranges::count_if(study.parameters, &Parameter::free));
+}
+
+double value_between(const Parameter& parameter, double unit) {
+  if (unit <= 0) return parameter.lower;
+  if (unit >= 1) return parameter.upper;
+  if (parameter.scale == Scale::linear) return std::lerp(parameter.lower, parameter.upper, unit);
+  const double value = std::exp(std::lerp(std::log(parameter.lower), std::log(parameter.upper), unit));
+  return std::clamp(value, parameter.lower, parameter.upper);
 }
 
 std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point) {

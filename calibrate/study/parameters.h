@@ -38,6 +38,9 @@ std::span<const ParameterKind> parameter_kinds();
 /// Number of free parameters of a study.
 int free_count(const Study& study);
 
+/// Value of a free parameter at a coordinate 0 .. 1 between its bounds, evenly spread on its scale.
+double value_between(const Parameter& parameter, double unit);
+
 /// Values of all parameters at a point of the unit cube over the free ones. Shapes: free_count -> parameters.size().
 std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point);
 

@@ -59,6 +59,7 @@ struct SearchOptions {
   int budget_simulations = 60;       ///< simulations in all, confirmation included
   int packings = 2;                  ///< common random packings per candidate
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
+  int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< a confirmed misfit below it ends the search
   std::uint64_t seed = 1;
 };

@@ -82,6 +82,7 @@ constexpr std::string_view study_text =
     "budget_simulations": 80,    // in all, confirmation included
     "packings": 2,               // random fillings on which every candidate is tried
     "confirmation_packings": 8,  // fresh fillings for the best candidate
+    "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     "tolerance_mm": 5,           // good enough
     "seed": 1
   }

@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/report/format.h"
+#include "calibrate/report/misfit_figure.h"
+#include "calibrate/search/comparison.h"
+#include "calibrate/search/evaluator.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/fault_text.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+struct CompareOptions {
+  std::string study;
+  std::string out;
+  std::vector<std::string> strategies;
+  int seeds = 1;
+  int budget = 0;
+  int judge_packings = 8;
+  int threads = 0;
+  bool resume = false;
+  bool force = false;
+};
+
+const std::string kTable = "comparison.csv";
+const std::string kCourse = "course.csv";
+const std::string kFigure = "comparison.svg";
+const std::string kStore = "evaluations.sqlite";
+const std::vector<std::string> kResults = {kTable, kCourse, kFigure, kStore, kStore + "-wal", kStore + "-shm"};
+constexpr std::uintmax_t kSpace = 64u << 20;
+constexpr std::uint64_t kFirstJudge = 1'000'000'001;  // packings far from those of any search
+
+std::string table_of(const std::vector<StrategyTrial>& trials) {
+  std::string out = "strategy,seed,status,simulations,failures,judged_misfit_mm\n";
+  for (const auto& trial : trials)
+    out += format("%s,%llu,%s,%d,%d,", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed),
+                  std::string(name_of(trial.status)).c_str(), trial.simulations, trial.failures) +
+           (trial.judged_mm >= 0 ? format("%.4g", trial.judged_mm) : "") + "\n";
+  return out;
+}
+
+std::string course_of(const std::vector<StrategyTrial>& trials) {
+  std::string out = "strategy,seed,simulations,misfit_mm\n";
+  for (const auto& trial : trials)
+    for (std::size_t i = 0; i < trial.misfit_mm.size(); ++i)
+      if (trial.misfit_mm[i] >= 0 && (i == 0 || trial.misfit_mm[i] != trial.misfit_mm[i - 1]))
+        out += format("%s,%llu,%zu,%.4g\n", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed), i + 1,
+                      trial.misfit_mm[i]);
+  return out;
+}
+
+void print(const std::vector<StrategySummary>& rows, double tolerance_mm) {
+  std::printf("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations", "judged misfit mm", "worst mm");
+  for (const auto& row : rows) {
+    std::printf("%-22s %6d of %d %12.0f", row.strategy.c_str(), row.confirmed, row.trials, row.simulations);
+    if (row.judged_mm >= 0)
+      std::printf(" %18.2f %12.2f\n", row.judged_mm, row.worst_judged_mm);
+    else
+      std::printf(" %18s %12s\n", "-", "-");
+  }
+  std::printf(
+      "Medians over the seeds; confirmed: within %g mm on packings that the search had not seen; judged on others,"
+      " the same for all.\n",
+      tolerance_mm);
+}
+
+/// The strategies that were asked for, or all that can search so many parameters.
+Result<std::vector<std::string>> strategies_of(const CompareOptions& options, SearchOptions search, int parameters) {
+  Faults faults;
+  std::vector<std::string> names = options.strategies;
+  if (names.empty())
+    for (const auto name : strategy_names()) names.emplace_back(name);
+  std::vector<std::string> able;
+  for (const auto& name : names) {
+    search.strategy = name;
+    const auto found = validate(search, parameters);
+    if (found.empty()) able.push_back(name);
+    for (const auto& fault : found) {
+      const bool its_own = fault.where == "search.strategy";
+      const bool known = std::ranges::any_of(faults, [&](const Fault& one) { return one.what == fault.what; });
+      if (!known && (!its_own || !options.strategies.empty())) faults.push_back(fault);
+    }
+  }
+  if (!faults.empty()) return faults;
+  return able;
+}
+
+int compare(const CompareOptions& options) {
+  const auto read = read_study(options.study);
+  if (!read.ok()) return report(read.faults());
+  const auto& study = read.value();
+  ComparisonOptions comparison;
+  comparison.search = study.search;
+  if (options.budget > 0) comparison.search.budget_simulations = options.budget;
+  comparison.seeds = options.seeds;
+  auto strategies = strategies_of(options, comparison.search, free_count(study));
+  if (!strategies.ok()) return report(in_file(strategies.faults(), options.study));
+  comparison.strategies = std::move(strategies).value();
+  for (int k = 0; k < options.judge_packings; ++k)
+    comparison.judge_packings.push_back(kFirstJudge + static_cast<std::uint64_t>(k));
+
+  const auto earlier = options.force    ? EarlierResult::replace
+                       : options.resume ? EarlierResult::resume
+                                        : EarlierResult::refuse;
+  auto folder = OutputFolder::open(options.out, kResults, earlier, kSpace);
+  if (!folder.ok()) return report(folder.faults());
+  if (options.force) folder.value().clear(kResults);
+  auto store = Store::open(folder.value().file(kStore), {study.hash, study.lab.hash, program_identity()});
+  if (!store.ok()) return report(store.faults());
+
+  const auto& stop = listen_for_stop();
+  const auto objective = [&](int budget) -> std::unique_ptr<Objective> {
+    EvaluatorOptions evaluator;
+    evaluator.threads = options.threads;
+    evaluator.budget = budget;
+    evaluator.stop = &stop;
+    return std::make_unique<SimulationObjective>(study, store.value(), evaluator);
+  };
+  const auto trials = compare_strategies(objective, comparison, [](const StrategyTrial& trial) {
+    std::printf("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
+                static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(),
+                trial.simulations, trial.failures,
+                trial.judged_mm >= 0 ? format("%.2f mm", trial.judged_mm).c_str() : "-");
+    std::fflush(stdout);
+  });
+  if (trials.empty()) {
+    std::fprintf(stderr, "pastefit: stopped before the first strategy was through; go on with --resume\n");
+    return kFailed;
+  }
+  if (trials.size() < comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds))
+    std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
+  const auto rows = summary_of(trials);
+  print(rows, comparison.search.tolerance_mm);
+  const std::vector<std::pair<std::string, std::string>> files{
+      {kTable, table_of(trials)},
+      {kCourse, course_of(trials)},
+      {kFigure, misfit_figure(rows, comparison.search.tolerance_mm, study.title)}};
+  for (const auto& [name, content] : files) {
+    if (const auto faults = write_atomically(folder.value().file(name), content); !faults.empty())
+      return report(faults, kFailed);
+    std::printf("wrote %s\n", folder.value().file(name).c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_compare_optimisers(CLI::App& verb) {
+  const auto options = std::make_shared<CompareOptions>();
+  verb.add_option("STUDY", options->study, "study file")->required();
+  verb.add_option("--out", options->out, "folder for " + kTable + ", " + kCourse + ", " + kFigure + " and " + kStore)
+      ->required()
+      ->type_name("DIR");
+  verb.add_option("--strategies", options->strategies, "names, separated by commas; default: all")
+      ->delimiter(',')
+      ->type_name("NAMES");
+  verb.add_option("--seeds", options->seeds, "trials of each strategy; default: 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  verb.add_option("--budget", options->budget, "simulations of each trial, instead of the study's")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+  verb.add_option("--judge-packings", options->judge_packings, "on which every result is judged; default: 8")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  verb.add_option("--threads", options->threads, "simulations at the same time; default: one for each core")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
+  verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
+  return [options] { return compare(*options); };
+}
+
+}  // namespace pastefit

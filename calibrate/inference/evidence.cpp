@@ -1,0 +1,106 @@
+#include "calibrate/inference/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double least_survival = 1e-3;  // a model of failures is too rough to rule a candidate out
+
+}  // namespace
+
+std::vector<StoredEvaluation> asked_of(const Study& study, const Store& store, std::span<const Response> history) {
+  std::vector<StoredEvaluation> asked;
+  std::unordered_set<std::string> known;
+  for (const Response& response : history) {
+    const std::vector<double> values = values_at(study, response.point);
+    for (const std::uint64_t packing : response.packings) {
+      const std::string key = evaluation_key(store.identity(), values, packing);
+      if (!known.insert(key).second) continue;
+      if (auto evaluation = store.find(key)) asked.push_back(std::move(*evaluation));
+    }
+  }
+  return asked;
+}
+
+Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations) {
+  Evidence evidence;
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free) evidence.parameters.push_back(parameter);
+  std::vector<const StoredEvaluation*> good;
+  for (const StoredEvaluation& evaluation : evaluations) {
+    const auto count = static_cast<Eigen::Index>(evaluation.point.size());
+    const UnitPoint point = Eigen::Map<const Eigen::VectorXd>(evaluation.point.data(), count);
+    (evaluation.failure ? evidence.failed : evidence.points).push_back(point);
+    if (!evaluation.failure) good.push_back(&evaluation);
+  }
+  if (good.empty()) return evidence;
+  for (const Observable& reading : good.front()->observables.all()) {
+    ReadingEvidence one;
+    one.name = reading.name;
+    one.simulated.resize(static_cast<Eigen::Index>(good.size()));
+    for (std::size_t i = 0; i < good.size(); ++i)
+      one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
+    if (!one.simulated.allFinite()) continue;
+    for (std::size_t k = 0; k < study.lab.measurements.size(); ++k) {
+      const Measurement& measurement = study.lab.measurements[k];
+      if (measurement.observable != reading.name) continue;
+      one.measured = measurement.value;
+      one.deviation = measurement.standard_deviation;
+      one.repeats = measurement.repeats;
+      one.weight = study.weights[k].weight;
+    }
+    evidence.readings.push_back(std::move(one));
+  }
+  return evidence;
+}
+
+ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence)) {
+  if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
+  for (const ReadingEvidence& reading : evidence_.readings) models_.emplace_back(evidence_.points, reading.simulated);
+  if (evidence_.failed.empty()) return;
+  std::vector<UnitPoint> all = evidence_.points;
+  all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size()));
+  share.tail(static_cast<Eigen::Index>(evidence_.failed.size())).setOnes();
+  failures_.emplace(all, share);
+}
+
+GaussianProcess::Prediction ResponseModel::predict(std::size_t reading, const UnitPoint& point) const {
+  return models_.at(reading).predict(point);
+}
+
+double ResponseModel::noise(std::size_t reading) const {
+  return std::sqrt(models_.at(reading).noise_variance());
+}
+
+double ResponseModel::miss(const UnitPoint& point) const {
+  double squares = 0;
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    const ReadingEvidence& reading = evidence_.readings[k];
+    if (!reading.fitted()) continue;
+    squares += reading.weight * std::pow((models_[k].predict(point).mean - *reading.measured) / reading.deviation, 2);
+  }
+  return std::sqrt(squares);
+}
+
+double ResponseModel::log_likelihood(const UnitPoint& point) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    const ReadingEvidence& reading = evidence_.readings[k];
+    if (!reading.fitted()) continue;
+    const auto prediction = models_[k].predict(point);
+    const double variance = reading.variance() + prediction.variance;
+    sum -= 0.5 * (std::pow(prediction.mean - *reading.measured, 2) / variance + std::log(variance));
+  }
+  if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
+  return sum;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "calibrate/inference/inference.h"
+#include "calibrate/search/strategy.h"
+
+namespace pastefit {
+
+/// Asks what a finished search leaves open: simulates other materials that may meet the laboratory as well, spread as
+/// far apart as can be, each on one fresh packing, in two rounds of which the second knows the first. Then infers.
+/// Central differences at the best candidate would cost as much and tell the slopes there only; these runs tell them
+/// along the whole family, and whether its members hold.
+/// Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
+/// Requirements: the calibration's best candidate did not fail; `objective` stores in `store`.
+/// The answer depends on what was asked only: a resumed calibration infers the same.
+Inference examine(const Study& study, Objective& objective, const Store& store, const Calibration& calibration,
+                  int simulations, std::uint64_t seed);
+
+}  // namespace pastefit

@@ -1,0 +1,142 @@
+#include "calibrate/inference/posterior.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "calibrate/search/screening.h"
+#include "core/random.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kept_share = 0.5;  // of the sample's weight, from one power of the likelihood to the next
+constexpr int walk_steps = 6;       // after each redraw
+constexpr int most_powers = 200;
+
+/// The sample while the likelihood is let in.
+class Population {
+ public:
+  Population(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension, int count,
+             std::uint64_t seed)
+      : log_likelihood_(log_likelihood),
+        random_(seed, "posterior"),
+        members_(screening_points(dimension, count, seed)) {
+    for (const UnitPoint& member : members_) values_.push_back(log_likelihood_(member));
+  }
+
+  std::vector<UnitPoint> run() {
+    double power = 0;
+    for (int k = 0; k < most_powers && power < 1; ++k) {
+      const double next = next_power(power);
+      redraw(next - power);
+      power = next;
+      walk(power);
+    }
+    return std::move(members_);
+  }
+
+ private:
+  double draw() { return random_.uniform(drawn_++); }
+
+  std::vector<double> weights(double step) const {
+    const double most = *std::ranges::max_element(values_);
+    std::vector<double> weights;
+    for (const double value : values_) weights.push_back(std::exp(step * (value - most)));
+    return weights;
+  }
+
+  /// The effective size of the sample with these weights, as a share of its
+  /// size (Kish).
+  double effective_share(double step) const {
+    double sum = 0, squares = 0;
+    for (const double weight : weights(step)) {
+      sum += weight;
+      squares += weight * weight;
+    }
+    return sum * sum / squares / static_cast<double>(values_.size());
+  }
+
+  double next_power(double power) const {
+    if (effective_share(1 - power) >= kept_share) return 1;
+    double low = 0, high = 1 - power;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = (low + high) / 2;
+      (effective_share(middle) >= kept_share ? low : high) = middle;
+    }
+    return power + std::max(low, 1e-4);
+  }
+
+  /// Systematic resampling: one random number for all members.
+  void redraw(double step) {
+    const std::vector<double> share = weights(step);
+    double sum = 0;
+    for (const double weight : share) sum += weight;
+    std::vector<UnitPoint> members;
+    std::vector<double> values;
+    double reached = 0, target = draw() * sum / static_cast<double>(share.size());
+    for (std::size_t i = 0; i < share.size(); ++i) {
+      reached += share[i];
+      for (; members.size() < share.size() && target <= reached; target += sum / static_cast<double>(share.size())) {
+        members.push_back(members_[i]);
+        values.push_back(values_[i]);
+      }
+    }
+    for (; members.size() < share.size(); values.push_back(values.back())) members.push_back(members.back());
+    members_ = std::move(members);
+    values_ = std::move(values);
+  }
+
+  /// Random walks by Metropolis, reflected at the borders.
+  void walk(double power) {
+    const auto dimension = members_.front().size();
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(dimension);
+    for (const UnitPoint& member : members_) mean += member / static_cast<double>(members_.size());
+    Eigen::MatrixXd covariance = 1e-10 * Eigen::MatrixXd::Identity(dimension, dimension);
+    for (const UnitPoint& member : members_)
+      covariance += (member - mean) * (member - mean).transpose() / static_cast<double>(members_.size());
+    const double usual = 2.38 / std::sqrt(static_cast<double>(dimension));  // Roberts, Gelman & Gilks 1997
+    const Eigen::MatrixXd spread = usual * Eigen::MatrixXd(covariance.llt().matrixL());
+    for (int step = 0; step < walk_steps; ++step) {
+      const double width = step % 2 == 0 ? 1 : 0.3;  // a bent valley is left by wide steps
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        Eigen::VectorXd normals(dimension);
+        for (double& normal : normals) normal = random_normal();
+        UnitPoint candidate = members_[i] + width * spread * normals;
+        for (double& x : candidate) x = reflected(x);
+        const double value = log_likelihood_(candidate);
+        if (std::log(std::max(draw(), 1e-300)) > power * (value - values_[i])) continue;
+        members_[i] = std::move(candidate);
+        values_[i] = value;
+      }
+    }
+  }
+
+  double random_normal() {
+    const double radius = std::sqrt(-2 * std::log(std::max(draw(), 1e-300)));
+    return radius * std::cos(2 * 3.14159265358979323846 * draw());
+  }
+
+  static double reflected(double x) {
+    const double folded = std::abs(std::remainder(x, 2.0));
+    return std::clamp(folded, 0.0, 1.0);
+  }
+
+  const std::function<double(const UnitPoint&)>& log_likelihood_;
+  RandomStream random_;
+  std::uint64_t drawn_ = 0;
+  std::vector<UnitPoint> members_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+std::vector<UnitPoint> posterior_sample(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension,
+                                        int count, std::uint64_t seed) {
+  if (dimension < 1 || count < 2) throw std::logic_error("posterior_sample: needs dimension >= 1 and count >= 2");
+  return Population(log_likelihood, dimension, count, seed).run();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,176 @@
+#include "calibrate/inference/words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/report/format.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double worth_a_word = 0.2;     // part of a parameter in a combination, over the lead's
+constexpr double worth_measuring = 0.9;  // narrowing above which a measurement brings nothing to speak of
+constexpr std::size_t most_gains = 3;
+
+double rounded(double value, int digits) {
+  return std::stod(format("%.*g", digits, value));
+}
+
+/// The parameters that move the best determined combination as the lead does,
+/// in exchange rates.
+std::string exchange_of(const Inference& inference, const Combination& combination) {
+  const ParameterInterval& lead = inference.intervals[combination.lead];
+  std::vector<std::string> rates;
+  for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
+    const double ratio = combination.direction[j] / combination.direction[combination.lead];
+    if (j == combination.lead || std::abs(ratio) < worth_a_word) continue;
+    const ParameterInterval& other = inference.intervals[j];
+    const auto change = [](const ParameterInterval& parameter, double coordinates) {
+      if (parameter.scale == Scale::linear)
+        return format("%+.2g", coordinates * (parameter.bound_upper - parameter.bound_lower));
+      return format("%+.0f %%",
+                    100 * std::expm1(coordinates * std::log(parameter.bound_upper / parameter.bound_lower)));
+    };
+    constexpr double step = 0.1;  // of the range
+    rates.push_back(other.name + " " + change(other, step) + " acts like " + lead.name + " " +
+                    change(lead, ratio * step));
+  }
+  if (rates.empty()) return "";
+  return "  The others can make up for it: " + enumerated(rates) + ".\n";
+}
+
+std::string determined(const Inference& inference) {
+  std::string out;
+  std::vector<std::size_t> said;
+  for (const Combination& combination : inference.combinations) {
+    if (!combination.determined()) continue;
+    const ParameterInterval& lead = inference.intervals[combination.lead];
+    if (said.empty()) {
+      out += format(
+          "  %s %s %s to %.3g to %.3g (95 %%), the other parameters "
+          "held at the recommended values.\n",
+          enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
+          lead.name.c_str(), lead.held_lower, lead.held_upper);
+      out += exchange_of(inference, combination);
+    } else {
+      const std::string width = lead.scale == Scale::linear ? format("+-%.2g", combination.lead_width)
+                                                            : format("+-%.0f %%", 100 * combination.lead_width);
+      out += format("  A further combination, led by %s, is fixed to %s by %s.\n", lead.name.c_str(), width.c_str(),
+                    enumerated(combination.readings).c_str());
+    }
+    said.push_back(combination.lead);
+  }
+  if (said.empty())
+    out +=
+        "  Near the recommended material no parameter, and no combination "
+        "of them, is told much better than by the "
+        "bounds.\n";
+  return out;
+}
+
+std::string intervals(const Inference& inference) {
+  std::string out;
+  std::vector<std::string> unknown;
+  for (const ParameterInterval& one : inference.intervals) {
+    if (one.not_identified()) {
+      unknown.push_back(one.name);
+    } else if (one.interval_exists()) {
+      out += format("  %s lies between %.3g and %.3g (95 %%), all parameters free.\n", one.name.c_str(), one.lower,
+                    one.upper);
+    } else {
+      out += format(
+          "  %s lies %s %.3g (95 %%), all parameters free; its bound "
+          "sets the other end.\n",
+          one.name.c_str(), one.lower_known ? "above" : "below", one.lower_known ? one.lower : one.upper);
+    }
+  }
+  if (unknown.size() == 1)
+    out += "  " + unknown[0] +
+           " is not told by this test: any value within its bounds fits, with "
+           "the others to match.\n";
+  else if (!unknown.empty())
+    out += "  " + enumerated(unknown) +
+           " cannot be told apart by this test: any values within their bounds "
+           "fit, with the others to match.\n";
+  return out;
+}
+
+std::string family(const Inference& inference) {
+  std::string out = "Materials that meet these readings as well; recommended is the first" +
+                    (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n  ";
+  for (const ParameterInterval& one : inference.intervals) out += format("%20s", one.name.c_str());
+  for (const std::string& reading : inference.fitted) out += format("  %s", reading.c_str());
+  out += "\n";
+  for (const EquivalentMaterial& member : inference.family) {
+    out += "  ";
+    for (const double value : member.values) out += format("%20.4g", value);
+    for (std::size_t k = 0; k < member.readings.size(); ++k)
+      out += format("  %*.4g", static_cast<int>(inference.fitted[k].size()), member.readings[k]);
+    out += member.simulated ? "\n" : "   predicted only\n";
+  }
+  return out;
+}
+
+std::string next(const Inference& inference) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most_gains, inference.gains.size()); ++i) {
+    const MeasurementGain& gain = inference.gains[i];
+    if (gain.narrowing > worth_measuring) break;
+    const bool known = std::ranges::find(inference.fitted, gain.reading) != inference.fitted.end();
+    out += format(
+        "  %d %smeasurements of %s (+-%.3g each) would leave %s %.0f "
+        "%% of its uncertainty.\n",
+        gain.measurements, known ? "more " : "", gain.reading.c_str(), gain.deviation, gain.parameter.c_str(),
+        100 * gain.narrowing);
+  }
+  if (out.empty())
+    out =
+        "  No reading of this test would tell more; another test would (a "
+        "drop plate, another mould, a pellet crush).\n";
+  return out;
+}
+
+}  // namespace
+
+std::string enumerated(const std::vector<std::string>& words) {
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return out;
+}
+
+std::string words_of(const Inference& inference) {
+  return "What the readings say of the parameters (" + std::to_string(inference.simulations) + " simulations)\n" +
+         determined(inference) + intervals(inference) + "What to measure next\n" + next(inference) + family(inference);
+}
+
+CardInference card_inference(const Inference& inference) {
+  constexpr double told = 0.2;  // correlation below which the sample shows none
+  CardInference out;
+  out.method = "likelihood of the readings, sampled over the bounds";
+  out.level = 0.95;
+  for (std::size_t i = 0; i < inference.intervals.size(); ++i) {
+    const ParameterInterval& one = inference.intervals[i];
+    if (one.not_identified())
+      out.not_identified.push_back({one.name, "any value within its bounds fits, with the others to match"});
+    else
+      out.intervals.push_back({one.name, rounded(one.lower, 4), rounded(one.upper, 4)});
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(inference.correlation[i][j]) >= told)
+        out.correlations.push_back({inference.intervals[j].name, one.name, rounded(inference.correlation[i][j], 2)});
+  }
+  if (out.intervals.empty()) out.level = 0;
+  return out;
+}
+
+std::string warning_before(int parameters, const std::vector<std::string>& fitted) {
+  if (parameters <= static_cast<int>(fitted.size())) return "";
+  const auto readings =
+      fitted.size() == 1 ? "1 fitted reading fixes" : std::to_string(fitted.size()) + " fitted readings fix";
+  return std::to_string(parameters) + " parameters are free, and " + readings + " at most " +
+         std::to_string(fitted.size()) + (fitted.size() == 1 ? " combination" : " combinations") +
+         " of them: many materials will fit. The summary will say which.\n";
+}
+
+}  // namespace pastefit

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/card/card.h"
+#include "calibrate/inference/inference.h"
+
+namespace pastefit {
+
+/// The inference as a person reads it: what is determined and how well, what is
+/// not, the equivalent materials, and what to measure next. Several lines, each
+/// ended.
+std::string words_of(const Inference& inference);
+
+/// The part of it that a card keeps: 95 % intervals that have an end set by the data, how parameters move together
+/// (from 0.2 on), and what is not identified. Rounded to the digits that the sample behind them is worth.
+CardInference card_inference(const Inference& inference);
+
+/// Said before a calibration: more free parameters than the readings could ever
+/// fix. Empty if there are not.
+std::string warning_before(int parameters, const std::vector<std::string>& fitted);
+
+/// "a", "a and b", "a, b and c".
+std::string enumerated(const std::vector<std::string>& words);
+
+}  // namespace pastefit

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/search/comparison.h"
+
+namespace pastefit {
+
+/// A drawing (SVG) of misfit against simulations, one line for each strategy in the order of the rows, the first five
+/// and "default" in colour, and the tolerance as a level.
+std::string misfit_figure(const std::vector<StrategySummary>& rows, double tolerance_mm, const std::string& title);
+
+}  // namespace pastefit

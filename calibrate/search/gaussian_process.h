@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+
+namespace pastefit {
+
+/// A Gaussian process with constant mean, Matérn 5/2 covariance with one length
+/// for each coordinate, and noise. Mean and variance are profiled out; lengths
+/// and noise maximise the likelihood times a broad prior that favours smooth
+/// answers, so that a few dozen noisy simulations do not make it wiggle.
+/// Answers of one point are pooled, which changes nothing but the time it
+/// takes. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning
+/// (2006), sections 2.2, 4.2.1, 5.4.1.
+class GaussianProcess {
+ public:
+  struct Prediction {
+    double mean = 0;
+    double variance = 0;  ///< of the mean answer, without the noise of one simulation
+  };
+
+  /// Shapes: n >= 1 points of the unit cube, n values. Points may repeat: that
+  /// is how the noise is seen.
+  GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values);
+
+  Prediction predict(const UnitPoint& point) const;
+  double noise_variance() const { return signal_variance_ * noise_ratio_; }
+
+ private:
+  class Likelihood;
+  void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values);
+  void set(const Eigen::VectorXd& lengths, double noise_ratio);
+
+  std::vector<UnitPoint> points_;  // distinct
+  Eigen::VectorXd values_;         // mean answer of each
+  Eigen::VectorXd counts_;         // answers of each
+  double answers_ = 0;             // in all
+  double squares_within_ = 0;      // of the answers about the mean of their point
+  Eigen::VectorXd lengths_;
+  double noise_ratio_ = 0;      // noise variance over signal variance
+  double signal_variance_ = 0;  // 0: all values are the same
+  double mean_ = 0;
+  double log_determinant_ = 0;
+  Eigen::MatrixXd factor_;   // lower Cholesky factor of the correlation matrix with noise
+  Eigen::VectorXd weights_;  // inverse correlation matrix times (values - mean)
+};
+
+}  // namespace pastefit

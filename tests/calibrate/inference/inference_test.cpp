@@ -1,0 +1,177 @@
+#include "calibrate/inference/inference.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/inference/posterior.h"
+#include "calibrate/inference/words.h"
+#include "calibrate/search/screening.h"
+#include "tests/calibrate/search/fake_slump.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+/// Readings of two parameters between 0 and 1, as functions; noise with a standard deviation of 1.
+struct Law {
+  std::string name;
+  std::function<double(const UnitPoint&)> mean;
+  std::optional<double> measured;
+  double deviation = 5;
+};
+
+Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40) {
+  Evidence evidence;
+  for (const char* name : {"first", "second"}) {
+    Parameter parameter;
+    parameter.name = name;
+    parameter.free = true;
+    parameter.upper = 1;
+    evidence.parameters.push_back(parameter);
+  }
+  evidence.points = screening_points(2, simulations, 1);
+  for (const Law& law : laws) {
+    ReadingEvidence reading;
+    reading.name = law.name;
+    reading.measured = law.measured;
+    reading.deviation = law.deviation;
+    reading.weight = 1;
+    reading.simulated.resize(simulations);
+    for (int i = 0; i < simulations; ++i)
+      reading.simulated[i] = law.mean(evidence.points[static_cast<std::size_t>(i)]) +
+                             normal(static_cast<std::uint64_t>(i), evidence.readings.size());
+    evidence.readings.push_back(std::move(reading));
+  }
+  return evidence;
+}
+
+const Law first_alone{"step1.height_mm", [](const UnitPoint& x) { return 100 * x[0]; }, 50};
+const Law sum_of_both{"step1.height_mm", [](const UnitPoint& x) { return 100 * (x[0] + x[1]); }, 100};
+const Law second_alone{"step1.spread_mm", [](const UnitPoint& x) { return 100 * x[1]; }, std::nullopt};
+const UnitPoint middle = UnitPoint::Constant(2, 0.5);
+
+}  // namespace
+
+TEST_CASE("a sample of a normal likelihood has its mean and its width") {
+  const auto sample = posterior_sample(
+      [](const UnitPoint& x) { return -0.5 * (std::pow((x[0] - 0.3) / 0.02, 2) + std::pow((x[1] - 0.6) / 0.1, 2)); }, 2,
+      3000, 1);
+  double mean = 0, square = 0, wide = 0;
+  for (const UnitPoint& x : sample) {
+    mean += x[0] / 3000;
+    square += std::pow(x[0] - 0.3, 2) / 3000;
+    wide += std::pow(x[1] - 0.6, 2) / 3000;
+  }
+  CHECK(mean == Approx(0.3).margin(0.002));
+  CHECK(std::sqrt(square) == Approx(0.02).epsilon(0.1));
+  CHECK(std::sqrt(wide) == Approx(0.1).epsilon(0.1));
+}
+
+TEST_CASE("a sample finds separate regions in proportion to their weight") {
+  const auto sample = posterior_sample(
+      [](const UnitPoint& x) {
+        const auto hill = [&](double at) { return std::exp(-0.5 * std::pow((x[0] - at) / 0.03, 2)); };
+        return std::log(3 * hill(0.15) + hill(0.8) + 1e-30);
+      },
+      1, 3000, 1);
+  const auto left = std::ranges::count_if(sample, [](const UnitPoint& x) { return x[0] < 0.5; });
+  CHECK(static_cast<double>(left) / 3000 == Approx(0.75).margin(0.05));
+}
+
+TEST_CASE("a flat likelihood leaves the bounds as they are") {
+  const Inference inference =
+      infer(evidence_for({{"step1.height_mm", [](const UnitPoint&) { return 50.0; }, 50}}), middle);
+  for (const ParameterInterval& one : inference.intervals) {
+    CHECK(one.not_identified());
+    CHECK(one.lower == 0);
+    CHECK(one.upper == 1);
+    CHECK(one.uncertainty == Approx(1).margin(0.06));
+  }
+  for (const Combination& one : inference.combinations) CHECK_FALSE(one.determined());
+}
+
+TEST_CASE("the interval of a parameter that is seen alone is that of the closed form") {
+  const Inference inference = infer(evidence_for({first_alone}), middle);
+  const ParameterInterval& seen = inference.intervals[0];
+  REQUIRE(seen.interval_exists());
+  CHECK(seen.lower == Approx(0.5 - 1.96 * 0.05).margin(0.012));
+  CHECK(seen.upper == Approx(0.5 + 1.96 * 0.05).margin(0.012));
+  CHECK(inference.intervals[1].not_identified());
+  REQUIRE(inference.combinations.size() == 2);
+  CHECK(inference.combinations[0].determined());
+  CHECK(inference.combinations[0].singular_value == Approx(100 / std::sqrt(12.0) / 5).epsilon(0.05));
+  CHECK(std::abs(inference.combinations[0].direction[0]) == Approx(1).margin(0.01));
+  CHECK(inference.combinations[0].lead_width == Approx(1.96 * 0.05).margin(0.012));
+  CHECK_FALSE(inference.combinations[1].determined());
+  CHECK(inference.linear);
+}
+
+TEST_CASE("repeats narrow an interval as their number does") {
+  Evidence evidence = evidence_for({first_alone});
+  const double once = infer(evidence, middle).intervals[0].uncertainty;
+  evidence.readings[0].repeats = 4;
+  CHECK(infer(evidence, middle).intervals[0].uncertainty == Approx(once / 2).epsilon(0.12));
+}
+
+TEST_CASE("two parameters that only their sum shows are each wide, narrow if the other is held, and correlated") {
+  const Inference inference = infer(evidence_for({sum_of_both}), middle);
+  for (const ParameterInterval& one : inference.intervals) {
+    CHECK(one.not_identified());
+    CHECK(one.held_upper - one.held_lower == Approx(2 * 1.96 * 0.05).margin(0.03));
+  }
+  CHECK(inference.correlation[0][1] < -0.9);
+  const Combination& sum = inference.combinations[0];
+  CHECK(sum.direction[0] == Approx(std::sqrt(0.5)).margin(0.02));
+  CHECK(sum.direction[1] == Approx(std::sqrt(0.5)).margin(0.02));
+  for (const EquivalentMaterial& member : inference.family)
+    CHECK(member.values[0] + member.values[1] == Approx(1).margin(0.1));
+  REQUIRE(inference.family.size() == 5);
+  CHECK(std::abs(inference.family[1].values[0] - 0.5) > 0.3);
+}
+
+TEST_CASE("the measurement that would tell them apart is named first, with what it would leave") {
+  const Inference inference = infer(evidence_for({sum_of_both, second_alone}), middle);
+  REQUIRE(inference.gains.size() == 2);
+  CHECK(inference.gains[0].reading == "step1.spread_mm");
+  CHECK(inference.gains[0].narrowing < 0.25);
+  CHECK(inference.gains[1].narrowing > 0.8);
+
+  Evidence after = evidence_for({sum_of_both, second_alone});
+  after.readings[1].measured = 50;
+  after.readings[1].repeats = inference.gains[0].measurements;
+  const double left = infer(after, middle).intervals[1].uncertainty / inference.intervals[1].uncertainty;
+  CHECK(left == Approx(inference.gains[0].narrowing).margin(0.1));
+}
+
+TEST_CASE("a reading that the model misses by far is not proposed again") {
+  Evidence evidence = evidence_for({sum_of_both, second_alone});
+  evidence.readings[1].measured = 500;
+  evidence.readings[1].weight = 0;
+  const Inference inference = infer(evidence, middle);
+  REQUIRE(inference.gains.size() == 1);
+  CHECK(inference.gains[0].reading == "step1.height_mm");
+}
+
+TEST_CASE("the words name what is fixed, what is not, and what to measure") {
+  const std::string words = words_of(infer(evidence_for({first_alone, second_alone}), middle));
+  CHECK(words.find("step1.height_mm fixes first to") != std::string::npos);
+  CHECK(words.find("second is not told by this test") != std::string::npos);
+  CHECK(words.find("measurements of step1.spread_mm") != std::string::npos);
+  CHECK(warning_before(5, {"a"}).find("1 fitted reading fixes at most 1 combination") != std::string::npos);
+  CHECK(warning_before(1, {"a", "b"}).empty());
+}
+
+TEST_CASE("a card keeps the ends that the data set, and names what they do not see") {
+  const CardInference card = card_inference(infer(evidence_for({first_alone}), middle));
+  REQUIRE(card.intervals.size() == 1);
+  CHECK(card.intervals[0].parameter == "first");
+  CHECK(card.level == 0.95);
+  REQUIRE(card.not_identified.size() == 1);
+  CHECK(card.not_identified[0].parameter == "second");
+}
+
+TEST_CASE("the same evidence gives the same inference") {
+  const std::string once = words_of(infer(evidence_for({sum_of_both, second_alone}), middle));
+  CHECK(words_of(infer(evidence_for({sum_of_both, second_alone}), middle)) == once);
+}

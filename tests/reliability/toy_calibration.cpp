@@ -1,0 +1,78 @@
+// A calibration like that of `pastefit calibrate`, of a toy instead of the engine: what the kill test kills.
+// usage: toy-calibration STUDY DIR
+// Prints "known N simulated M": evaluations found in the store, and those made by this process.
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/card/calibration_card.h"
+#include "calibrate/inference/examination.h"
+#include "calibrate/inference/words.h"
+#include "calibrate/search/evaluator.h"
+#include "calibrate/search/strategy.h"
+#include "core/random.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// A slump in closed form: the height rises with the strength, the packing and the digits of the bridge make the noise.
+/// It takes between 1 and 3 ms, and is as reproducible as the engine.
+Outcome toy_slump(const SlumpTable& test, const RunOptions&) {
+  const Bridge& bridge = test.contact.bridge;
+  const double drive = std::log(bridge.c_n / 0.1) - 20 * bridge.d_c_m - 1e-5 * bridge.a_n_m2;
+  const RandomStream random(test.packing_seed, "toy");
+  const auto digits = static_cast<std::uint64_t>(1e12 * bridge.c_n + 1e15 * bridge.offset_m);
+  const double height = 300 / (1 + std::exp(-drive)) + 4 * random.normal(digits);
+  Outcome outcome;
+  outcome.observables.set("fill.mass_kg", 12.3);
+  outcome.observables.set("fill.solid_fraction", 0.59);
+  outcome.observables.set("step1.height_mm", std::clamp(height, 0.0, 300.0));
+  outcome.observables.set("step1.spread_mm", 600 - height);
+  outcome.run.particles = 1;
+  outcome.run.settled = true;
+  if (random.uniform(digits) < 0.05)
+    outcome.failure = Failure{FailureReason::grain_lost, "step1.lift", 10, 0.1, 0, 0, 0, "Toy."};
+  std::this_thread::sleep_for(std::chrono::microseconds(1000 + 2000 * (digits % 100) / 100));
+  return outcome;
+}
+
+int fail(const Faults& faults) {
+  for (const Fault& fault : faults)
+    std::fprintf(stderr, "%s: %s; %s\n", fault.where.c_str(), fault.what.c_str(), fault.remedy.c_str());
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const auto read = read_study(argv[1]);
+  if (!read.ok()) return fail(read.faults());
+  const Study& study = read.value();
+  const std::string folder = argv[2];
+  auto store = Store::open(folder + "/evaluations.sqlite", {study.hash, study.lab.hash, "toy"});
+  if (!store.ok()) return fail(store.faults());
+
+  EvaluatorOptions options;
+  options.threads = 2;
+  options.simulator.fill = [](const SlumpTable&, const RunOptions&) { return std::shared_ptr<const Packing>(); };
+  options.simulator.run = toy_slump;
+  SimulationObjective objective(study, store.value(), options);
+  const auto known = store.value().size();
+  const Calibration calibration = search(objective, study.search);
+  if (calibration.best.point.size() == 0) return 1;
+  const Inference inference =
+      examine(study, objective, store.value(), calibration, study.search.examination_simulations, study.search.seed);
+  if (const Faults faults = objective.store_faults(); !faults.empty()) return fail(faults);
+  Card card = card_of(study, calibration, study.search, store.value(), objective.counts(), "study.json", "lab.json");
+  card.inference = card_inference(inference);
+  const Faults faults = write_atomically(folder + "/card.json", to_json(card).dump(2) + words_of(inference));
+  if (!faults.empty()) return fail(faults);
+  std::printf("known %zu simulated %d\n", known, objective.counts().simulated);
+  return 0;
+}

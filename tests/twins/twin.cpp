@@ -1,0 +1,140 @@
+#include "tests/twins/twin.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "calibrate/inference/examination.h"
+#include "calibrate/search/screening.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/parameters.h"
+#include "core/random.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr std::uint64_t first_packing = 2'000'000'000;  // far from those of any search
+constexpr double least_deviation_mm = 1;                // of repeats that happen to agree
+
+double ruler_of(const std::string& reading, const TwinRecipe& recipe) {
+  return reading.find("spread") != std::string::npos ? 5 * recipe.ruler_mm : recipe.ruler_mm;
+}
+
+/// How far the best determined combination is off, as a change of its lead: the lead at which the recommended material
+/// would read what the truth reads, against the recommended one.
+double lead_error_of(const Twin& twin, const Store& store, const UnitPoint& recommended, std::size_t lead) {
+  const ResponseModel model(evidence_of(twin.study, store.all()));
+  const auto& readings = model.evidence().readings;
+  double least = std::numeric_limits<double>::infinity(), at = 0;
+  constexpr int cells = 1000;
+  for (int i = 0; i <= cells; ++i) {
+    UnitPoint point = recommended;
+    point[static_cast<Eigen::Index>(lead)] = static_cast<double>(i) / cells;
+    double squares = 0;
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      if (!readings[k].fitted()) continue;
+      for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m)
+        if (twin.study.lab.measurements[m].observable == readings[k].name)
+          squares += std::pow((model.predict(k, point).mean - twin.true_readings[m]) / readings[k].deviation, 2);
+    }
+    if (squares >= least) continue;
+    least = squares;
+    at = point[static_cast<Eigen::Index>(lead)];
+  }
+  const Parameter& parameter = model.evidence().parameters[lead];
+  const double found = value_between(parameter, recommended[static_cast<Eigen::Index>(lead)]);
+  const double right = value_between(parameter, at);
+  return std::abs(right - found) / (parameter.scale == Scale::logarithmic ? found : parameter.upper - parameter.lower);
+}
+
+}  // namespace
+
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const EvaluatorOptions& options) {
+  Twin twin;
+  twin.number = number;
+  twin.study = study;
+  twin.truth = screening_points(free_count(study), number + 1, recipe.seed).back();
+  const std::vector<double> values = values_at(study, twin.truth);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (study.parameters[i].free) twin.values.push_back(values[i]);
+
+  std::vector<Observables> runs;
+  for (int k = 0; k < recipe.repeats; ++k) {
+    Study made = study;
+    if (recipe.truth_radius_m > 0) made.lab.test.grains.radius_m = recipe.truth_radius_m;
+    const auto packing = first_packing + static_cast<std::uint64_t>(1000 * number + k);
+    const Outcome outcome = options.simulator.run(test_with(made, values, packing), {});
+    if (outcome.failure) return Fault{"twin " + std::to_string(number), outcome.failure->message, "another truth"};
+    runs.push_back(outcome.observables);
+  }
+  const RandomStream ruler(recipe.seed, "ruler");
+  for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m) {
+    Measurement& measurement = twin.study.lab.measurements[m];
+    std::vector<double> read;
+    double truth = 0, mean = 0, squares = 0;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      const double value = runs[k].find(measurement.observable).value_or(std::nan(""));
+      const auto draw = (static_cast<std::uint64_t>(number) * 100 + m) * 100 + k;
+      read.push_back(value + ruler_of(measurement.observable, recipe) * ruler.normal(draw));
+      truth += value / recipe.repeats;
+      mean += read.back() / recipe.repeats;
+    }
+    if (!std::isfinite(mean))
+      return Fault{"twin " + std::to_string(number), "gave no " + measurement.observable, "another truth"};
+    for (const double value : read) squares += (value - mean) * (value - mean) / std::max(1, recipe.repeats - 1);
+    measurement.value = mean;
+    measurement.standard_deviation = std::max(std::sqrt(squares), least_deviation_mm);
+    measurement.repeats = recipe.repeats;
+    twin.true_readings.push_back(truth);
+  }
+  twin.study.lab.hash = "twin " + std::to_string(number) + " of seed " + std::to_string(recipe.seed);
+  return twin;
+}
+
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const EvaluatorOptions& options) {
+  TwinResult result;
+  result.number = twin.number;
+  const auto start = std::chrono::steady_clock::now();
+  auto store = Store::open(store_file, {twin.study.hash, twin.study.lab.hash, program_identity()});
+  if (!store.ok()) {
+    result.status = "no store: " + store.faults().front().what;
+    return result;
+  }
+  SimulationObjective objective(twin.study, store.value(), options);
+  const SearchOptions& search_options = twin.study.search;
+  const Calibration calibration = search(objective, search_options);
+  result.status = name_of(calibration.status);
+  if (!is_feasible(calibration.best)) return result;
+  const Inference inference = examine(twin.study, objective, store.value(), calibration,
+                                      search_options.examination_simulations, search_options.seed);
+  const EvaluationCounts counts = objective.counts();
+  result.simulations = counts.simulated + counts.answered;
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const bool fresh = calibration.confirmation.point.size() > 0 && is_feasible(calibration.confirmation);
+  const Response& shown = fresh ? calibration.confirmation : calibration.best;
+  const auto packings = static_cast<double>(shown.evaluations.size());
+  for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m) {
+    if (twin.study.weights[m].weight == 0) continue;
+    const Measurement& measurement = twin.study.lab.measurements[m];
+    const double mean = shown.observables[static_cast<Eigen::Index>(m)];
+    double squares = 0;
+    for (const Evaluation& one : shown.evaluations) squares += std::pow(one.observables[m] - mean, 2);
+    const double error = std::hypot(measurement.standard_deviation / std::sqrt(measurement.repeats),
+                                    packings > 1 ? std::sqrt(squares / (packings - 1) / packings) : 0.0);
+    result.worst_miss = std::max(result.worst_miss, std::abs(mean - measurement.value) / error);
+  }
+  for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
+    const ParameterInterval& one = inference.intervals[j];
+    result.parameters.push_back(
+        {one.name, twin.values[j], one.recommended, one.lower, one.upper, one.lower_known, one.upper_known});
+  }
+  for (const Combination& combination : inference.combinations) result.determined += combination.determined() ? 1 : 0;
+  if (result.determined == 0) return result;
+  const std::size_t lead = inference.combinations.front().lead;
+  result.lead = inference.intervals[lead].name;
+  result.lead_error = lead_error_of(twin, store.value(), calibration.best.point, lead);
+  return result;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrate/search/evaluator.h"
+#include "calibrate/search/strategy.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// How twin laboratories are made. The recipe and a number make a twin, the same wherever it is made.
+struct TwinRecipe {
+  std::uint64_t seed = 1;     ///< of the truths, the packings and the ruler
+  double truth_radius_m = 0;  ///< grains of the twin; 0: those of the study
+  int repeats = 5;            ///< of the test, each on a packing of its own
+  double ruler_mm = 1;        ///< standard deviation of reading a height; five times that for a spread
+};
+
+/// A laboratory whose material is known.
+struct Twin {
+  int number = 0;
+  UnitPoint truth;                    ///< in the unit cube of the study's free parameters
+  std::vector<double> values;         ///< the same, of the free parameters
+  Study study;                        ///< with the twin's measurements in place of the laboratory's
+  std::vector<double> true_readings;  ///< of the study's measurements, before the ruler
+};
+
+/// What became of one free parameter.
+struct TwinParameter {
+  std::string name;
+  double truth = 0, recommended = 0, lower = 0, upper = 0;
+  bool lower_known = false, upper_known = false;
+};
+
+/// How the calibration of a twin went.
+struct TwinResult {
+  int number = 0;
+  std::string status;  ///< of the calibration, or "no twin" with the reason if the truth itself fails
+  int simulations = 0;
+  double wall_s = 0;
+  double worst_miss = 0;   ///< of the fitted readings, confirmed mean to the truth's, in standard errors of both
+  int determined = 0;      ///< combinations
+  double lead_error = -1;  ///< of the best determined one, as a change of its lead alone; share of it, or of its range
+  std::string lead;
+  std::vector<TwinParameter> parameters;
+};
+
+/// The twin's laboratory: simulations of the truth, read with a ruler. Truths are Sobol points of the study's box.
+/// Errors: the truth fails on one of its packings.
+Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number, const EvaluatorOptions& options);
+
+/// Calibrates the twin as `pastefit calibrate` does, with its evaluations in `store_file`, and compares with the truth.
+TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_file, const EvaluatorOptions& options);
+
+}  // namespace pastefit
