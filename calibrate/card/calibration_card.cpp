@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/card/machine.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -42,6 +43,9 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   std::vector<Observables> runs;
   for (const auto packing : shown.packings)
     runs.push_back(store.find(evaluation_key(store.identity(), values, packing)).value().observables);
+  card.baseline.program = store.identity().program;
+  card.baseline.machine = machine_type();
+  for (std::size_t i = 0; i < runs.size(); ++i) card.baseline.runs.push_back({shown.packings[i], runs[i]});
   for (const auto& reading : runs.at(0).all()) {
     auto observable = mean_of(reading.name, runs);
     if (!observable) continue;

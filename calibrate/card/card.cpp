@@ -1,11 +1,11 @@
 #include "calibrate/card/card.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/study/json_reader.h"
+#include "calibrate/card/card_versions.h"
 #include "calibrate/study/names.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/study/slump_table_json.h"
 
 namespace pastefit {
@@ -14,11 +14,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr std::string_view kFormat = "pastefit-card-1";
-constexpr Range kAny;
-constexpr Range kNotNegative{0};
-constexpr auto kRequired = Need::required;
 
 ordered_json observable_to_json(const CardObservable& observable, std::size_t packings) {
   ordered_json out;
@@ -37,85 +32,69 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
   return out;
 }
 
-CardObservable read_observable(ObjectReader& reader, std::string name) {
-  CardObservable out;
-  out.name = std::move(name);
-  double derived = 0;
-  reader.number("simulated", out.simulated, kAny, kRequired);
-  reader.number("simulated_standard_deviation", out.simulated_standard_deviation, kNotNegative, kRequired);
-  reader.number("standard_error", derived, kNotNegative, Need::optional);
-  reader.nullable_number("measured", out.measured, kAny, kRequired);
-  const auto need = out.measured ? Need::required : Need::optional;
-  reader.number("standard_deviation", out.standard_deviation, kNotNegative, need);
-  reader.integer("repeats", out.repeats, 0, 1'000'000, need);
-  reader.number("weight", out.weight, kNotNegative, need);
-  reader.number("difference", derived, kAny, Need::optional);
+/// What the fit was made for; a use far from it is an extrapolation.
+ordered_json conditions_to_json(const Card& card) {
+  constexpr double kGravity = 9.81;
+  const auto& grains = card.test.grains;
+  const bool mono = grains.distribution == SizeDistribution::mono;
+  ordered_json out;
+  out["grain_radius_m"] = {mono ? grains.radius_m : grains.smallest_m, mono ? grains.radius_m : grains.largest_m};
+  out["lift_velocity_m_s"] = card.test.lift_velocity_m_s;
+  out["largest_pressure_pa"] = card.test.bulk_density_kg_m3 * kGravity * card.test.mould.height_m;
+  for (const auto& observable : card.observables)
+    if (observable.measured && observable.weight > 0) out["fitted"][observable.name] = *observable.measured;
   return out;
 }
 
-void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
-  for (const auto& kind : parameter_kinds()) {
-    Parameter parameter;
-    parameter.name = kind.name;
-    parameter.scale = kind.scale;
-    parameters.push_back(parameter);
+void add_inference(ordered_json& out, const CardInference& inference) {
+  if (!inference.intervals.empty()) {
+    out["intervals"] = {{"method", inference.method}, {"level", inference.level}};
+    for (const auto& interval : inference.intervals)
+      out["intervals"]["parameters"][interval.parameter] = {{"lower", interval.lower}, {"upper", interval.upper}};
   }
-  card.object("parameters", kRequired, [&](ObjectReader& reader) {
-    for (auto& parameter : parameters) {
-      const auto& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
-      reader.number(parameter.name, parameter.value, {kind.smallest, kind.largest}, kRequired);
-    }
-  });
-  card.object("free", kRequired, [&](ObjectReader& reader) {
-    for (auto& parameter : parameters)
-      parameter.free = reader.object(parameter.name, Need::optional, [&](ObjectReader& bounds) {
-        bounds.number("lower", parameter.lower, kAny, kRequired);
-        bounds.number("upper", parameter.upper, kAny, kRequired);
-        bounds.choice("scale", parameter.scale, scales, kRequired);
-      });
-  });
+  for (const auto& pair : inference.correlations) out["correlation"][pair.first][pair.second] = pair.value;
+  for (const auto& unseen : inference.not_identified) out["not_identified"][unseen.parameter] = unseen.reason;
 }
 
-void read_search(ObjectReader& reader, SearchRecord& search) {
-  constexpr int kMany = 1'000'000'000;
-  reader.text("strategy", search.strategy, kRequired);
-  reader.text("status", search.status, kRequired);
-  reader.text("reason", search.reason, kRequired);
-  reader.integer("seed", search.seed, kRequired);
-  reader.integers("packings", search.packings, kRequired);
-  reader.integer("budget", search.budget, 0, kMany, kRequired);
-  reader.integer("simulations", search.simulations, 0, kMany, kRequired);
-  reader.object("failures", kRequired, [&](ObjectReader& failures) {
-    for (int reason = 0; reason <= static_cast<int>(FailureReason::stopped); ++reason) {
-      const auto name = name_of(static_cast<FailureReason>(reason));
-      int count = 0;
-      if (failures.integer(name, count, 0, kMany, Need::optional)) search.failures[std::string(name)] = count;
-    }
-  });
+ordered_json baseline_to_json(const Baseline& baseline) {
+  ordered_json out{{"program", baseline.program},
+                   {"machine", baseline.machine},
+                   {"packings", ordered_json::array()},
+                   {"readings", ordered_json::object()}};
+  for (const auto& run : baseline.runs) {
+    out["packings"].push_back(run.packing);
+    for (const auto& [name, value] : run.observables.all()) out["readings"][name].push_back(value);
+  }
+  return out;
 }
 
-void read_provenance(ObjectReader& reader, CardProvenance& provenance) {
-  reader.text("study_file", provenance.study_file, kRequired);
-  reader.text("study_hash", provenance.study_hash, kRequired);
-  reader.text("lab_file", provenance.lab_file, kRequired);
-  reader.text("lab_hash", provenance.lab_hash, kRequired);
-  reader.object("lab", kRequired, [&](ObjectReader& lab) {
-    lab.text("source", provenance.lab.source, kRequired);
-    lab.text("licence", provenance.lab.licence, kRequired);
-    lab.text("notes", provenance.lab.notes, kRequired);
-    lab.flag("twin", provenance.lab.twin, kRequired);
-  });
-  reader.text("program", provenance.program, kRequired);
+ordered_json rebaseline_to_json(const Rebaseline& change) {
+  ordered_json out{{"why", change.why},
+                   {"program_before", change.program_before},
+                   {"program_after", change.program_after},
+                   {"moved", ordered_json::object()}};
+  for (const auto& moved : change.moved)
+    out["moved"][moved.observable] = {{"before", moved.before}, {"after", moved.after}};
+  return out;
+}
+
+ordered_json rescaling_to_json(const Rescaling& step) {
+  ordered_json out{{"from_radius_m", step.from_radius_m}, {"bias", ordered_json::object()}};
+  for (const auto& bias : step.bias)
+    out["bias"][bias.observable] = {
+        {"before", bias.before}, {"after", bias.after}, {"standard_error", bias.standard_error}};
+  return out;
 }
 
 }  // namespace
 
 ordered_json to_json(const Card& card) {
   ordered_json out;
-  out["format"] = kFormat;
+  out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
   out["title"] = card.title;
   out["material"] = {{"bulk_density_kg_m3", card.test.bulk_density_kg_m3}, {"grain_density_kg_m3", nullptr}};
   if (card.grain_density_kg_m3) out["material"]["grain_density_kg_m3"] = *card.grain_density_kg_m3;
+  out["conditions"] = conditions_to_json(card);
   out["test"] = to_json(card.test);
   out["parameters"] = ordered_json::object();
   out["free"] = ordered_json::object();
@@ -152,61 +131,11 @@ ordered_json to_json(const Card& card) {
                          {"notes", provenance.lab.notes},
                          {"twin", provenance.lab.twin}}},
                        {"program", provenance.program}};
+  add_inference(out, card.inference);
+  out["baseline"] = baseline_to_json(card.baseline);
+  for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));
+  for (const auto& step : card.rescaled) out["rescaled"].push_back(rescaling_to_json(step));
   return out;
-}
-
-Result<Card> card_from_json(const json& document) {
-  Card card;
-  Faults faults;
-  if (!has_format(document, kFormat, faults)) return faults;
-  json rest = document;  // the test has a reader of its own
-  rest.erase("test");
-  const auto test = slump_table_from_json(document.value("test", json()));
-  if (test.ok())
-    card.test = test.value();
-  else
-    for (const auto& fault : test.faults())
-      faults.push_back({fault.where.empty() ? "test" : "test." + fault.where, fault.what, fault.remedy});
-  {
-    ObjectReader reader(rest, "", faults);
-    reader.known("format");
-    reader.text("title", card.title, kRequired);
-    double derived = 0;
-    reader.object("material", kRequired, [&](ObjectReader& material) {
-      material.number("bulk_density_kg_m3", derived, kNotNegative, Need::optional);
-      material.nullable_number("grain_density_kg_m3", card.grain_density_kg_m3, kNotNegative, kRequired);
-    });
-    read_parameters(reader, card.parameters);
-    reader.object("observables", kRequired, [&](ObjectReader& observables) {
-      for (const auto& [name, value] : rest["observables"].items())
-        observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {
-          card.observables.push_back(read_observable(observable, key));
-        });
-    });
-    reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
-      confirmation.integers("packings", card.confirmation.packings, kRequired);
-      confirmation.flag("fresh", card.confirmation.fresh, kRequired);
-      confirmation.number("misfit_mm", card.confirmation.misfit_mm, kNotNegative, kRequired);
-      confirmation.number("tolerance_mm", card.confirmation.tolerance_mm, kNotNegative, kRequired);
-      confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
-    });
-    reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
-    reader.object("provenance", kRequired,
-                  [&](ObjectReader& provenance) { read_provenance(provenance, card.provenance); });
-  }
-  if (!faults.empty()) return faults;
-  return card;
-}
-
-Result<Card> read_card(const std::filesystem::path& file) {
-  Faults faults;
-  const auto document = read_json(file, faults);
-  if (!document) return faults;
-  auto card = card_from_json(*document);
-  if (card.ok() && faults.empty()) return card;
-  if (!card.ok())
-    for (auto& fault : in_file(card.faults(), file)) faults.push_back(std::move(fault));
-  return faults;
 }
 
 }  // namespace pastefit

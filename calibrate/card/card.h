@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/study/study.h"
+#include "core/observe/observables.h"
 
 namespace pastefit {
 
@@ -40,7 +41,7 @@ struct SearchRecord {
   std::uint64_t seed = 0;
   std::vector<std::uint64_t> packings;  ///< common random packings of the candidates
   int budget = 0;                       ///< simulations allowed
-  int simulations = 0;                  ///< finished, those known from an earlier session included
+  int simulations = 0;                  ///< finished, those known from an earlier run included
   std::map<std::string, int> failures;  ///< of them, by reason
 };
 
@@ -52,8 +53,66 @@ struct CardProvenance {
   std::string program;  ///< version and engine fingerprint
 };
 
+/// What the laboratory's readings say about the fitted parameters, as far as that was worked out; all parts may be
+/// empty.
+struct CardInference {
+  /// The range of a parameter that the readings leave open.
+  struct Interval {
+    std::string parameter;
+    double lower = 0, upper = 0;
+  };
+  /// How two parameters move together within what the readings leave open, -1 to 1.
+  struct Correlation {
+    std::string first, second;
+    double value = 0;
+  };
+  /// A parameter that the readings cannot see.
+  struct NotIdentified {
+    std::string parameter;
+    std::string reason;  ///< for a person
+  };
+  std::string method;  ///< of the intervals, e.g. "profile likelihood"
+  double level = 0;    ///< confidence of the intervals, e.g. 0.95; 0: there are none
+  std::vector<Interval> intervals;
+  std::vector<Correlation> correlations;
+  std::vector<NotIdentified> not_identified;
+};
+
+/// What one engine read off the card's test, packing by packing: what a regression check compares with.
+struct Baseline {
+  struct Run {
+    std::uint64_t packing = 0;
+    Observables observables;  ///< the same readings in every run
+  };
+  std::string program;  ///< `program_identity` of the engine
+  std::string machine;  ///< `machine_type` it ran on
+  std::vector<Run> runs;
+};
+
+/// A change of the baseline that was meant.
+struct Rebaseline {
+  struct Moved {
+    std::string observable;
+    double before = 0, after = 0;  ///< mean over the packings
+  };
+  std::string why;
+  std::string program_before, program_after;
+  std::vector<Moved> moved;
+};
+
+/// A card that was carried to another grain size, and what that did to its readings.
+struct Rescaling {
+  struct Bias {
+    std::string observable;
+    double before = 0, after = 0;  ///< mean over the packings of either size
+    double standard_error = 0;     ///< of the difference
+  };
+  double from_radius_m = 0;
+  std::vector<Bias> bias;  ///< empty: not measured
+};
+
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
-/// comes from. File format "pastefit-card-1", `data/schema/card.schema.json`.
+/// comes from. File format "pastefit-card-2", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
   SlumpTable test;                            ///< apparatus, grains and contact laws, in SI
@@ -63,14 +122,24 @@ struct Card {
   Confirmation confirmation;
   SearchRecord search;
   CardProvenance provenance;
+  CardInference inference;
+  Baseline baseline;                    ///< no runs: the card is older than baselines; `observables` stand in
+  std::vector<Rebaseline> rebaselined;  ///< oldest first
+  std::vector<Rescaling> rescaled;      ///< oldest first
 };
 
 /// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws.
 /// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated
-/// - measured, standard_error = simulated_standard_deviation/sqrt(packings).
+/// - measured, standard_error = simulated_standard_deviation/sqrt(packings), `conditions` (what the fit was made for).
+/// `intervals`, `correlation`, `not_identified`, `rebaselined` and `rescaled` are written when there is something in
+/// them.
 nlohmann::ordered_json to_json(const Card& card);
 
-/// Reads what `to_json` writes. Errors: every fault at once, with its place.
+/// Whether the document says it is a card, of any version.
+bool is_card(const nlohmann::json& document);
+
+/// Reads what `to_json` of this or any earlier version wrote (`card_versions.h`).
+/// Errors: every fault at once, with its place; a card of a newer version.
 Result<Card> card_from_json(const nlohmann::json& document);
 Result<Card> read_card(const std::filesystem::path& file);
 

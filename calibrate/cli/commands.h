@@ -15,6 +15,11 @@ inline constexpr int kBadInput = 2;  ///< what the user gave cannot be used; not
 /// A verb adds its options to the program and returns what runs it, with the exit status as answer.
 using Command = std::function<int()>;
 Command add_calibrate(CLI::App& verb);
+Command add_compare_optimisers(CLI::App& verb);
+Command add_check(CLI::App& verb);
+Command add_export(CLI::App& verb);
+Command add_rescale(CLI::App& verb);
+Command add_show(CLI::App& verb);
 Command add_simulate(CLI::App& verb);
 Command add_template(CLI::App& verb);
 Command add_verify(CLI::App& verb);

@@ -31,8 +31,13 @@ int run(int argc, char** argv) {
   };
   constexpr Verb kVerbs[] = {
       {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
+      {"compare-optimisers", "run all search strategies on one study with the same budget", add_compare_optimisers},
       {"simulate", "run the test of a study, card, laboratory, rig or impact file once", add_simulate},
       {"template", "print a commented starting file", add_template},
+      {"show", "print a material card for a person", add_show},
+      {"rescale", "carry a material card to another grain size", add_rescale},
+      {"export", "write a material card's test for another DEM program", add_export},
+      {"check", "simulate cards again and compare within the noise", add_check},
       {"verify", "hold the contact laws against closed forms, case by case", add_verify}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);

@@ -144,7 +144,7 @@ std::optional<SlumpTable> slump_scene(const json& document, const Settings& sett
                                       Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, file, faults);
-  if (format == "pastefit-card-1") return card_scene(document, settings, file, faults);
+  if (is_card(document)) return card_scene(document, settings, file, faults);
   if (format == "pastefit-lab-1") {
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
@@ -156,9 +156,9 @@ std::optional<SlumpTable> slump_scene(const json& document, const Settings& sett
     if (rig.ok()) return with_parameters(rig.value().test, usual_values(), settings);
     return std::nullopt;
   }
-  faults.push_back(
-      {file.string() + ": format", "is " + format.dump(),
-       "\"pastefit-study-1\", \"pastefit-card-1\", \"pastefit-lab-1\", \"pastefit-rig-1\" or \"pastefit-impact-1\""});
+  faults.push_back({file.string() + ": format", "is " + format.dump(),
+                    "\"pastefit-study-1\", a card (\"pastefit-card-1\" or later), \"pastefit-lab-1\", "
+                    "\"pastefit-rig-1\" or \"pastefit-impact-1\""});
   return std::nullopt;
 }
 

@@ -8,6 +8,9 @@
 
 #include "calibrate/card/atomic_file.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/card_text.h"
+#include "calibrate/card/card_versions.h"
+#include "calibrate/card/rescale.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
 
@@ -40,6 +43,13 @@ Card card() {
   provenance.lab.source = "UCI";
   provenance.lab.twin = true;
   provenance.program = "pastefit 0.1.0 engine 00";
+  out.baseline.program = provenance.program;
+  out.baseline.machine = "x86_64 glibc 2.36";
+  for (const std::uint64_t packing : {3, 4}) {
+    Observables readings;
+    readings.set("step1.height_mm", 150 + 1.0 / static_cast<double>(packing));
+    out.baseline.runs.push_back({packing, readings});
+  }
   return out;
 }
 
@@ -127,4 +137,99 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));
   CHECK_THAT(summary_of(material), Catch::Contains("a_n_m2") && Catch::Contains("strength_pa") &&
                                        Catch::Contains("2 failed (never_settled)") && Catch::Contains("twin"));
+}
+
+TEST_CASE("a card of every version ever written is read, and keeps its numbers") {
+  const auto folder = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "tests/calibrate/card/versions";
+  for (int version = 1; version <= kCardVersion; ++version) {
+    INFO("version " << version);
+    const auto file = folder / ("card-" + std::to_string(version) + ".json");
+    const auto read = read_card(file);
+    INFO((read.ok() ? "" : read.faults()[0].where + ": " + read.faults()[0].what));
+    REQUIRE(read.ok());
+    const auto written = nlohmann::json::parse(content(file));
+    CHECK(written["format"] == "pastefit-card-" + std::to_string(version));
+    auto again = text_and_back(to_json(read.value()));
+    CHECK(again["format"] == "pastefit-card-" + std::to_string(kCardVersion));
+    for (const auto& [key, value] : written.items())
+      if (key != "format" && key != "provenance") CHECK(again[key] == value);
+  }
+}
+
+TEST_CASE("a card of a newer version, of none, and one cut short are refused with a reason") {
+  auto document = text_and_back(to_json(card()));
+  document["format"] = "pastefit-card-99";
+  auto read = card_from_json(document);
+  REQUIRE_FALSE(read.ok());
+  CHECK_THAT(read.faults()[0].remedy, Catch::Contains("newer"));
+  for (const auto* format : {"pastefit-card-", "pastefit-card-0", "pastefit-card-2x", "pastefit-card--1"}) {
+    document["format"] = format;
+    CHECK_FALSE(card_from_json(document).ok());
+  }
+  document["format"] = "pastefit-card-2";
+  document.erase("baseline");
+  read = card_from_json(document);
+  REQUIRE_FALSE(read.ok());
+  CHECK(read.faults()[0].where == "baseline");
+}
+
+TEST_CASE("intervals, correlations, what is not identified and the history of a card are kept") {
+  auto written = card();
+  auto& inference = written.inference;
+  inference.method = "profile";
+  inference.level = 0.95;
+  inference.intervals = {{"strength_pa", 300, 900}};
+  inference.correlations = {{"strength_pa", "curvature", -0.75}};
+  inference.not_identified = {{"offset_ratio", "no reading moves with it"}};
+  written.rebaselined = {{"the fill was mended", "a", "b", {{"step1.height_mm", 150, 152}}}};
+  written.rescaled = {{0.01, {{"step1.height_mm", 150, 140, 2}}}};
+  const auto document = to_json(written);
+  const auto read = card_from_json(text_and_back(document));
+  REQUIRE(read.ok());
+  CHECK(to_json(read.value()).dump() == document.dump());
+  CHECK(read.value().inference.correlations.at(0).value == -0.75);
+  CHECK(read.value().baseline.runs.at(1).packing == 4);
+  const auto text = text_of(read.value());
+  for (const auto* words : {"95 %", "300 to 900", "-0.75 with curvature", "no reading moves with it",
+                            "the fill was mended", "grains of 10 mm", "bias -10"})
+    CHECK_THAT(text, Catch::Contains(words));
+}
+
+TEST_CASE("faults in the later parts of a card are named with their place") {
+  auto document = text_and_back(to_json(card()));
+  document["baseline"]["readings"]["step1.height_mm"] = {1};
+  document["intervals"] = {{"method", "x"}, {"level", 2}, {"parameters", {{"strength_pa", {{"lower", 1}}}}}};
+  document["correlation"] = {{"strength_pa", {{"curvature", 3}}}};
+  document["rebaselined"] = {3};
+  document["rescaled"] = "no";
+  const auto read = card_from_json(document);
+  REQUIRE_FALSE(read.ok());
+  std::string places;
+  for (const auto& fault : read.faults()) places += fault.where + "\n";
+  for (const auto* place :
+       {"baseline.readings.step1.height_mm", "intervals.level", "intervals.parameters.strength_pa.upper",
+        "correlation.strength_pa.curvature", "rebaselined[0]", "rescaled"})
+    CHECK_THAT(places, Catch::Contains(place));
+  CHECK(read.faults().size() == 6);
+}
+
+TEST_CASE("a card carried to another grain size is the same law in scale-free numbers") {
+  const auto before = card();
+  const double radius = before.test.grains.radius_m;
+  const auto result = rescaled(before, radius / 2);
+  REQUIRE(result.ok());
+  const auto& after = result.value();
+  std::vector<double> values;
+  for (const auto& parameter : after.parameters) values.push_back(parameter.value);
+  const auto expected = with_contact_of(after.test, values).contact;
+  CHECK(after.test.grains.radius_m == radius / 2);
+  CHECK(after.test.contact.bridge.a_n_m2 == Approx(expected.bridge.a_n_m2));
+  CHECK(after.test.contact.bridge.b_n_m == Approx(expected.bridge.b_n_m));
+  CHECK(after.test.contact.bridge.c_n == Approx(expected.bridge.c_n));
+  CHECK(after.test.contact.bridge.d_c_m == Approx(expected.bridge.d_c_m));
+  CHECK(after.test.contact.bridge.offset_m == Approx(expected.bridge.offset_m));
+  CHECK(*after.test.contact.cohesion_n == Approx(*expected.cohesion_n));
+  CHECK(after.observables.empty());
+  CHECK_FALSE(after.confirmation.meets_laboratory);
+  CHECK_FALSE(rescaled(before, 0.1).ok());
 }

@@ -205,6 +205,44 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", "2").returncode, 0)
         self.assertEqual((self.out / "card.json").read_text(), (undisturbed / "card.json").read_text())
 
+    def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
+        result = run("calibrate", self.study(budget=16, screening=6), "--out", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stdout)
+        for words in ("What the readings say", "What to measure next", "Materials that meet these readings as well"):
+            self.assertIn(words, (self.out / "summary.txt").read_text())
+        card = json.loads((self.out / "card.json").read_text())
+        named = set(card.get("not_identified", {})) | set(card.get("intervals", {}).get("parameters", {}))
+        self.assertEqual(named, {"strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio",
+                                 "offset_ratio"})
+        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+            (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
+        self.assertLessEqual(stored, 16)
+
+    def test_a_wall_budget_ends_a_run_with_the_best_so_far(self):
+        start = time.monotonic()
+        result = run("calibrate", self.study(budget=500, screening=400), "--out", self.out, "--wall-budget", "3")
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertTrue((self.out / "evaluations.sqlite").exists())
+
+    def test_compare_optimisers_prints_a_table_and_draws_it(self):
+        study = self.study(budget=8, screening=4)
+        names = "default,bobyqa,dogleg"
+        result = run("compare-optimisers", study, "--out", self.out, "--strategies", names, "--judge-packings", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = (self.out / "comparison.csv").read_text().splitlines()
+        self.assertEqual([row.split(",")[0] for row in rows], ["strategy", *names.split(",")])
+        for row in rows[1:]:
+            self.assertLessEqual(int(row.split(",")[3]), 8)
+        self.assertIn("default", result.stdout)
+        xml.parse(self.out / "comparison.svg")
+        again = run("compare-optimisers", study, "--out", self.out, "--strategies", names, "--judge-packings", "1",
+                    "--resume")
+        self.assertEqual((self.out / "comparison.csv").read_text().splitlines(), rows, again.stderr)
+        self.fails(run("compare-optimisers", study, "--out", self.folder / "x", "--strategies", "magic"), 2, "magic")
+        self.assertFalse((self.folder / "x").exists())
+
     def test_two_runs_do_not_share_a_folder(self):
         study = self.study(budget=8, screening=5)
         command = [PROGRAM, "calibrate", str(study), "--out", str(self.out)]

@@ -11,7 +11,7 @@ import sys
 
 import jsonschema
 
-FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies", "case": "../tests/cases"}
+FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
 
 
 def validator(data, kind):
@@ -69,6 +69,17 @@ SPOILED = {
         (["search", "packings"], 2.5),
         (["search", "packings"], 0),
         (["contact", "formation"], "both"),
+    ],
+    "card": [
+        (["format"], "pastefit-card-99"),
+        (["baseline"], None),
+        (["baseline", "packings"], [-1]),
+        (["baseline", "readings"], {"step1.height_mm": 3}),
+        (["test", "grains", "radius_m"], 0),
+        (["provenance", "lab_hash"], "xyz"),
+        (["observables"], {"step1.height_mm": {"simulated": 100}}),
+        (["rescaled"], {}),
+        (["correlation"], {"strength_pa": {"curvature": 2}}),
     ],
     "case": [
         (["source"], None),

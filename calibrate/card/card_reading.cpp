@@ -1,0 +1,256 @@
+#include <nlohmann/json.hpp>
+
+#include "calibrate/card/card.h"
+#include "calibrate/card/card_versions.h"
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/names.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/slump_table_json.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr Range kAny;
+constexpr Range kNotNegative{0};
+constexpr auto kRequired = Need::required;
+constexpr auto kOptional = Need::optional;
+
+CardObservable read_observable(ObjectReader& reader, std::string name) {
+  CardObservable out;
+  out.name = std::move(name);
+  double derived = 0;
+  reader.number("simulated", out.simulated, kAny, kRequired);
+  reader.number("simulated_standard_deviation", out.simulated_standard_deviation, kNotNegative, kRequired);
+  reader.number("standard_error", derived, kNotNegative, Need::optional);
+  reader.nullable_number("measured", out.measured, kAny, kRequired);
+  const auto need = out.measured ? Need::required : Need::optional;
+  reader.number("standard_deviation", out.standard_deviation, kNotNegative, need);
+  reader.integer("repeats", out.repeats, 0, 1'000'000, need);
+  reader.number("weight", out.weight, kNotNegative, need);
+  reader.number("difference", derived, kAny, Need::optional);
+  return out;
+}
+
+void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
+  for (const auto& kind : parameter_kinds()) {
+    Parameter parameter;
+    parameter.name = kind.name;
+    parameter.scale = kind.scale;
+    parameters.push_back(parameter);
+  }
+  card.object("parameters", kRequired, [&](ObjectReader& reader) {
+    for (auto& parameter : parameters) {
+      const auto& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
+      reader.number(parameter.name, parameter.value, {kind.smallest, kind.largest}, kRequired);
+    }
+  });
+  card.object("free", kRequired, [&](ObjectReader& reader) {
+    for (auto& parameter : parameters)
+      parameter.free = reader.object(parameter.name, Need::optional, [&](ObjectReader& bounds) {
+        bounds.number("lower", parameter.lower, kAny, kRequired);
+        bounds.number("upper", parameter.upper, kAny, kRequired);
+        bounds.choice("scale", parameter.scale, scales, kRequired);
+      });
+  });
+}
+
+void read_search(ObjectReader& reader, SearchRecord& search) {
+  constexpr int kMany = 1'000'000'000;
+  reader.text("strategy", search.strategy, kRequired);
+  reader.text("status", search.status, kRequired);
+  reader.text("reason", search.reason, kRequired);
+  reader.integer("seed", search.seed, kRequired);
+  reader.integers("packings", search.packings, kRequired);
+  reader.integer("budget", search.budget, 0, kMany, kRequired);
+  reader.integer("simulations", search.simulations, 0, kMany, kRequired);
+  reader.object("failures", kRequired, [&](ObjectReader& failures) {
+    for (int reason = 0; reason <= static_cast<int>(FailureReason::stopped); ++reason) {
+      const auto name = name_of(static_cast<FailureReason>(reason));
+      int count = 0;
+      if (failures.integer(name, count, 0, kMany, Need::optional)) search.failures[std::string(name)] = count;
+    }
+  });
+}
+
+void read_provenance(ObjectReader& reader, CardProvenance& provenance) {
+  reader.text("study_file", provenance.study_file, kRequired);
+  reader.text("study_hash", provenance.study_hash, kRequired);
+  reader.text("lab_file", provenance.lab_file, kRequired);
+  reader.text("lab_hash", provenance.lab_hash, kRequired);
+  reader.object("lab", kRequired, [&](ObjectReader& lab) {
+    lab.text("source", provenance.lab.source, kRequired);
+    lab.text("licence", provenance.lab.licence, kRequired);
+    lab.text("notes", provenance.lab.notes, kRequired);
+    lab.flag("twin", provenance.lab.twin, kRequired);
+  });
+  reader.text("program", provenance.program, kRequired);
+}
+
+/// Calls `body(reader, name)` for every entry of an object whose keys are names of the card's own.
+template <class Body>
+void each_entry(ObjectReader& reader, const json& object, Body body) {
+  if (!object.is_object()) return;
+  for (const auto& [name, value] : object.items())
+    reader.object(name, kRequired, [&, key = name](ObjectReader& entry) { body(entry, key); });
+}
+
+void read_inference(ObjectReader& card, const json& document, CardInference& inference) {
+  card.object("intervals", kOptional, [&](ObjectReader& intervals) {
+    intervals.text("method", inference.method, kRequired);
+    intervals.number("level", inference.level, {0, 1}, kRequired);
+    intervals.object("parameters", kRequired, [&](ObjectReader& parameters) {
+      each_entry(parameters, document["intervals"]["parameters"], [&](ObjectReader& entry, const std::string& name) {
+        auto& interval = inference.intervals.emplace_back();
+        interval.parameter = name;
+        entry.number("lower", interval.lower, kAny, kRequired);
+        entry.number("upper", interval.upper, kAny, kRequired);
+      });
+    });
+  });
+  card.object("correlation", kOptional, [&](ObjectReader& correlation) {
+    each_entry(correlation, document["correlation"], [&](ObjectReader& row, const std::string& first) {
+      for (const auto& [second, value] : document["correlation"][first].items()) {
+        auto& pair = inference.correlations.emplace_back();
+        pair.first = first;
+        pair.second = second;
+        row.number(second, pair.value, {-1, 1}, kRequired);
+      }
+    });
+  });
+  card.object("not_identified", kOptional, [&](ObjectReader& unseen) {
+    for (const auto& [name, reason] : document["not_identified"].items()) {
+      auto& entry = inference.not_identified.emplace_back();
+      entry.parameter = name;
+      unseen.text(name, entry.reason, kRequired);
+    }
+  });
+}
+
+void read_baseline(ObjectReader& reader, const json& document, Baseline& baseline) {
+  reader.text("program", baseline.program, kRequired);
+  reader.text("machine", baseline.machine, kRequired);
+  std::vector<std::uint64_t> packings;
+  reader.integers("packings", packings, kRequired);
+  for (const auto packing : packings) baseline.runs.push_back({packing, {}});
+  reader.object("readings", kRequired, [&](ObjectReader& readings) {
+    for (const auto& [name, value] : document["readings"].items()) {
+      std::vector<double> column;
+      if (!readings.numbers(name, column, kAny, kRequired, packings.size(), packings.size())) continue;
+      if (column.size() != packings.size()) continue;  // no packings, but readings: the length is a fault already
+      for (std::size_t i = 0; i < column.size(); ++i) baseline.runs[i].observables.set(name, column[i]);
+    }
+  });
+}
+
+/// A list of objects, absent when it would be empty.
+template <class T, class Read>
+void read_list(ObjectReader& card, const json& document, const char* key, std::vector<T>& target, Read read) {
+  card.known(key);
+  const auto list = document.find(key);
+  if (list == document.end()) return;
+  if (!list->is_array()) return card.fault(key, "is no list", "a list of objects [ { ... } ]");
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const auto place = std::string(key) + "[" + std::to_string(i) + "]";
+    if (!(*list)[i].is_object()) {
+      card.fault(place, "is no object", "an object { ... }");
+      continue;
+    }
+    ObjectReader entry((*list)[i], place, card.faults());
+    read(entry, (*list)[i], target.emplace_back());
+  }
+}
+
+void read_rebaseline(ObjectReader& reader, const json& document, Rebaseline& change) {
+  reader.text("why", change.why, kRequired);
+  reader.text("program_before", change.program_before, kRequired);
+  reader.text("program_after", change.program_after, kRequired);
+  reader.object("moved", kRequired, [&](ObjectReader& readings) {
+    each_entry(readings, document["moved"], [&](ObjectReader& entry, const std::string& name) {
+      auto& moved = change.moved.emplace_back();
+      moved.observable = name;
+      entry.number("before", moved.before, kAny, kRequired);
+      entry.number("after", moved.after, kAny, kRequired);
+    });
+  });
+}
+
+void read_rescaling(ObjectReader& reader, const json& document, Rescaling& step) {
+  reader.number("from_radius_m", step.from_radius_m, {0, 1, true}, kRequired);
+  reader.object("bias", kRequired, [&](ObjectReader& readings) {
+    each_entry(readings, document["bias"], [&](ObjectReader& entry, const std::string& name) {
+      auto& bias = step.bias.emplace_back();
+      bias.observable = name;
+      entry.number("before", bias.before, kAny, kRequired);
+      entry.number("after", bias.after, kAny, kRequired);
+      entry.number("standard_error", bias.standard_error, kNotNegative, kRequired);
+    });
+  });
+}
+
+}  // namespace
+
+Result<Card> card_from_json(const json& document) {
+  auto upgraded = upgraded_card(document);
+  if (!upgraded.ok()) return upgraded.faults();
+  Card card;
+  Faults faults;
+  json& rest = upgraded.value();
+  const auto test = slump_table_from_json(rest.value("test", json()));
+  rest.erase("test");  // it had a reader of its own
+  if (test.ok())
+    card.test = test.value();
+  else
+    for (const auto& fault : test.faults())
+      faults.push_back({fault.where.empty() ? "test" : "test." + fault.where, fault.what, fault.remedy});
+  {
+    ObjectReader reader(rest, "", faults);
+    reader.known("format");
+    reader.known("conditions");
+    reader.text("title", card.title, kRequired);
+    double derived = 0;
+    reader.object("material", kRequired, [&](ObjectReader& material) {
+      material.number("bulk_density_kg_m3", derived, kNotNegative, Need::optional);
+      material.nullable_number("grain_density_kg_m3", card.grain_density_kg_m3, kNotNegative, kRequired);
+    });
+    read_parameters(reader, card.parameters);
+    reader.object("observables", kRequired, [&](ObjectReader& observables) {
+      for (const auto& [name, value] : rest["observables"].items())
+        observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {
+          card.observables.push_back(read_observable(observable, key));
+        });
+    });
+    reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
+      confirmation.integers("packings", card.confirmation.packings, kRequired);
+      confirmation.flag("fresh", card.confirmation.fresh, kRequired);
+      confirmation.number("misfit_mm", card.confirmation.misfit_mm, kNotNegative, kRequired);
+      confirmation.number("tolerance_mm", card.confirmation.tolerance_mm, kNotNegative, kRequired);
+      confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
+    });
+    reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
+    reader.object("provenance", kRequired,
+                  [&](ObjectReader& provenance) { read_provenance(provenance, card.provenance); });
+    read_inference(reader, rest, card.inference);
+    reader.object("baseline", kRequired,
+                  [&](ObjectReader& baseline) { read_baseline(baseline, rest["baseline"], card.baseline); });
+    read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
+    read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
+  }
+  if (!faults.empty()) return faults;
+  return card;
+}
+
+Result<Card> read_card(const std::filesystem::path& file) {
+  Faults faults;
+  const auto document = read_json(file, faults);
+  if (!document) return faults;
+  auto card = card_from_json(*document);
+  if (card.ok() && faults.empty()) return card;
+  if (!card.ok())
+    for (auto& fault : in_file(card.faults(), file)) faults.push_back(std::move(fault));
+  return faults;
+}
+
+}  // namespace pastefit

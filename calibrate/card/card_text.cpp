@@ -1,0 +1,90 @@
+#include "calibrate/card/card_text.h"
+
+#include <cmath>
+
+#include "calibrate/report/format.h"
+#include "calibrate/report/summary.h"
+
+namespace pastefit {
+
+namespace {
+
+std::string inference_lines(const CardInference& inference) {
+  std::string out = "What the readings leave open\n";
+  if (inference.intervals.empty() && inference.not_identified.empty())
+    return out + "  not worked out: other materials may meet the same readings\n";
+  if (!inference.intervals.empty())
+    out += format("  intervals of %g %% confidence (%s)\n", 100 * inference.level, inference.method.c_str());
+  for (const auto& interval : inference.intervals)
+    out += format("  %-24s %14.6g to %.6g\n", interval.parameter.c_str(), interval.lower, interval.upper);
+  for (const auto& pair : inference.correlations)
+    out += format("  %-24s %14.2f with %s\n", pair.first.c_str(), pair.value, pair.second.c_str());
+  for (const auto& unseen : inference.not_identified)
+    out += "  " + unseen.parameter + " is not identified: " + unseen.reason + "\n";
+  return out;
+}
+
+std::string conditions_lines(const Card& card) {
+  constexpr double kGravity = 9.81;
+  const auto& test = card.test;
+  const auto& grains = test.grains;
+  const bool mono = grains.distribution == SizeDistribution::mono;
+  std::string out = "Fitted in\n";
+  out += format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
+                2e3 * test.mould.base_radius_m, 2e3 * test.mould.top_radius_m, 1e3 * test.mould.height_m,
+                1e3 * test.lift_velocity_m_s);
+  out +=
+      mono ? format("  grains                   radius %g mm\n", 1e3 * grains.radius_m)
+           : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m, 1e3 * grains.largest_m);
+  out += format("  pressure                 up to %.3g Pa, the weight of the full mould\n",
+                test.bulk_density_kg_m3 * kGravity * test.mould.height_m);
+  return out + "  elsewhere the material is an extrapolation\n";
+}
+
+std::string origin_lines(const Card& card) {
+  const auto& from = card.provenance;
+  std::string out = "From\n";
+  out += "  laboratory               " + from.lab_file + " (" + from.lab_hash + ")\n";
+  if (!from.lab.source.empty()) out += "  its source               " + from.lab.source + "\n";
+  out += "  study                    " + from.study_file + " (" + from.study_hash + ")\n";
+  return out + "  program                  " + from.program + "\n";
+}
+
+std::string baseline_lines(const Card& card) {
+  const auto& baseline = card.baseline;
+  std::string out = "Baseline of checks\n";
+  if (baseline.runs.empty())
+    out += "  none: checks use means and deviations of the readings above\n";
+  else
+    out += format("  %zu packings, ", baseline.runs.size()) + baseline.program + ", " + baseline.machine + "\n";
+  for (const auto& change : card.rebaselined) {
+    out += "  changed: " + change.why + "\n";
+    for (const auto& moved : change.moved)
+      out += format("    %-24s %12.5g -> %.5g\n", moved.observable.c_str(), moved.before, moved.after);
+  }
+  return out;
+}
+
+std::string rescaling_lines(const Card& card) {
+  std::string out;
+  for (const auto& step : card.rescaled) {
+    out += format("Carried over from grains of %g mm radius by the scaling rule\n", 1e3 * step.from_radius_m);
+    if (step.bias.empty()) out += "  what that does to the readings was not measured\n";
+    for (const auto& bias : step.bias)
+      out += format("  %-24s %12.5g -> %.5g, bias %+.3g +- %.2g\n", bias.observable.c_str(), bias.before, bias.after,
+                    bias.after - bias.before, bias.standard_error);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string text_of(const Card& card) {
+  std::string out = summary_of(card);
+  for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
+                           baseline_lines(card), rescaling_lines(card)})
+    if (!part.empty()) out += "\n" + part;
+  return out;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/result.h"
+
+namespace pastefit {
+
+/// The version of the card format that this program writes.
+inline constexpr int kCardVersion = 2;
+
+/// The document in the form of `kCardVersion`, whatever version it was written in: one step for each version, so that
+/// every card ever written stays readable.
+///
+/// 1 -> 2: a baseline without runs is added. Version 1 kept no readings packing by packing.
+/// To add a version: raise `kCardVersion`, one row in the table of steps, a card of the old version in
+/// `tests/calibrate/card/versions`.
+/// Errors: it is no card, or of a version this program does not know.
+Result<nlohmann::json> upgraded_card(nlohmann::json document);
+
+}  // namespace pastefit

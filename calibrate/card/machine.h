@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace pastefit {
+
+/// What of the machine the bits of a simulation may depend on, besides the program: processor family, whether the C
+/// library may use its fused multiply-add functions there, and that library's version, e.g. "x86_64 fma glibc 2.36"
+/// (core/README.md, Determinism).
+std::string machine_type();
+
+}  // namespace pastefit

@@ -1,0 +1,35 @@
+#include "calibrate/card/rescale.h"
+
+namespace pastefit {
+
+Result<Card> rescaled(Card card, double radius) {
+  const double s = radius / card.test.grains.radius_m;
+  card.rescaled.push_back({card.test.grains.radius_m, {}});
+
+  GrainSizes& grains = card.test.grains;
+  grains.radius_m = radius;
+  grains.standard_deviation_m *= s;
+  grains.smallest_m *= s;
+  grains.largest_m *= s;
+
+  Bridge& bridge = card.test.contact.bridge;
+  bridge.b_n_m *= s;
+  bridge.c_n *= s * s;
+  bridge.d_c_m *= s;
+  bridge.offset_m *= s;
+  bridge.liquid_volume_m3 *= s * s * s;
+  bridge.surface_tension_n_m *= s;
+  if (auto& cohesion = card.test.contact.cohesion_n) *cohesion *= s * s;
+
+  if (auto faults = validate(card.test); !faults.empty()) return faults;
+  card.observables.clear();
+  card.confirmation.packings.clear();
+  card.confirmation.fresh = card.confirmation.meets_laboratory = false;
+  card.confirmation.misfit_mm = 0;
+  card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
+  card.baseline = {};
+  card.rebaselined.clear();
+  return card;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,232 @@
+#include "calibrate/check/check.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "calibrate/card/filling.h"
+#include "calibrate/card/machine.h"
+#include "calibrate/check/law.h"
+#include "calibrate/check/runs.h"
+#include "calibrate/check/statistics.h"
+#include "calibrate/report/format.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/fault_text.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr std::ptrdiff_t kQuickPackings = 2;
+
+/// Readings that say something of their own: not the slump, which is the height again, nor counts.
+bool is_checked(const std::string& name) {
+  constexpr std::array<std::string_view, 5> kChecked{".height_axis_mm", ".height_max_mm", ".spread_mm",
+                                                     ".plateau_sag_mm", ".plateau_width_mm"};
+  return name == "fill.mass_kg" || name == "fill.solid_fraction" ||
+         std::ranges::any_of(kChecked, [&](auto ending) { return name.ends_with(ending); });
+}
+
+/// What the card promises for a reading: from its single runs, or from mean and deviation if it keeps none.
+struct Promise {
+  std::string name;
+  Sample sample;
+};
+
+std::vector<Promise> promises_of(const Card& card) {
+  std::vector<Promise> out;
+  if (card.baseline.runs.empty()) {
+    for (const auto& observable : card.observables)
+      if (is_checked(observable.name))
+        out.push_back({observable.name,
+                       {static_cast<int>(card.confirmation.packings.size()), observable.simulated,
+                        observable.simulated_standard_deviation}});
+    return out;
+  }
+  for (const auto& [name, value] : card.baseline.runs[0].observables.all())
+    if (is_checked(name)) out.push_back({name, sample_of(column_of(card.baseline.runs, name))});
+  return out;
+}
+
+std::vector<std::uint64_t> packings_of(const Card& card) {
+  if (card.baseline.runs.empty()) return card.confirmation.packings;
+  std::vector<std::uint64_t> out;
+  for (const auto& run : card.baseline.runs) out.push_back(run.packing);
+  return out;
+}
+
+void keep_quick(std::vector<std::uint64_t>& packings) {
+  if (std::ssize(packings) > kQuickPackings) packings.erase(packings.begin() + kQuickPackings, packings.end());
+}
+
+/// Runs as a baseline; the first failure instead, if there is one.
+std::optional<std::string> keep_runs(const std::vector<std::uint64_t>& packings, const std::vector<Outcome>& outcomes,
+                                     Baseline& baseline) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (const auto& failure = outcomes[i].failure)
+      return "Packing " + std::to_string(packings[i]) + " failed (" + std::string(name_of(failure->reason)) + " in " +
+             failure->phase + "): " + failure->message;
+    baseline.runs.push_back({packings[i], outcomes[i].observables});
+  }
+  return std::nullopt;
+}
+
+SameBits compare_bits(const Baseline& before, const Baseline& now) {
+  if (before.runs.empty()) return SameBits::not_comparable;
+  for (std::size_t i = 0; i < now.runs.size(); ++i)
+    for (const auto& [name, value] : before.runs[i].observables.all()) {
+      const auto again = now.runs[i].observables.find(name);
+      if (!again || std::bit_cast<std::uint64_t>(*again) != std::bit_cast<std::uint64_t>(value)) return SameBits::other;
+    }
+  return SameBits::same;
+}
+
+void judge(CardCheck& out, const CheckOptions& options) {
+  const auto wrong = std::ranges::count_if(out.readings, [](const auto& reading) { return !reading.agrees(); });
+  const bool bits_matter = out.same_program || options.bits;
+  if (wrong > 0)
+    out.reason += format("%ld of %zu readings lie outside the band of the noise. ", static_cast<long>(wrong),
+                         out.readings.size());
+  if (out.bits == SameBits::other && out.same_program)
+    out.reason += "The same program on the same type of machine has to give the same bits, and did not. ";
+  else if (out.bits == SameBits::other)
+    out.reason += "The card was made by another program or machine, and the bits have changed. ";
+  const bool agrees = wrong == 0 && !(bits_matter && out.bits == SameBits::other);
+  out.verdict = agrees ? CheckVerdict::agrees : CheckVerdict::disagrees;
+}
+
+}  // namespace
+
+CheckEngine CheckEngine::ours() {
+  CheckEngine engine;
+  engine.program = program_identity();
+  engine.machine = machine_type();
+  return engine;
+}
+
+std::string_view name_of(CheckVerdict verdict) {
+  constexpr std::array<std::string_view, 3> kNames{"agrees", "disagrees", "not checked"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view name_of(SameBits bits) {
+  constexpr std::array<std::string_view, 3> kNames{"same", "other", "not comparable"};
+  return kNames[static_cast<std::size_t>(bits)];
+}
+
+bool CheckedReading::agrees() const {
+  return std::abs(got - expected) <= band;
+}
+
+CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
+  CardCheck out;
+  out.card = card.title;
+  out.false_alarm = options.false_alarm;
+  out.same_program = card.baseline.program == engine.program && card.baseline.machine == engine.machine;
+  out.now.program = engine.program;
+  out.now.machine = engine.machine;
+  auto packings = packings_of(card);
+  const auto promises = promises_of(card);
+  if (packings.size() < 2 || promises.empty()) {
+    out.reason =
+        "The card keeps the readings of fewer than two packings, so that their noise is not known; give it a "
+        "baseline with --rebaseline.";
+    return out;
+  }
+  if (options.quick) keep_quick(packings);
+
+  const auto outcomes = run_packings(
+      card.test, packings, [&](std::uint64_t packing) { return filling_of(card, packing); }, engine, options.threads);
+  out.simulations = static_cast<int>(outcomes.size());
+  if (auto failure = keep_runs(packings, outcomes, out.now)) {
+    out.reason = *failure;
+    out.verdict = CheckVerdict::disagrees;
+    return out;
+  }
+  const double share = options.false_alarm / static_cast<double>(promises.size());
+  for (const auto& [name, before] : promises) {
+    const auto now = sample_of(column_of(out.now.runs, name));
+    if (now.count == 0) {
+      out.reason = "The engine does not give the reading " + name + ".";
+      out.verdict = CheckVerdict::disagrees;
+      return out;
+    }
+    out.readings.push_back({name, before.mean, now.mean, band_of(before, now, share), before.count, now.count});
+  }
+  for (auto& reading : check_law(card.test, engine)) out.readings.push_back(std::move(reading));
+  out.bits = compare_bits(card.baseline, out.now);
+  judge(out, options);
+  return out;
+}
+
+CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& options, const CheckEngine& engine) {
+  CardCheck out;
+  out.card = card.title;
+  out.false_alarm = options.false_alarm;
+  SlumpTable test = lab.test;
+  test.grains = card.test.grains;
+  test.contact = card.test.contact;
+  test.mould_wall = card.test.mould_wall;
+  test.table_wall = card.test.table_wall;
+  test.packing_seed = card.test.packing_seed;
+  if (const auto faults = validate(test); !faults.empty()) {
+    out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
+    return out;
+  }
+  auto packings = packings_of(card);
+  if (packings.size() < 2) packings = {test.packing_seed, test.packing_seed + 1};
+  if (options.quick) keep_quick(packings);
+  const auto filling = [&](std::uint64_t packing) {
+    SlumpTable fill = test;
+    const auto as_before = filling_of(card, packing);
+    fill.packing_seed = packing;
+    fill.contact.youngs_modulus_pa = as_before.contact.youngs_modulus_pa;
+    fill.contact.poissons_ratio = as_before.contact.poissons_ratio;
+    return fill;
+  };
+  const auto outcomes = run_packings(test, packings, filling, engine, options.threads);
+  out.simulations = static_cast<int>(outcomes.size());
+  if (auto failure = keep_runs(packings, outcomes, out.now)) {
+    out.reason = *failure;
+    out.verdict = CheckVerdict::disagrees;
+    return out;
+  }
+  const double share = options.false_alarm / static_cast<double>(lab.measurements.size());
+  for (const auto& measurement : lab.measurements) {
+    const auto now = sample_of(column_of(out.now.runs, measurement.observable));
+    if (now.count == 0) continue;
+    const Sample measured{measurement.repeats, measurement.value, measurement.standard_deviation};
+    out.readings.push_back({measurement.observable, measured.mean, now.mean, unequal_band_of(measured, now, share),
+                            measured.count, now.count});
+  }
+  judge(out, options);
+  return out;
+}
+
+Result<Card> rebaselined(Card card, const std::string& why, int count, const CheckOptions& options,
+                         const CheckEngine& engine) {
+  auto packings = packings_of(card);
+  std::uint64_t fresh = 1;
+  const auto taken = [&](std::uint64_t seed) {
+    return std::ranges::count(packings, seed) + std::ranges::count(card.search.packings, seed) > 0;
+  };
+  while (packings.size() < std::max<std::size_t>(static_cast<std::size_t>(std::max(count, 0)), 2)) {
+    while (taken(fresh)) ++fresh;
+    packings.push_back(fresh);
+  }
+  const auto outcomes = run_packings(
+      card.test, packings, [&](std::uint64_t packing) { return filling_of(card, packing); }, engine, options.threads);
+  Baseline now{engine.program, engine.machine, {}};
+  if (auto failure = keep_runs(packings, outcomes, now))
+    return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
+  Rebaseline change{why, card.baseline.runs.empty() ? card.provenance.program : card.baseline.program, now.program, {}};
+  for (const auto& [name, before] : promises_of(card))
+    change.moved.push_back({name, before.mean, sample_of(column_of(now.runs, name)).mean});
+  card.baseline = std::move(now);
+  card.rebaselined.push_back(std::move(change));
+  return card;
+}
+
+}  // namespace pastefit

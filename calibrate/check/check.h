@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/card/card.h"
+#include "core/simulate.h"
+
+namespace pastefit {
+
+struct Impact;
+
+/// `simulate` of an impact.
+Outcome simulate_impact(const Impact& test);
+
+/// What a check asks of the engine, and what the engine is called. A test may put a spoiled one in its place.
+struct CheckEngine {
+  std::function<std::shared_ptr<const Packing>(const SlumpTable&, const RunOptions&)> fill = fill_mould;
+  std::function<Outcome(const SlumpTable&, const RunOptions&)> run = simulate;
+  std::function<Outcome(const Impact&)> meet = simulate_impact;
+  std::string program, machine;  ///< as in `Baseline`
+  /// The program this is, on this machine.
+  static CheckEngine ours();
+};
+
+struct CheckOptions {
+  bool quick = false;  ///< the first two packings only
+  double false_alarm =
+      1e-3;           ///< probability that a card is called wrong although nothing changed, all readings together
+  bool bits = false;  ///< other bits are a disagreement even if the program is another
+  int threads = 0;    ///< simulations at the same time; 0: one for each core
+};
+
+/// The answer for a card or for one of its readings.
+enum class CheckVerdict { agrees, disagrees, not_checked };
+std::string_view name_of(CheckVerdict verdict);  ///< "agrees", "disagrees", "not checked"
+
+/// Whether the simulations repeated the card's, bit for bit.
+enum class SameBits {
+  same,            ///< they did
+  other,           ///< they did not
+  not_comparable,  ///< the card keeps no single runs
+};
+std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
+
+/// One comparison.
+struct CheckedReading {
+  std::string name;              ///< a reading of the test, or "law.attraction_n" at some gap
+  double expected = 0, got = 0;  ///< means
+  double band = 0;               ///< |got - expected| must not exceed it
+  int expected_count = 0, got_count = 0;
+  bool agrees() const;
+};
+
+struct CardCheck {
+  std::string card;  ///< title
+  CheckVerdict verdict = CheckVerdict::not_checked;
+  SameBits bits = SameBits::not_comparable;
+  bool same_program = false;  ///< same program on the same type of machine: the same bits are promised
+  std::string reason;         ///< one sentence or more for a person
+  std::vector<CheckedReading> readings;
+  double false_alarm = 0;
+  int simulations = 0;
+  Baseline now;  ///< what the engine gave
+};
+
+/// Simulates again what the card promises.
+///
+/// First the contact law: the attraction of two grains that are pulled apart, against the card's formula at several
+/// gaps (to 1e-6 of the force at touch). Then the test, in the packings of its baseline. If the card was made by the
+/// same program on the same type of machine, the same bits are expected. Otherwise each reading has to agree within
+/// `band_of`, the false alarm rate divided by the number of readings (Bonferroni). A simulation that fails is a
+/// disagreement. Not checked: a card with fewer than two runs.
+CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine = CheckEngine::ours());
+
+/// Judges the material by other readings of a laboratory: its contact laws and grains in that laboratory's test,
+/// against the readings, within the noise of both (`unequal_band_of`).
+/// Not checked: the card's grains do not fit the laboratory's mould.
+CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& options,
+                        const CheckEngine& engine = CheckEngine::ours());
+
+/// The card with what the engine gives now as its baseline, in at least as many packings as before; records why.
+/// Errors: a simulation fails.
+Result<Card> rebaselined(Card card, const std::string& why, int packings, const CheckOptions& options,
+                         const CheckEngine& engine = CheckEngine::ours());
+
+}  // namespace pastefit

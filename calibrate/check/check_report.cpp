@@ -1,0 +1,99 @@
+#include "calibrate/check/check_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/report/format.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+auto count_of(const std::vector<CheckedFile>& checked, CheckVerdict verdict) {
+  return std::ranges::count_if(checked, [&](const auto& one) { return one.check.verdict == verdict; });
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char byte : text) switch (byte) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += static_cast<unsigned char>(byte) < 0x20 ? ' ' : byte;  // XML 1.0 has no place for control characters
+    }
+  return out;
+}
+
+}  // namespace
+
+std::string text_of(const CheckedFile& checked) {
+  const auto& check = checked.check;
+  std::string out = checked.file.string() + ": " + check.card + "\n";
+  if (!check.readings.empty())
+    out += format("  %-34s %12s %12s %12s %12s\n", "reading", "card", "now", "difference", "band");
+  for (const auto& reading : check.readings)
+    out += format("  %-34s %12.6g %12.6g %+12.3g %12.3g%s\n", reading.name.c_str(), reading.expected, reading.got,
+                  reading.got - reading.expected, reading.band, reading.agrees() ? "" : "   outside");
+  if (check.simulations > 0)
+    out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
+                  std::string(name_of(check.bits)).c_str(), check.false_alarm);
+  out += "  " + std::string(name_of(check.verdict));
+  return out + (check.reason.empty() ? "" : ": " + check.reason) + "\n";
+}
+
+ordered_json to_json(const std::vector<CheckedFile>& checked) {
+  ordered_json out{{"agree", count_of(checked, CheckVerdict::agrees)},
+                   {"disagree", count_of(checked, CheckVerdict::disagrees)},
+                   {"not_checked", count_of(checked, CheckVerdict::not_checked)},
+                   {"cards", ordered_json::array()}};
+  for (const auto& [file, check] : checked) {
+    ordered_json readings = ordered_json::object();
+    for (const auto& reading : check.readings)
+      readings[reading.name] = {{"expected", reading.expected}, {"expected_runs", reading.expected_count},
+                                {"got", reading.got},           {"got_runs", reading.got_count},
+                                {"band", reading.band},         {"agrees", reading.agrees()}};
+    out["cards"].push_back({{"file", file.string()},
+                            {"title", check.card},
+                            {"verdict", name_of(check.verdict)},
+                            {"bits", name_of(check.bits)},
+                            {"same_program", check.same_program},
+                            {"reason", check.reason},
+                            {"false_alarm", check.false_alarm},
+                            {"simulations", check.simulations},
+                            {"readings", std::move(readings)}});
+  }
+  return out;
+}
+
+std::string junit_of(const std::vector<CheckedFile>& checked) {
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  out += format("<testsuite name=\"pastefit check\" tests=\"%zu\" failures=\"%ld\" errors=\"%ld\">\n", checked.size(),
+                static_cast<long>(count_of(checked, CheckVerdict::disagrees)),
+                static_cast<long>(count_of(checked, CheckVerdict::not_checked)));
+  for (const auto& one : checked) {
+    out += "  <testcase classname=\"pastefit.check\" name=\"" + escaped(one.file.string()) + "\">\n";
+    const auto tag = one.check.verdict == CheckVerdict::disagrees     ? "failure"
+                     : one.check.verdict == CheckVerdict::not_checked ? "error"
+                                                                      : "";
+    if (*tag) out += "    <" + std::string(tag) + " message=\"" + escaped(one.check.reason) + "\"/>\n";
+    out += "    <system-out>" + escaped(text_of(one)) + "</system-out>\n  </testcase>\n";
+  }
+  return out + "</testsuite>\n";
+}
+
+}  // namespace pastefit

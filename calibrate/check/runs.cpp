@@ -1,0 +1,38 @@
+#include "calibrate/check/runs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace pastefit {
+
+std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
+                                  const std::function<SlumpTable(std::uint64_t)>& filling, const CheckEngine& engine,
+                                  int threads) {
+  std::vector<Outcome> outcomes(packings.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < packings.size(); i = next++) {
+      SlumpTable one = test;
+      one.packing_seed = packings[i];
+      RunOptions options;
+      options.packing = engine.fill(filling(packings[i]), {});
+      outcomes[i] = engine.run(one, options);
+    }
+  };
+  const auto cores = std::max(1u, threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency());
+  std::vector<std::jthread> workers;
+  for (std::size_t i = 1; i < std::min<std::size_t>(cores, packings.size()); ++i) workers.emplace_back(work);
+  work();
+  workers.clear();
+  return outcomes;
+}
+
+std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name) {
+  std::vector<double> column;
+  for (const auto& run : runs)
+    if (const auto value = run.observables.find(name)) column.push_back(*value);
+  return column;
+}
+
+}  // namespace pastefit

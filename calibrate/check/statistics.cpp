@@ -1,0 +1,54 @@
+#include "calibrate/check/statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+double quantile(double freedom, double false_alarm) {
+  constexpr double kNearlyNormal = 1e6;
+  const boost::math::students_t distribution(std::min(freedom, kNearlyNormal));
+  return boost::math::quantile(boost::math::complement(distribution, false_alarm / 2));
+}
+
+double rounding(const Sample& first, const Sample& second) {
+  return 1e-9 * std::max({std::abs(first.mean), std::abs(second.mean), 1e-3});
+}
+
+}  // namespace
+
+Sample sample_of(std::span<const double> values) {
+  Sample out;
+  out.count = static_cast<int>(values.size());
+  if (values.empty()) return out;
+  for (const double value : values) out.mean += value / out.count;
+  double squares = 0;
+  for (const double value : values) squares += (value - out.mean) * (value - out.mean);
+  if (out.count > 1) out.standard_deviation = std::sqrt(squares / (out.count - 1));
+  return out;
+}
+
+double band_of(const Sample& first, const Sample& second, double false_alarm) {
+  const double n = first.count, m = second.count, freedom = n + m - 2;
+  const double squares = (n - 1) * first.standard_deviation * first.standard_deviation +
+                         (m - 1) * second.standard_deviation * second.standard_deviation;
+  const double band = quantile(freedom, false_alarm) * std::sqrt(squares / freedom * (1 / n + 1 / m));
+  return std::max(band, rounding(first, second));
+}
+
+double unequal_band_of(const Sample& first, const Sample& second, double false_alarm) {
+  const auto square = [](const Sample& sample) {
+    return sample.standard_deviation * sample.standard_deviation / sample.count;
+  };
+  const auto share = [&](const Sample& sample) {
+    return sample.count > 1 ? square(sample) * square(sample) / (sample.count - 1) : 0.0;
+  };
+  const double variance = square(first) + square(second), shares = share(first) + share(second);
+  const double freedom = shares > 0 ? variance * variance / shares : 1e6;
+  return std::max(quantile(freedom, false_alarm) * std::sqrt(variance), rounding(first, second));
+}
+
+}  // namespace pastefit

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+
+namespace pastefit {
+
+/// Count, mean and standard deviation of some readings.
+struct Sample {
+  int count = 0;
+  double mean = 0;
+  double standard_deviation = 0;  ///< of one reading; 0 for a single one
+};
+
+Sample sample_of(std::span<const double> values);
+
+/// How far the means of two samples of one population lie apart at most, except with probability `false_alarm`:
+///     t(1 - false_alarm/2; n + m - 2) s sqrt(1/n + 1/m),   s^2 = ((n-1) s_1^2 + (m-1) s_2^2)/(n + m - 2),
+/// the two-sided t-interval for a difference of means with pooled variance (Student). Readings of the same packing are
+/// positively correlated, if at all, which makes false alarms rarer.
+/// Two samples without any scatter may differ by the rounding of sums only: 1e-9 of their size.
+/// Requirement: n + m >= 3, n, m >= 1.
+double band_of(const Sample& first, const Sample& second, double false_alarm);
+
+/// The same for samples of different populations whose scatter need not be equal (Welch): here the simulation and the
+/// laboratory. The deviation of a sample of one reading counts as known.
+double unequal_band_of(const Sample& first, const Sample& second, double false_alarm);
+
+}  // namespace pastefit

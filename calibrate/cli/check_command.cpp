@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/check/check.h"
+#include "calibrate/check/check_report.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/study/fault_text.h"
+
+namespace pastefit {
+
+namespace {
+
+struct CheckCommand {
+  std::vector<std::string> cards;
+  CheckOptions check;
+  std::string against, junit, why;
+  bool json = false, rebaseline = false;
+  int packings = 0;
+};
+
+int rebaseline_all(const CheckCommand& options) {
+  std::vector<Card> cards;
+  Faults faults;
+  if (options.why.empty())
+    faults.push_back({"--rebaseline", "records no reason", "add --why TEXT: what changed, and why that is right"});
+  for (const auto& file : options.cards) {
+    auto card = read_card(file);
+    if (card.ok())
+      cards.push_back(std::move(card).value());
+    else
+      faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  }
+  if (!faults.empty()) return report(faults);
+  for (auto& card : cards) {
+    auto changed = rebaselined(std::move(card), options.why, options.packings, options.check);
+    if (!changed.ok()) return report(changed.faults(), kFailed);
+    card = std::move(changed).value();
+  }
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    if (const auto unwritten = write_atomically(options.cards[i], to_json(cards[i]).dump(2) + "\n"); !unwritten.empty())
+      return report(unwritten, kFailed);
+    std::printf("%s: new baseline of %zu packings\n", options.cards[i].c_str(), cards[i].baseline.runs.size());
+    for (const auto& moved : cards[i].rebaselined.back().moved)
+      std::printf("  %-26s %12.6g -> %.6g\n", moved.observable.c_str(), moved.before, moved.after);
+  }
+  return kDone;
+}
+
+/// 0 all agree, 1 some card disagrees, 2 none disagrees but some could not be checked.
+int status_of(const std::vector<CheckedFile>& checked) {
+  const auto any = [&](CheckVerdict verdict) {
+    return std::ranges::any_of(checked, [&](const auto& one) { return one.check.verdict == verdict; });
+  };
+  if (any(CheckVerdict::disagrees)) return kFailed;
+  return any(CheckVerdict::not_checked) ? kBadInput : kDone;
+}
+
+int check_all(const CheckCommand& options) {
+  std::optional<Lab> lab;
+  if (!options.against.empty()) {
+    auto read = read_lab(options.against);
+    if (!read.ok()) return report(read.faults());
+    lab = std::move(read).value();
+  }
+  std::vector<CheckedFile> checked;
+  for (const auto& file : options.cards) {
+    CheckedFile one{file, {}};
+    const auto card = read_card(file);
+    if (!card.ok()) {
+      one.check.card = "unreadable card";
+      one.check.reason = message_of(card.faults());
+    } else {
+      one.check = lab ? check_against(card.value(), *lab, options.check) : check(card.value(), options.check);
+    }
+    if (!options.json) std::fputs(text_of(one).c_str(), stdout);
+    checked.push_back(std::move(one));
+  }
+  if (options.json) std::printf("%s\n", to_json(checked).dump(2).c_str());
+  if (!options.junit.empty())
+    if (const auto faults = write_atomically(options.junit, junit_of(checked)); !faults.empty()) return report(faults);
+  return status_of(checked);
+}
+
+}  // namespace
+
+Command add_check(CLI::App& verb) {
+  const auto options = std::make_shared<CheckCommand>();
+  verb.add_option("CARD", options->cards, "card files")->required();
+  verb.add_flag("--quick", options->check.quick, "two simulations a card");
+  verb.add_flag("--bits", options->check.bits, "other bits are a disagreement, whatever program made the card");
+  verb.add_option("--false-alarm", options->check.false_alarm,
+                  "probability to call a card wrong although nothing changed")
+      ->check(CLI::Range(1e-9, 0.5))
+      ->capture_default_str();
+  verb.add_option("--threads", options->check.threads, "simulations at the same time; without it one for each core")
+      ->check(CLI::Range(1, 1024));
+  auto* against = verb.add_option("--against", options->against,
+                                  "judge the cards by this laboratory file instead of by their own baseline")
+                      ->type_name("LAB");
+  auto* json = verb.add_flag("--json", options->json, "print the answers as JSON");
+  auto* junit = verb.add_option("--junit", options->junit, "write the answers as JUnit XML")->type_name("FILE");
+  auto* rebaseline = verb.add_flag("--rebaseline", options->rebaseline,
+                                   "take what the engine gives now as the cards' baseline, and record why")
+                         ->excludes(against)
+                         ->excludes(json)
+                         ->excludes(junit);
+  verb.add_option("--why", options->why, "the reason for a new baseline")->needs(rebaseline)->type_name("TEXT");
+  verb.add_option("--packings", options->packings, "packings of the new baseline, if more than before")
+      ->needs(rebaseline)
+      ->check(CLI::Range(2, 1000));
+  return [options] { return options->rebaseline ? rebaseline_all(*options) : check_all(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/exports/export.h"
+#include "calibrate/study/fault_text.h"
+
+namespace pastefit {
+
+namespace {
+
+struct ExportOptions {
+  std::string card, out, target;
+  std::optional<std::uint64_t> packing;
+  bool force = false;
+};
+
+const std::string kNotes = "NOTES.txt";
+constexpr std::uintmax_t kSpace = 64u << 20;  // a million grains take some 60 MB
+
+std::string notes_text(const Exporter& exporter, const ExportScene& scene, const Export& written) {
+  std::string out = scene.card.title + "\n" + std::string(exporter.meaning) + "\n\n";
+  out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
+  for (const auto& note : written.notes) out += "- " + note + "\n";
+  return out;
+}
+
+int export_card(const ExportOptions& options) {
+  Faults faults;
+  const auto known = exporters();
+  const auto exporter = std::ranges::find(known, options.target, &Exporter::name);
+  if (exporter == known.end()) {
+    std::set<std::string, std::less<>> names;
+    std::string list;
+    for (const auto& one : known) {
+      names.emplace(one.name);
+      list += (list.empty() ? "" : ", ") + std::string(one.name);
+    }
+    const auto near = nearest(options.target, names);
+    faults.push_back({"--to " + options.target, "is no target of an export",
+                      near ? "did you mean '" + *near + "'?" : "one of " + list});
+  }
+  const auto card = read_card(options.card);
+  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  if (!faults.empty()) return report(faults);
+
+  const auto scene = export_scene(card.value(), options.packing.value_or(card.value().test.packing_seed));
+  if (!scene.ok()) return report(scene.faults(), kFailed);
+  const auto written = exporter->write(scene.value());
+  if (!written.ok()) return report(written.faults());
+
+  std::vector<std::string> names{kNotes};
+  for (const auto& file : written.value().files) names.push_back(file.name);
+  const auto folder =
+      OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
+  if (!folder.ok()) return report(folder.faults());
+  auto files = written.value().files;
+  files.push_back({kNotes, notes_text(*exporter, scene.value(), written.value())});
+  for (const auto& file : files)
+    if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
+      return report(unwritten, kFailed);
+  for (const auto& file : files) std::printf("wrote %s\n", folder.value().file(file.name).c_str());
+  std::fputs(files.back().content.c_str(), stdout);
+  return kDone;
+}
+
+}  // namespace
+
+Command add_export(CLI::App& verb) {
+  const auto options = std::make_shared<ExportOptions>();
+  verb.add_option("CARD", options->card, "card file")->required();
+  verb.add_option("--to", options->target, "target: lammps, liggghts, yade, mercurydpm, csv or edem-notes")
+      ->required()
+      ->type_name("TARGET");
+  verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
+  verb.add_option("--packing", options->packing, "seed of the random filling; without it the card's own");
+  verb.add_flag("--force", options->force, "replace an earlier export in DIR");
+  return [options] { return export_card(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,67 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/card/atomic_file.h"
+#include "calibrate/card/card_text.h"
+#include "calibrate/card/rescale.h"
+#include "calibrate/check/rescale_bias.h"
+#include "calibrate/cli/commands.h"
+
+namespace pastefit {
+
+namespace {
+
+struct RescaleOptions {
+  std::string card, out;
+  double radius_mm = 0;
+  int packings = 4;
+  CheckOptions check;
+};
+
+/// Grains in a full mould go with 1/R^3, steps of time with 1/R.
+double work_ratio(double from_m, double to_m) {
+  return std::pow(from_m / to_m, 4);
+}
+
+int rescale(const RescaleOptions& options) {
+  const auto card = read_card(options.card);
+  if (!card.ok()) return report(card.faults());
+  const double radius = options.radius_mm / 1e3, old_radius = card.value().test.grains.radius_m;
+  auto result = rescaled(card.value(), radius);
+  if (!result.ok()) return report(result.faults());
+  if (options.packings > 0) {
+    std::fprintf(stderr, "measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
+                 options.packings, work_ratio(old_radius, radius));
+    result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
+    if (!result.ok()) return report(result.faults(), kFailed);
+  }
+  std::fputs(text_of(result.value()).c_str(), stdout);
+  if (options.out.empty()) return kDone;
+  if (const auto faults = write_atomically(options.out, to_json(result.value()).dump(2) + "\n"); !faults.empty())
+    return report(faults);
+  std::printf("wrote %s\n", options.out.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+Command add_rescale(CLI::App& verb) {
+  const auto options = std::make_shared<RescaleOptions>();
+  verb.add_option("CARD", options->card, "card file")->required();
+  verb.add_option("--radius", options->radius_mm, "mean radius of the new grains in mm")
+      ->required()
+      ->check(CLI::Range(0.01, 1000.0))
+      ->type_name("MM");
+  verb.add_option("--out", options->out, "file for the new card")->type_name("FILE");
+  verb.add_option("--packings", options->packings,
+                  "simulations with either size that measure the bias; 0: carry over without measuring")
+      ->check(CLI::IsMember({0}) | CLI::Range(2, 1000))
+      ->capture_default_str();
+  verb.add_option("--threads", options->check.threads, "simulations at the same time; without it one for each core")
+      ->check(CLI::Range(1, 1024));
+  return [options] { return rescale(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,26 @@
+#include <cstdio>
+#include <memory>
+
+#include "calibrate/card/card_text.h"
+#include "calibrate/cli/commands.h"
+
+namespace pastefit {
+
+namespace {
+
+int show(const std::string& file) {
+  const auto card = read_card(file);
+  if (!card.ok()) return report(card.faults());
+  std::fputs(text_of(card.value()).c_str(), stdout);
+  return kDone;
+}
+
+}  // namespace
+
+Command add_show(CLI::App& verb) {
+  const auto file = std::make_shared<std::string>();
+  verb.add_option("CARD", *file, "card file")->required();
+  return [file] { return show(*file); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,33 @@
+#include "calibrate/exports/export.h"
+
+#include <array>
+
+#include "calibrate/card/filling.h"
+
+namespace pastefit {
+
+std::span<const Exporter> exporters() {
+  static constexpr std::array kExporters{
+      Exporter{"lammps", "deck of the slump test, step 1, for LAMMPS, with the attraction as tables", export_lammps},
+      Exporter{"liggghts", "deck of the slump test, step 1, for LIGGGHTS, with its nearest law", export_liggghts},
+      Exporter{"yade", "Python module and script of the slump test, step 1, for Yade", export_yade},
+      Exporter{"mercurydpm", "parameters, force table and instructions for MercuryDPM", export_mercurydpm},
+      Exporter{"csv", "parameters, force table and grains as CSV files", export_csv},
+      Exporter{"edem-notes", "parameters, force table and instructions for EDEM", export_edem_notes}};
+  return kExporters;
+}
+
+Result<ExportScene> export_scene(const Card& card, std::uint64_t packing) {
+  ExportScene scene;
+  scene.card = card;
+  scene.card.test.packing_seed = packing;
+  scene.packing = *fill_mould(filling_of(card, packing));
+  if (const auto& failure = scene.packing.failure)
+    return Fault{"packing " + std::to_string(packing), "the mould could not be filled: " + failure->message,
+                 "take another seed with --packing, or finer grains with pastefit rescale"};
+  scene.grain_density_kg_m3 = card.test.bulk_density_kg_m3 * volume_m3(card.test.mould) / scene.packing.solid_volume_m3;
+  scene.sizes = size_classes(scene.packing.radii);
+  return scene;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/card/card.h"
+#include "calibrate/exports/size_classes.h"
+#include "core/rigs/packing.h"
+
+namespace pastefit {
+
+/// What an exporter writes down: the card, and its mould filled by pastefit.
+struct ExportScene {
+  Card card;
+  Packing packing;
+  double grain_density_kg_m3 = 0;  ///< such that the mould holds the bulk density
+  SizeClasses sizes;
+};
+
+/// The scene of a card with the given packing. Errors: the mould cannot be filled.
+Result<ExportScene> export_scene(const Card& card, std::uint64_t packing);
+
+struct ExportFile {
+  std::string name, content;
+};
+
+/// A card in the words of another program.
+struct Export {
+  std::vector<ExportFile> files;
+  std::vector<std::string> notes;  ///< what the target cannot represent, each with a number; for people
+};
+
+/// A target. Errors of `write`: a law the target lacks and nothing can stand in for.
+struct Exporter {
+  std::string_view name;
+  std::string_view meaning;  ///< what is written, one line
+  Result<Export> (*write)(const ExportScene& scene);
+};
+
+/// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
+std::span<const Exporter> exporters();
+
+Result<Export> export_lammps(const ExportScene& scene);
+Result<Export> export_liggghts(const ExportScene& scene);
+Result<Export> export_yade(const ExportScene& scene);
+Result<Export> export_mercurydpm(const ExportScene& scene);
+Result<Export> export_csv(const ExportScene& scene);
+Result<Export> export_edem_notes(const ExportScene& scene);
+
+}  // namespace pastefit

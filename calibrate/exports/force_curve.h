@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "core/rigs/materials.h"
+
+namespace pastefit {
+
+/// Two grains of a pair: the lengths on which its forces depend.
+struct GrainPair {
+  double first_radius_m = 0, second_radius_m = 0;
+  double reference_radius_m = 0;  ///< size the bridge's numbers belong to
+
+  double effective_radius_m() const { return first_radius_m * second_radius_m / (first_radius_m + second_radius_m); }
+  /// s = 2 R*/R_ref: attractions go with s^2, their distances with s.
+  double size_scale() const { return 2 * effective_radius_m() / reference_radius_m; }
+};
+
+/// Attraction of two grains at overlap `d` [N], positive when they pull: the living bridge for -rupture_gap <= d <= 0,
+/// zero beyond, the constant cohesion for d > 0.
+/// Polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary as Willett et al. 2000.
+/// The formulas stand here a second time, apart from the engine's, so that `check` can hold the engine against them.
+double attraction_n(const ContactModel& contact, const GrainPair& pair, double overlap_m);
+
+/// Elastic repulsion 4/3 E* sqrt(R*) d^(3/2) [N], zero without overlap.
+double repulsion_n(const ContactModel& contact, const GrainPair& pair, double overlap_m);
+
+/// Overlap at which repulsion and attraction balance two grains, and `load_n` more presses on them [m].
+double resting_overlap_m(const ContactModel& contact, const GrainPair& pair, double load_n);
+
+/// Gaps of a pair at which a bridge forms and ruptures [m]; both zero without bridge.
+struct BridgeGaps {
+  double formation_m = 0, rupture_m = 0;
+  /// A bridge that ruptures farther out than it forms: the force in between depends on the past.
+  bool remembers() const { return rupture_m > formation_m * (1 + 1e-9); }
+};
+BridgeGaps bridge_gaps(const ContactModel& contact, const GrainPair& pair);
+
+/// Work of the bridge from gap `from_m` to gap `to_m` [J], the integral of its attraction; Simpson's rule on 2,000
+/// intervals, exact for the polynomial.
+double bridge_work_j(const ContactModel& contact, const GrainPair& pair, double from_m, double to_m);
+
+/// One row of a force table.
+struct ForcePoint {
+  double overlap_m = 0;
+  double attraction_n = 0, repulsion_n = 0;
+};
+
+/// `points` rows, evenly spaced in overlap, with one of them at touch and one at rupture; from the rupture gap to at
+/// least `deepest_m`.
+std::vector<ForcePoint> force_table(const ContactModel& contact, const GrainPair& pair, double deepest_m, int points);
+
+}  // namespace pastefit

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/exports/export.h"
+#include "calibrate/exports/force_curve.h"
+#include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/soulie.h"
+#include "calibrate/report/format.h"
+#include "calibrate/store/program.h"
+
+namespace pastefit {
+
+namespace {
+
+/// The models of grains and walls in LIGGGHTS's words. Cohesion has to stand before rolling friction.
+struct Models {
+  std::string grains, walls;
+};
+
+Models models_of(const ContactModel& contact, bool attracts) {
+  const bool constant = contact.rolling == RollingModel::constant_torque;
+  const std::string rolling = contact.rolling == RollingModel::none || contact.rolling_friction == 0 ? ""
+                              : constant ? " rolling_friction cdt"
+                                         : " rolling_friction epsd";
+  const std::string base = "model hertz tangential history";
+  const std::string reduce = contact.friction_basis == FrictionBasis::total ? " tangential_reduce on" : "";
+  return {base + (attracts ? " cohesion easo/capillary/viscous" : "") + rolling + (attracts ? reduce : ""),
+          base + rolling};
+}
+
+/// A 3 x 3 matrix over grains, mould and table; walls do not meet each other.
+std::string pairs_of(double grains, double mould, double table) {
+  return format("peratomtypepair 3 %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", grains, mould, table, mould,
+                mould, mould, table, mould, table);
+}
+
+std::string properties(const ExportScene& scene, const SoulieFit* fit) {
+  const auto& test = scene.card.test;
+  const auto& contact = test.contact;
+  const auto &mould = test.mould_wall, &table = test.table_wall;
+  std::string out = "# types: 1 grains, 2 mould, 3 table\n";
+  out += format("fix p1 all property/global youngsModulus peratomtype %.17g %.17g %.17g\n", contact.youngs_modulus_pa,
+                mould.youngs_modulus_pa, table.youngs_modulus_pa);
+  out += format("fix p2 all property/global poissonsRatio peratomtype %.17g %.17g %.17g\n", contact.poissons_ratio,
+                mould.poissons_ratio, table.poissons_ratio);
+  out += "fix p3 all property/global coefficientRestitution " +
+         pairs_of(contact.restitution, mould.restitution, table.restitution) + "\n";
+  out += "fix p4 all property/global coefficientFriction " +
+         pairs_of(contact.friction, mould.friction, table.friction) + "\n";
+  out += "fix p5 all property/global coefficientRollingFriction " +
+         pairs_of(contact.rolling_friction, mould.rolling_friction, table.rolling_friction) + "\n";
+  out += "fix p6 all property/global coefficientRollingViscousDamping " + pairs_of(0.3, 0.3, 0.3) + "\n";
+  if (!fit) return out;
+  const double radius = fit->bridge.radius_m;
+  // LIGGGHTS gives each bridge the share 1 - sqrt(3/4) of the liquid on one of two equal grains.
+  const double grain = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  out += format("fix p7 all property/global surfaceLiquidContentInitial scalar %.17g\n",
+                fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75))));
+  out += format("fix p8 all property/global surfaceTension scalar %.17g\n", fit->bridge.surface_tension_n_m);
+  out += "fix p9 all property/global fluidViscosity scalar 0\n";
+  out += "fix p10 all property/global contactAngle peratomtype 0 0 0\n";
+  out += "fix p11 all property/global minSeparationDistanceRatio scalar 1.01\n";
+  out += format("fix p12 all property/global maxSeparationDistanceRatio scalar %.17g\n",
+                1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius);
+  return out;
+}
+
+std::string begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
+  std::string out = "# " + scene.card.title + "\n# " + what + "; written by " + program_identity() + "\n";
+  out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
+  out += "# takes grains softer than 5 MPa.\n";
+  for (const auto& note : notes) out += "# - " + note + "\n";
+  return out + R"(
+units        lj
+atom_style   granular
+atom_modify  map array
+boundary     f f f
+newton       off
+communicate  single vel yes
+)";
+}
+
+std::string slump_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit,
+                       const std::vector<std::string>& notes) {
+  const auto& test = scene.card.test;
+  const double step = deck_time_step_s(scene);
+  const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
+  std::string out = begin(scene, "the slump test, step 1", notes);
+  out += "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump\n\nread_data    grains.data\n";
+  out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * test.grains.radius_m);
+  out += properties(scene, fit);
+  out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
+  out += format("timestep     %.6g\nfix          weight all gravity 9.81 vector 0 0 -1\n", step);
+  out += "fix          table all wall/gran " + models.walls + " primitive type 3 zplane 0.0\n";
+  out += "fix          cone all mesh/surface file mould.stl type 2\n";
+  out += "fix          mould all wall/gran " + models.walls + " mesh n_meshes 1 meshes cone\n";
+  out += "fix          motion all nve/sphere\ncompute      energy all ke\ncompute      top all reduce max z\n";
+  out += "thermo_style custom step c_energy c_top\nthermo       1000\nthermo_modify norm no lost error\n\n";
+  const double mass = 4.0 / 3.0 * std::numbers::pi * std::pow(test.grains.radius_m, 3) * scene.grain_density_kg_m3;
+  out += format("# relax in the mould, with drag\nfix          drag all viscous %.10g\nrun          %ld\n", 40 * mass,
+                steps(0.25));
+  out += "unfix        drag\n";
+  out += "dump         filled all custom 1 filled.dump id type x y z radius\nrun          0\nundump       filled\n\n";
+  out += format(
+      "# step 1: the mould rises\nfix          lift all move/mesh mesh cone linear 0 0 %.17g\nrun          "
+      "%ld\nunfix        lift\n\n",
+      test.lift_velocity_m_s, steps(test.mould.height_m / test.lift_velocity_m_s));
+  out += format("# the heap comes to rest\nrun          %ld\n", steps(2.0));
+  return out + "dump         heap all custom 1 heap.dump id type x y z radius\nrun          0\n";
+}
+
+/// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
+std::string two_grains_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit) {
+  constexpr int kDistances = 240;
+  const double radius = scene.card.test.grains.radius_m, speed = 1e-9;
+  const double nearest = 1.95 * radius;
+  const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
+  std::string out = begin(scene, "force of two grains against their distance; prints \"pair r F\"", {});
+  out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   3 box\n", -4 * radius,
+                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius);
+  out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", nearest);
+  out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
+                scene.grain_density_kg_m3);
+  out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * radius);
+  out += properties(scene, fit);
+  out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
+  out += format("timestep     %.17g\n", (farthest - nearest) / kDistances / speed);
+  out += "group        first id 1\ngroup        second id 2\n";
+  out += format("fix          pull second move linear %.17g 0 0 units box\n", speed);
+  out += "fix          hold first move linear 0 0 0 units box\n";
+  out += "compute      push second reduce sum fx\ncompute      at second reduce sum x\n";
+  out += "variable     push equal c_push\nvariable     at equal c_at\n";
+  out += "thermo_style custom step c_push c_at\nfix          out all print 1 \"pair ${at} ${push}\"\n";
+  return out + format("run          %d\n", kDistances);
+}
+
+std::string mould_stl(const Mould& mould) {
+  constexpr int kSectors = 96, kBands = 4;
+  std::string out = "solid mould\n";
+  const auto corner = [&](int sector, int band) {
+    const double angle = 2 * std::numbers::pi * sector / kSectors, share = static_cast<double>(band) / kBands;
+    const double radius = mould.base_radius_m + share * (mould.top_radius_m - mould.base_radius_m);
+    return format("  vertex %.9g %.9g %.9g\n", radius * std::cos(angle), radius * std::sin(angle),
+                  share * mould.height_m);
+  };
+  const auto facet = [&](const std::string& a, const std::string& b, const std::string& c) {
+    out += "facet normal 0 0 0\n outer loop\n" + a + b + c + " endloop\nendfacet\n";
+  };
+  for (int i = 0; i < kSectors; ++i)
+    for (int k = 0; k < kBands; ++k) {
+      const int next = (i + 1) % kSectors;
+      facet(corner(i, k), corner(next, k), corner(next, k + 1));
+      facet(corner(i, k), corner(next, k + 1), corner(i, k + 1));
+    }
+  return out + "endsolid mould\n";
+}
+
+/// As LAMMPS's, but grains keep their radii: the law belongs to no type.
+std::string liggghts_data(const ExportScene& scene) {
+  std::string out = "grains of a filled mould, written by pastefit\n\n";
+  const auto& test = scene.card.test;
+  const auto& grains = scene.packing.centres;
+  const double margin = 4 * *std::ranges::max_element(scene.packing.radii);
+  const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
+  out += format("%zu atoms\n3 atom types\n\n", grains.size());
+  out += format("%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n%.9g %.9g zlo zhi\n\nAtoms\n\n", -half, half, -half, half,
+                -margin, 2.5 * test.mould.height_m + margin);
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    out += format("%zu 1 %.17g %.17g %.17g %.17g %.17g\n", i + 1, 2 * scene.packing.radii[i], scene.grain_density_kg_m3,
+                  grains[i].x, grains[i].y, grains[i].z);
+  return out;
+}
+
+std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fit) {
+  const auto& test = scene.card.test;
+  const auto& contact = test.contact;
+  const double radius = test.grains.radius_m;
+  const GrainPair pair{radius, radius, radius};
+  std::vector<std::string> notes;
+  if (fit) {
+    const auto& difference = fit->difference;
+    notes.push_back(
+        format("LIGGGHTS has no polynomial bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted "
+               "to the card's curve: it differs by up to %.1f %% of the peak force, %.1f %% in root mean "
+               "square, %+.1f %% in work.",
+               100 * difference.largest, 100 * difference.root_mean_square, 100 * difference.work));
+    notes.push_back(
+        format("Liquid volume %.4g m^3 a bridge and surface tension %.4g N/m are numbers of the fit, not of a "
+               "liquid. The contact angle is 0: at others LIGGGHTS 3.8.0 is wrong, by 27 %% at 30 degrees.",
+               fit->bridge.volume_m3, fit->bridge.surface_tension_n_m));
+    const auto gaps = bridge_gaps(contact, pair);
+    if (gaps.formation_m > 0)
+      notes.push_back(
+          format("Bridges form when grains touch; on the card, at a gap of %.4g mm.", 1e3 * gaps.formation_m));
+    const double cohesion = attraction_n(contact, pair, 1e-12), touch = fit->bridge.force_n(0);
+    notes.push_back(
+        format("Overlapping grains attract each other with %.4g N; on the card with %.4g N.", touch, cohesion));
+    if (scene.sizes.radii_m.size() > 1)
+      notes.push_back(
+          "Between grains of other than the mean size the bridge scales as Soulie's, not with the square of "
+          "the size.");
+  }
+  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
+    if (wall.cohesion_factor > 0)
+      notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name,
+                             wall.cohesion_factor));
+  if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
+    notes.push_back(
+        "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment "
+        "is the same.");
+  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
+  return notes;
+}
+
+}  // namespace
+
+Result<Export> export_liggghts(const ExportScene& scene) {
+  const auto& contact = scene.card.test.contact;
+  const double radius = scene.card.test.grains.radius_m;
+  const bool attracts = bridge_gaps(contact, {radius, radius, radius}).rupture_m > 0 &&
+                        attraction_n(contact, {radius, radius, radius}, 0) > 0;
+  const SoulieFit fit = attracts ? fit_soulie(contact, radius) : SoulieFit{};
+  const SoulieFit* const fitted = attracts ? &fit : nullptr;
+  const Models models = models_of(contact, attracts);
+  Export out;
+  out.notes = losses_of(scene, fitted);
+  std::string law = "gap_m,card_n,liggghts_n\n";
+  if (attracts)
+    for (int i = 0; i <= 400; ++i) {
+      const double gap = 1.2 * std::max(fit.bridge.rupture_gap_m(), -contact.bridge.d_c_m) * i / 400;
+      law += format("%.17g,%.17g,%.17g\n", gap, attraction_n(contact, {radius, radius, radius}, -gap),
+                    fit.bridge.force_n(gap));
+    }
+  out.files = {{"in.slump", slump_deck(scene, models, fitted, out.notes)},
+               {"in.two_grains", two_grains_deck(scene, models, fitted)},
+               {"grains.data", liggghts_data(scene)},
+               {"mould.stl", mould_stl(scene.card.test.mould)},
+               {"curves.csv", law}};
+  return out;
+}
+
+}  // namespace pastefit

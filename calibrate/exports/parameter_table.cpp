@@ -1,0 +1,112 @@
+#include "calibrate/exports/parameter_table.h"
+
+#include "calibrate/exports/force_curve.h"
+#include "calibrate/report/format.h"
+#include "calibrate/study/names.h"
+#include "core/laws/constants.h"
+
+namespace pastefit {
+
+namespace {
+
+template <class T, std::size_t N>
+std::string word_of(T value, const std::array<Named<T>, N>& words) {
+  for (const auto& word : words)
+    if (word.value == value) return std::string(word.name);
+  return "?";
+}
+
+void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const WallContact& wall) {
+  rows.push_back({name + ".youngs_modulus_pa", wall.youngs_modulus_pa, "of the wall"});
+  rows.push_back({name + ".poissons_ratio", wall.poissons_ratio, "of the wall"});
+  rows.push_back({name + ".restitution", wall.restitution, "grain on wall"});
+  rows.push_back({name + ".friction", wall.friction, "grain on wall"});
+  rows.push_back({name + ".rolling_friction", wall.rolling_friction, "grain on wall"});
+  rows.push_back({name + ".cohesion_factor", wall.cohesion_factor, "share of the grains' attraction that acts here"});
+}
+
+}  // namespace
+
+std::string bridge_in_words(const ContactModel& contact) {
+  return "bridge " + word_of(contact.bridge.shape, bridge_shapes) + ", formed by " +
+         word_of(contact.bridge.formation, bridge_formations) + ", rolling " +
+         word_of(contact.rolling, rolling_models) + ", friction of the " +
+         word_of(contact.friction_basis, friction_bases) + " normal force";
+}
+
+std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
+  const auto& test = scene.card.test;
+  const auto& contact = test.contact;
+  const double radius = test.grains.radius_m;
+  const auto gaps = bridge_gaps(contact, {radius, radius, radius});
+  std::vector<ParameterRow> rows{
+      {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
+      {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains, such that the mould holds the bulk density"},
+      {"bulk_density_kg_m3", test.bulk_density_kg_m3, "of the fresh material"},
+      {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
+      {"poissons_ratio", contact.poissons_ratio, "of the grains"},
+      {"restitution", contact.restitution, "grain on grain, without attraction"},
+      {"friction", contact.friction, "grain on grain"},
+      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"},
+      {"cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12),
+       "constant attraction of overlapping grains"},
+      {"a_n_m2", contact.bridge.a_n_m2, "bridge a d^2 + b d + c"},
+      {"b_n_m", contact.bridge.b_n_m, "bridge a d^2 + b d + c"},
+      {"c_n", attraction_at_touch(contact.bridge, radius), "attraction of two grains that just touch"},
+      {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
+      {"offset_m", contact.bridge.offset_m, "thickness of the liquid shell"},
+      {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"},
+      {"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
+      {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
+      {"mould_height_m", test.mould.height_m, "apparatus"},
+      {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}};
+  add_wall(rows, "mould", test.mould_wall);
+  add_wall(rows, "table", test.table_wall);
+  return rows;
+}
+
+ExportFile parameters_csv(const ExportScene& scene) {
+  std::string text = "name,value,meaning\n";
+  for (const auto& row : parameter_rows(scene))
+    text += format("%s,%.17g,\"%s\"\n", row.name.c_str(), row.value, row.meaning.c_str());
+  return {"parameters.csv", text};
+}
+
+ExportFile force_csv(const ExportScene& scene) {
+  const auto& test = scene.card.test;
+  const double radius = test.grains.radius_m;
+  std::string text = "overlap_m,attraction_n,repulsion_n\n";
+  for (const auto& point : force_table(test.contact, {radius, radius, radius}, 0.1 * radius, 2001))
+    text += format("%.17g,%.17g,%.17g\n", point.overlap_m, point.attraction_n, point.repulsion_n);
+  return {"force.csv", text};
+}
+
+ExportFile grains_csv(const ExportScene& scene) {
+  std::string text = "x_m,y_m,z_m,radius_m\n";
+  for (std::size_t i = 0; i < scene.packing.centres.size(); ++i) {
+    const auto& p = scene.packing.centres[i];
+    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, scene.packing.radii[i]);
+  }
+  return {"grains.csv", text};
+}
+
+std::string laws_in_words(const ExportScene& scene) {
+  std::string out =
+      R"(The contact law of two grains. d is the overlap: positive when they overlap, negative across a gap.
+R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 - nu)(1 + nu)/E, s = 2 R*/R.
+
+  d > 0, normal      4/3 E* sqrt(R*) d^1.5 + 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n
+                     S_n = 2 E* sqrt(R* d), beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
+  d > 0, tangential  spring S_t = 8 G* sqrt(R* d) on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu N
+  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)
+  d <= 0, bridge     a d^2 + s b d + s^2 c, attraction, from touch to rupture at d = s d_c;
+                     it forms when the gap falls to s formation_gap_m, and lives until the gap exceeds s |d_c|
+
+)";
+  out += "Here: " + bridge_in_words(scene.card.test.contact) + ".\n\n";
+  for (const auto& row : parameter_rows(scene))
+    out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
+  return out;
+}
+
+}  // namespace pastefit

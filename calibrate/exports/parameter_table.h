@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/exports/export.h"
+
+namespace pastefit {
+
+/// One number of a card, for tables in any form.
+struct ParameterRow {
+  std::string name;  ///< with its unit
+  double value = 0;
+  std::string meaning;
+};
+
+/// The contact laws, walls, grains and apparatus of the scene in SI, for grains of its mean radius.
+std::vector<ParameterRow> parameter_rows(const ExportScene& scene);
+
+/// "name,value,meaning" with a header.
+ExportFile parameters_csv(const ExportScene& scene);
+
+/// "overlap_m,attraction_n,repulsion_n" of two grains of the mean radius, 2,001 rows from the rupture gap to an overlap
+/// of a tenth of the radius; a row at touch. Both forces are positive; the attraction pulls.
+ExportFile force_csv(const ExportScene& scene);
+
+/// "x_m,y_m,z_m,radius_m" of the filled mould.
+ExportFile grains_csv(const ExportScene& scene);
+
+/// The laws in words and formulas, for people who type them into another program.
+std::string laws_in_words(const ExportScene& scene);
+
+/// Shape and formation of the bridge in one line.
+std::string bridge_in_words(const ContactModel& contact);
+
+}  // namespace pastefit

@@ -1,0 +1,284 @@
+#include <cmath>
+
+#include "calibrate/exports/export.h"
+#include "calibrate/exports/force_curve.h"
+#include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/parameter_table.h"
+#include "calibrate/report/format.h"
+#include "calibrate/store/program.h"
+#include "core/laws/constants.h"
+
+namespace pastefit {
+
+namespace {
+
+/// What follows the numbers in the module: the same for every card.
+constexpr const char* kModule = R"PY(
+
+def bridge(overlap):
+    """Attraction of a living bridge between two grains of the mean radius; overlap <= 0, numpy array."""
+    if SHAPE == 'polynomial':
+        return (A * overlap + B) * overlap + C
+    if SHAPE == 'linear':
+        return C * (1 + overlap / RUPTURE_GAP)
+    if SHAPE == 'exponential':
+        return C * np.exp(3 * overlap / RUPTURE_GAP)
+    if SHAPE == 'capillary':
+        gap = -overlap * sqrt(RADIUS / LIQUID_VOLUME)
+        return C / (1 + 1.05 * gap + 2.5 * gap * gap)
+    return 0 * overlap
+
+
+class Attraction:
+    """The attraction of grains, cohesion in overlap and bridges across gaps, with the memory of bridges.
+
+    Run `act` once a step, after the interaction loop and before the integrator."""
+
+    def __init__(self, ids, radii):
+        self.ids = list(ids)
+        self.radii = np.asarray(radii, dtype=float)
+        self.alive = np.empty(0, dtype=np.int64)
+        self.reach = 2 * self.radii.max() + RUPTURE_GAP * self.radii.max() / RADIUS
+        self.skin = 0.2 * RADIUS
+        self.listed_at = None
+
+    def positions(self):
+        return np.array([O.bodies[i].state.pos for i in self.ids])
+
+    def pairs(self, x):
+        """Pairs within reach, from a list that is kept until something has moved by half of the skin."""
+        if self.listed_at is None or np.abs(x - self.listed_at).max() > 0.25 * self.skin:
+            self.listed_at = x
+            self.listed = neighbours(x, self.reach + self.skin)
+        return self.listed
+
+    def act(self):
+        x = self.positions()
+        first, second = self.pairs(x)
+        apart = x[second] - x[first]
+        distance = np.sqrt((apart * apart).sum(axis=1))
+        overlap = self.radii[first] + self.radii[second] - distance
+        size = 2 * self.radii[first] * self.radii[second] / (self.radii[first] + self.radii[second]) / RADIUS
+        code = first * np.int64(len(x)) + second
+        formed = (-overlap <= FORMATION_GAP * size) | np.isin(code, self.alive)
+        living = formed & (-overlap <= RUPTURE_GAP * size)
+        self.alive = code[living]
+        pull = np.where(overlap > 0, COHESION * size**2,
+                        np.where(living, size**2 * bridge(np.minimum(overlap, 0) / size), 0))
+        force = (pull / distance)[:, None] * apart
+        total = np.zeros_like(x)
+        np.add.at(total, first, force)
+        np.add.at(total, second, -force)
+        for i in np.flatnonzero((total != 0).any(axis=1)):
+            O.forces.addF(self.ids[i], Vector3(*total[i]))
+
+
+def neighbours(x, reach):
+    """Pairs of points nearer to each other than `reach`, by cells of that size."""
+    cell = np.floor((x - x.min(axis=0)) / reach).astype(np.int64)
+    across = cell.max(axis=0) + 3
+    key = ((cell[:, 0] + 1) * across[1] + cell[:, 1] + 1) * across[2] + cell[:, 2] + 1
+    order = np.argsort(key, kind='stable')
+    ordered = key[order]
+    firsts, seconds = [], []
+    for dx in (-1, 0, 1):
+        for dy in (-1, 0, 1):
+            for dz in (-1, 0, 1):
+                wanted = key + (dx * across[1] + dy) * across[2] + dz
+                begin = np.searchsorted(ordered, wanted, 'left')
+                count = np.searchsorted(ordered, wanted, 'right') - begin
+                one = np.repeat(np.arange(len(x)), count)
+                within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+                other = order[np.repeat(begin, count) + within]
+                keep = one < other
+                firsts.append(one[keep])
+                seconds.append(other[keep])
+    first, second = np.concatenate(firsts), np.concatenate(seconds)
+    near = ((x[first] - x[second])**2).sum(axis=1) < reach * reach
+    return first[near], second[near]
+
+
+def materials():
+    """Grains, mould and table, appended to the scene."""
+    return [O.materials.append(FrictMat(young=E, poisson=nu, density=density, frictionAngle=atan(friction)))
+            for E, nu, density, friction in MATERIALS]
+
+
+def laws(grains, mould, table):
+    """Ip2 and Law2 of Hertz-Mindlin with damping, friction and rolling, without attraction."""
+    def by_pair(values):
+        grain, at_mould, at_table = values
+        return MatchMaker(matches=((grains, grains, grain), (grains, mould, at_mould), (grains, table, at_table)))
+    ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en=by_pair(RESTITUTION), krot=KROT, ktwist=0.0, eta=ETA,
+                                            frictAngle=by_pair([atan(f) for f in FRICTION]))
+    return ip2, Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=ETA > 0)
+)PY";
+
+constexpr const char* kSlump = R"PY(# The slump test, step 1. In this folder:   yade -n -x slump.py
+# Writes filled.dump and heap.dump (x y z radius), prints the highest grain.
+import os, sys
+sys.path.insert(0, os.getcwd())
+from pastefit_material import *
+
+grain, mould_material, table_material = materials()
+rows = np.loadtxt('grains.csv', delimiter=',', skiprows=1)
+ids = [O.bodies.append(sphere(Vector3(*row[:3]), row[3], material=grain)) for row in rows]
+O.bodies.append(wall(0.0, axis=2, sense=1, material=table_material))
+sectors, bands = 96, 4
+def corner(i, k):
+    share = k / bands
+    radius = MOULD_BASE_RADIUS + share * (MOULD_TOP_RADIUS - MOULD_BASE_RADIUS)
+    return Vector3(radius * cos(2 * pi * i / sectors), radius * sin(2 * pi * i / sectors), share * MOULD_HEIGHT)
+mould = []
+for i in range(sectors):
+    for k in range(bands):
+        for triangle in ((corner(i, k), corner(i + 1, k), corner(i + 1, k + 1)),
+                         (corner(i, k), corner(i + 1, k + 1), corner(i, k + 1))):
+            mould.append(O.bodies.append(facet(triangle, material=mould_material, fixed=True)))
+ip2, law2 = laws(grain, mould_material, table_material)
+attraction = Attraction(ids, rows[:, 3])
+lift = TranslationEngine(translationAxis=(0, 0, 1), velocity=LIFT_VELOCITY, ids=mould, dead=True)
+
+def drag():
+    for i in ids:
+        state = O.bodies[i].state
+        O.forces.addF(i, -40 * state.mass * state.vel)
+
+relax = PyRunner(command='drag()', iterPeriod=1, initRun=True)
+O.engines = [ForceResetter(),
+             InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * RADIUS),
+             InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
+                             [ip2], [law2]),
+             PyRunner(command='attraction.act()', iterPeriod=1, initRun=True), relax, lift,
+             NewtonIntegrator(damping=0.0, gravity=(0, 0, -9.81))]
+O.dt = TIME_STEP
+
+def dump(name):
+    with open(name, 'w') as out:
+        out.write('ITEM: ATOMS x y z radius\n')
+        for i, row in zip(ids, rows):
+            out.write('%.9g %.9g %.9g %.9g\n' % (*O.bodies[i].state.pos, row[3]))
+
+O.run(int(0.25 / O.dt), True)
+relax.dead = True
+dump('filled.dump')
+lift.dead = False
+O.run(int(MOULD_HEIGHT / LIFT_VELOCITY / O.dt), True)
+lift.dead = True
+for i in mould:
+    O.bodies.erase(i)
+O.run(int(REST_TIME / O.dt), True)
+dump('heap.dump')
+print('highest grain centre %.9g m' % max(O.bodies[i].state.pos[2] for i in ids))
+)PY";
+
+constexpr const char* kTwoGrains = R"PY(# Force of two grains against their distance.   yade -n -x two_grains.py
+# The second is pulled from an overlap out beyond rupture; prints "pair r F", repulsion positive.
+import os, sys
+sys.path.insert(0, os.getcwd())
+from pastefit_material import *
+
+grain, mould_material, table_material = materials()
+nearest, farthest, distances = 1.95 * RADIUS, 2 * RADIUS + 1.05 * max(RUPTURE_GAP, 0.05 * RADIUS), 240
+ids = [O.bodies.append(sphere((x, 0, 0), RADIUS, material=grain, fixed=True)) for x in (0, nearest)]
+ip2, law2 = laws(grain, mould_material, table_material)
+attraction = Attraction(ids, [RADIUS, RADIUS])
+O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0.1 * RADIUS),
+             InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [ip2], [law2]),
+             PyRunner(command='attraction.act()', iterPeriod=1, initRun=True),
+             NewtonIntegrator(damping=0.0)]
+O.dt = 1e-12
+for n in range(distances + 1):
+    O.bodies[ids[1]].state.pos = Vector3(nearest + n * (farthest - nearest) / distances, 0, 0)
+    O.run(1, True)
+    print('pair %.17g %.17g' % (O.bodies[ids[1]].state.pos[0], O.forces.f(ids[1])[0]))
+)PY";
+
+std::string module_of(const ExportScene& scene) {
+  const auto& test = scene.card.test;
+  const auto& contact = test.contact;
+  const auto& bridge = contact.bridge;
+  const double radius = test.grains.radius_m;
+  const GrainPair pair{radius, radius, radius};
+  const auto gaps = bridge_gaps(contact, pair);
+  const PairConstants constants = grain_pair(contact, radius);
+  const bool rolls = contact.rolling == RollingModel::spring_dashpot;
+  const double lever = contact.rolling_friction * pair.effective_radius_m();
+  constexpr const char* kShapes[] = {"none", "polynomial", "linear", "exponential", "capillary"};
+
+  std::string out =
+      "\"\"\"" + scene.card.title + "\n\nWritten by " + program_identity() + " for Yade. SI units.\n\"\"\"\n";
+  out +=
+      "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
+  out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";
+  const auto number = [&](const char* name, double value) { out += format("%s = %.17g\n", name, value); };
+  out += format("SHAPE = '%s'\n", kShapes[static_cast<int>(bridge.shape)]);
+  number("RADIUS", radius);
+  number("A", bridge.a_n_m2);
+  number("B", bridge.b_n_m);
+  number("C", attraction_at_touch(bridge, radius));
+  number("LIQUID_VOLUME", bridge.liquid_volume_m3);
+  number("COHESION", attraction_n(contact, pair, 1e-12));
+  number("FORMATION_GAP", gaps.formation_m);
+  number("RUPTURE_GAP", gaps.rupture_m);
+  out += "# Young's modulus, Poisson's ratio, density, friction: grains, mould, table\n";
+  out += format("MATERIALS = [(%.17g, %.17g, %.17g, %.17g),\n", contact.youngs_modulus_pa, contact.poissons_ratio,
+                scene.grain_density_kg_m3, contact.friction);
+  for (const auto& [wall, end] : {std::pair{test.mould_wall, ","}, std::pair{test.table_wall, "]"}})
+    out += format("             (%.17g, %.17g, 2500, %.17g)%s\n", wall.youngs_modulus_pa, wall.poissons_ratio,
+                  wall.friction, end);
+  out += format("RESTITUTION = [%.17g, %.17g, %.17g]\n", contact.restitution, test.mould_wall.restitution,
+                test.table_wall.restitution);
+  out += format("FRICTION = [%.17g, %.17g, %.17g]\n", contact.friction, test.mould_wall.friction,
+                test.table_wall.friction);
+  out += "# rolling: stiffness over the shear stiffness [m^2], largest moment over the normal force [m]\n";
+  number("KROT", rolls ? 2.25 * lever * lever / constants.tangential_ratio : 0);
+  number("ETA", rolls ? lever : 0);
+  number("MOULD_BASE_RADIUS", test.mould.base_radius_m);
+  number("MOULD_TOP_RADIUS", test.mould.top_radius_m);
+  number("MOULD_HEIGHT", test.mould.height_m);
+  number("LIFT_VELOCITY", test.lift_velocity_m_s);
+  number("TIME_STEP", deck_time_step_s(scene));
+  number("REST_TIME", 2);
+  return out + kModule;
+}
+
+}  // namespace
+
+Result<Export> export_yade(const ExportScene& scene) {
+  const auto& test = scene.card.test;
+  const auto& contact = test.contact;
+  Faults faults;
+  if (contact.rolling == RollingModel::constant_torque)
+    faults.push_back({"test.contact.rolling", "is a constant torque, which Yade's Mindlin law lacks",
+                      "calibrate with rolling_model \"spring_dashpot\" or \"none\""});
+  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
+    if (wall.cohesion_factor > 0)
+      faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
+                        "is not 0, but the module attracts grains to grains only",
+                        "calibrate with " + std::string(name) + "_cohesion_factor 0"});
+  if (!faults.empty()) return faults;
+
+  Export out;
+  out.notes.push_back(
+      "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: the "
+      "law is the card's, but slow. It suits thousands of grains, not millions.");
+  const double radius = test.grains.radius_m, pull = attraction_n(contact, {radius, radius, radius}, 1e-12);
+  if (contact.friction_basis == FrictionBasis::total && pull > 0)
+    out.notes.push_back(
+        format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "
+               "attraction (%.3g N) presses together holds %.3g N in Yade, nothing on the card.",
+               pull, contact.friction * pull));
+  if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
+    out.notes.push_back(
+        "Rolling: the spring and the largest moment are those of two mean grains, on walls too; there is "
+        "no dashpot.");
+  if (test.drop) out.notes.push_back("The script runs step 1. The drop of the plate, step 2, is not part of it.");
+  out.files = {{"pastefit_material.py", module_of(scene)},
+               {"slump.py", kSlump},
+               {"two_grains.py", kTwoGrains},
+               grains_csv(scene)};
+  return out;
+}
+
+}  // namespace pastefit

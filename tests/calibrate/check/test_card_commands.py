@@ -1,0 +1,143 @@
+"""What a person does with a card on the command line: show, rescale, export, check.
+
+usage: test_card_commands.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as xml
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+CARD = SOURCE / "tests/calibrate/card/versions/card-2.json"
+TARGETS = ["lammps", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+class CardCommands(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-card-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def coarse(self, **changes):
+        """The card carried to grains of 11 mm, which take a moment to simulate, with a baseline of its own."""
+        file = self.folder / "coarse.json"
+        result = run("rescale", CARD, "--radius", "11", "--packings", "0", "--out", file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run("check", file, "--rebaseline", "--why", "coarse grains", "--packings", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        card = json.loads(file.read_text())
+        card.update(changes)
+        file.write_text(json.dumps(card))
+        return file
+
+    def fails(self, result, status, *words):
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_show_prints_the_card_of_every_version(self):
+        for file in sorted(CARD.parent.glob("*.json")):
+            result = run("show", file)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for words in ("Contact law in SI", "What the readings leave open", "Fitted in", "Baseline of checks"):
+                self.assertIn(words, result.stdout)
+
+    def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):
+        cut, newer, impossible, unit = (self.folder / name for name in ("cut", "newer", "impossible", "unit"))
+        text = CARD.read_text()
+        cut.write_text(text[: len(text) // 2])
+        newer.write_text(text.replace("pastefit-card-2", "pastefit-card-7"))
+        card = json.loads(text)
+        card["test"]["contact"]["bridge"]["b_n_m"] = -3
+        impossible.write_text(json.dumps(card))
+        card = json.loads(text)
+        card["test"]["grains"]["radius"] = card["test"]["grains"].pop("radius_m")
+        unit.write_text(json.dumps(card))
+        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m"}
+        out = self.folder / "out"
+        for file, word in words.items():
+            for verb in (["show", file], ["rescale", file, "--radius", "9", "--out", out],
+                         ["export", file, "--to", "lammps", "--out", out]):
+                self.fails(run(*verb), 2, word)
+            result = run("check", file)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(word, result.stdout)
+            self.assertFalse(out.exists())
+
+    def test_export_writes_every_target_whole_and_replaces_nothing(self):
+        for target in TARGETS:
+            out = self.folder / target
+            result = run("export", CARD, "--to", target, "--out", out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("NOTES.txt", result.stdout)
+            self.fails(run("export", CARD, "--to", target, "--out", out), 2, "earlier result")
+        self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_a_law_the_target_lacks_is_bad_input(self):
+        card = json.loads(CARD.read_text())
+        card["test"]["contact"]["rolling"] = "constant_torque"
+        file = self.folder / "card.json"
+        file.write_text(json.dumps(card))
+        self.fails(run("export", file, "--to", "lammps", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_rescale_measures_its_bias_and_the_new_card_is_a_card(self):
+        coarse, out = self.coarse(), self.folder / "coarser.json"
+        result = run("rescale", coarse, "--radius", "10", "--packings", "2", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("bias", result.stdout)
+        card = json.loads(out.read_text())
+        self.assertEqual(card["rescaled"][-1]["from_radius_m"], 0.011)
+        self.assertGreater(card["rescaled"][-1]["bias"]["step1.height_axis_mm"]["standard_error"], 0)
+        self.assertEqual(run("check", out, "--quick").returncode, 0)
+        self.fails(run("rescale", coarse, "--radius", "40"), 2, "radius")
+
+    def test_check_answers_by_status_text_json_and_junit(self):
+        card, report = self.coarse(), self.folder / "report.xml"
+        result = run("check", card, "--quick", "--json", "--junit", report)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        answer = json.loads(result.stdout)["cards"][0]
+        self.assertEqual((answer["verdict"], answer["bits"]), ("agrees", "same"))
+        self.assertEqual(xml.parse(report).getroot().get("failures"), "0")
+
+        changed = json.loads(card.read_text())
+        heights = changed["baseline"]["readings"]["step1.height_axis_mm"]
+        changed["baseline"]["readings"]["step1.height_axis_mm"] = [height + 1e-9 for height in heights]
+        card.write_text(json.dumps(changed))
+        result = run("check", card, "--quick", "--junit", report)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("same bits", result.stdout)
+        self.assertEqual(xml.parse(report).getroot().get("failures"), "1")
+        changed["baseline"]["program"] = "an older pastefit"
+        card.write_text(json.dumps(changed))
+        self.assertEqual(run("check", card, "--quick").returncode, 0)
+        self.assertEqual(run("check", card, "--quick", "--bits").returncode, 1)
+        self.assertEqual(run("check", card, self.folder / "missing.json", "--quick").returncode, 2)
+
+    def test_a_rebaseline_needs_a_reason_and_records_it(self):
+        card = self.coarse()
+        before = card.read_text()
+        self.fails(run("check", card, "--rebaseline"), 2, "--why")
+        self.assertEqual(card.read_text(), before)
+        self.assertEqual(json.loads(before)["rebaselined"][-1]["why"], "coarse grains")
+        self.assertIn("coarse grains", run("show", card).stdout)
+
+    def test_a_card_is_judged_by_a_laboratory(self):
+        card = self.coarse()
+        lab = SOURCE / "data/lab/concrete-mix-02.json"  # it stands; the card's material flows
+        result = run("check", card, "--against", lab)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.fails(run("check", card, "--against", self.folder / "none.json"), 2, "none.json")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/card/rescale.h"
+#include "calibrate/check/check.h"
+#include "calibrate/check/check_report.h"
+#include "calibrate/check/rescale_bias.h"
+#include "calibrate/check/statistics.h"
+#include "calibrate/study/parameters.h"
+#include "core/random.h"
+#include "tests/calibrate/check/spoiled_engine.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// A paste of 345 grains of 12 mm that slumps to a third of the mould, with both steps.
+Card coarse_card() {
+  Card card;
+  card.title = "Coarse paste";
+  auto values = usual_values();
+  const auto set = [&](std::string_view name, double value) {
+    const auto kinds = parameter_kinds();
+    values[std::ranges::find(kinds, name, &ParameterKind::name) - kinds.begin()] = value;
+  };
+  set("strength_pa", 1500);
+  set("rupture_gap_ratio", 0.6);
+  set("friction", 0.3);
+  set("rolling_friction", 0.02);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& kind = parameter_kinds()[i];
+    card.parameters.push_back({std::string(kind.name), false, values[i], 0, 0, kind.scale});
+  }
+  card.test.grains.radius_m = 0.012;
+  card.test.contact.friction_basis = FrictionBasis::total;
+  card.test.drop = DropPlate{};
+  card.test.lift_velocity_m_s = 0.2;
+  card.test = with_contact_of(card.test, values);
+  return card;
+}
+
+Card with_baseline(Card card, int packings) {
+  auto made = rebaselined(std::move(card), "first", packings, {});
+  INFO((made.ok() ? "" : made.faults()[0].what));
+  REQUIRE(made.ok());
+  return std::move(made).value();
+}
+
+/// Readings of the test that lie outside the band of the noise; the law, which has none, does not count.
+std::vector<std::string> caught_by_noise(const CardCheck& check) {
+  std::vector<std::string> names;
+  for (const auto& reading : check.readings)
+    if (!reading.agrees() && !reading.name.starts_with("law.")) names.push_back(reading.name);
+  return names;
+}
+
+bool law_agrees(const CardCheck& check) {
+  return std::ranges::all_of(check.readings,
+                             [](const auto& one) { return !one.name.starts_with("law.") || one.agrees(); });
+}
+
+/// A card that keeps two runs, and an engine whose answer is this height, at no cost.
+Card quick_card(std::vector<double> heights) {
+  Card card = coarse_card();
+  card.baseline.program = "here";
+  std::uint64_t packing = 10;
+  for (const double height : heights) {
+    Observables readings;
+    readings.set("step1.height_axis_mm", height);
+    card.baseline.runs.push_back({packing++, readings});
+  }
+  return card;
+}
+
+CheckEngine quick_engine(const std::string& program, std::vector<double> heights) {
+  CheckEngine engine;
+  engine.program = program;
+  engine.fill = [](const SlumpTable&, const RunOptions&) { return nullptr; };
+  engine.run = [heights](const SlumpTable& test, const RunOptions&) {
+    Outcome outcome;
+    outcome.observables.set("step1.height_axis_mm", heights.at(test.packing_seed - 10));
+    return outcome;
+  };
+  return engine;
+}
+
+}  // namespace
+
+TEST_CASE("the band is exceeded as often as it says when nothing has changed") {
+  const RandomStream noise(7, "check-noise");
+  constexpr int kTrials = 20'000, kBefore = 5, kNow = 2;
+  constexpr double kRate = 0.02;
+  int alarms = 0, unequal_alarms = 0;
+  std::uint64_t n = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> before, now, other;
+    for (int i = 0; i < kBefore; ++i) before.push_back(100 + 3 * noise.normal(n++));
+    for (int i = 0; i < kNow; ++i) now.push_back(100 + 3 * noise.normal(n++));
+    for (int i = 0; i < 2 * kBefore; ++i) other.push_back(100 + 9 * noise.normal(n++));
+    const auto first = sample_of(before), second = sample_of(now), third = sample_of(other);
+    alarms += std::abs(first.mean - second.mean) > band_of(first, second, kRate);
+    unequal_alarms += std::abs(first.mean - third.mean) > unequal_band_of(first, third, kRate);
+  }
+  CHECK(alarms == Approx(kRate * kTrials).margin(4 * std::sqrt(kRate * kTrials)));
+  CHECK(unequal_alarms == Approx(kRate * kTrials).margin(4 * std::sqrt(kRate * kTrials)));
+}
+
+TEST_CASE("readings without scatter may differ by rounding only") {
+  const Sample fixed{4, 12.5, 0};
+  CHECK(band_of(fixed, {4, 12.5 + 1e-10, 0}, 1e-3) > 1e-10);
+  CHECK(band_of(fixed, {4, 12.5, 0}, 1e-3) < 1e-6);
+}
+
+// With sanitizers, whose simulations take minutes, the rest of the tests has to do.
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction dropped, and a plate dropped twice") {
+  const Card card = with_baseline(coarse_card(), 24);
+  const auto engine = engine_of(card);
+  const CheckOptions options;
+
+  const auto stronger = check(card, options, with_stronger_bridges(engine, 1.2));
+  CHECK(stronger.verdict == CheckVerdict::disagrees);
+  CHECK_FALSE(caught_by_noise(stronger).empty());
+  CHECK_FALSE(law_agrees(stronger));
+
+  const auto slippery = check(card, options, without_friction(engine));
+  CHECK(slippery.verdict == CheckVerdict::disagrees);
+  CHECK(caught_by_noise(slippery).size() >= 3);
+  CHECK(law_agrees(slippery));
+
+  const auto twice = check(card, options, with_plate_dropped_twice(engine));
+  CHECK(twice.verdict == CheckVerdict::disagrees);
+  const auto caught = caught_by_noise(twice);
+  REQUIRE_FALSE(caught.empty());
+  for (const auto& name : caught) CHECK_THAT(name, Catch::StartsWith("step2."));
+}
+#endif
+
+TEST_CASE("any change at all is a change of bits, and the same program gives the same bits") {
+  const Card card = with_baseline(coarse_card(), 2);
+  const CheckOptions quick{.quick = true};
+  const auto same = check(card, quick);
+  CHECK(same.verdict == CheckVerdict::agrees);
+  CHECK(same.bits == SameBits::same);
+
+  auto spoiled = with_one_bit_changed(engine_of(card));
+  const auto changed = check(card, quick, spoiled);
+  CHECK(changed.bits == SameBits::other);
+  CHECK(changed.verdict == CheckVerdict::disagrees);
+  CHECK_THAT(changed.reason, Catch::Contains("same bits"));
+}
+
+TEST_CASE("another program may give other bits within the noise, unless bits are asked for") {
+  const Card card = quick_card({100, 104, 98, 102});
+  CHECK(check(card, {}, quick_engine("here", {100, 104, 98, 102})).verdict == CheckVerdict::agrees);
+  CHECK(check(card, {}, quick_engine("here", {100, 104, 98, 103})).verdict == CheckVerdict::disagrees);
+  CHECK(check(card, {}, quick_engine("elsewhere", {101, 103, 99, 103})).verdict == CheckVerdict::agrees);
+  CHECK(check(card, {}, quick_engine("elsewhere", {131, 133, 129, 133})).verdict == CheckVerdict::disagrees);
+  const CheckOptions bits{.bits = true};
+  CHECK(check(card, bits, quick_engine("elsewhere", {101, 103, 99, 103})).verdict == CheckVerdict::disagrees);
+}
+
+TEST_CASE("a card without single runs is checked by mean and deviation, one without noise not at all") {
+  Card card = quick_card({});
+  card.confirmation.packings = {10, 11, 12, 13};
+  card.observables = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
+  const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
+  const auto checked = check(card, {}, engine);
+  CHECK(checked.verdict == CheckVerdict::agrees);
+  CHECK(checked.bits == SameBits::not_comparable);
+  card.confirmation.packings = {10};
+  CHECK(check(card, {}, engine).verdict == CheckVerdict::not_checked);
+}
+
+TEST_CASE("a simulation that fails is a disagreement that names packing and reason") {
+  const Card card = quick_card({100, 104});
+  auto engine = quick_engine("elsewhere", {100, 104});
+  engine.run = [](const SlumpTable& test, const RunOptions&) {
+    Outcome outcome;
+    if (test.packing_seed == 11) {
+      outcome.failure = Failure{};
+      outcome.failure->message = "It burst.";
+    }
+    outcome.observables.set("step1.height_axis_mm", 100);
+    return outcome;
+  };
+  const auto checked = check(card, {}, engine);
+  CHECK(checked.verdict == CheckVerdict::disagrees);
+  CHECK_THAT(checked.reason, Catch::Contains("Packing 11") && Catch::Contains("It burst."));
+}
+
+TEST_CASE("a new baseline keeps the packings, adds fresh ones, and records why and what moved") {
+  Card card = quick_card({100, 104});
+  card.search.packings = {1, 2};
+  CheckEngine engine = quick_engine("there", {});
+  engine.run = [](const SlumpTable& test, const RunOptions&) {
+    Outcome outcome;
+    outcome.observables.set("step1.height_axis_mm", 110 + 0.1 * static_cast<double>(test.packing_seed));
+    return outcome;
+  };
+  const auto made = rebaselined(card, "the plate was mended", 4, {}, engine);
+  REQUIRE(made.ok());
+  const auto& baseline = made.value().baseline;
+  REQUIRE(baseline.runs.size() == 4);
+  CHECK(baseline.runs[0].packing == 10);
+  CHECK(baseline.runs[2].packing == 3);
+  CHECK(baseline.program == "there");
+  const auto& change = made.value().rebaselined.at(0);
+  CHECK(change.why == "the plate was mended");
+  CHECK(change.program_before == "here");
+  CHECK(change.moved.at(0).before == Approx(102));
+  CHECK(change.moved.at(0).after == Approx(110.7));
+}
+
+TEST_CASE("an old card is judged by new laboratory data within the noise of both") {
+  Card card = quick_card({100, 104, 98, 102});
+  const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
+  Lab lab;
+  lab.test = card.test;
+  lab.measurements = {{"step1.height_axis_mm", 104, 4, 3}};
+  CHECK(check_against(card, lab, {}, engine).verdict == CheckVerdict::agrees);
+  lab.measurements[0].value = 180;
+  const auto checked = check_against(card, lab, {}, engine);
+  CHECK(checked.verdict == CheckVerdict::disagrees);
+  CHECK(checked.readings.at(0).expected == 180);
+  lab.test.mould = {0.02, 0.01, 0.03};
+  CHECK(check_against(card, lab, {}, engine).verdict == CheckVerdict::not_checked);
+}
+
+TEST_CASE("the bias of another grain size is measured, with its error") {
+  const Card before = quick_card({100, 104});
+  const auto after = rescaled(before, 0.006);
+  REQUIRE(after.ok());
+  CheckEngine engine = quick_engine("here", {});
+  engine.run = [](const SlumpTable& test, const RunOptions&) {
+    Outcome outcome;
+    outcome.observables.set("step1.height_axis_mm",
+                            1e4 * test.grains.radius_m + static_cast<double>(test.packing_seed % 2));
+    return outcome;
+  };
+  const auto measured = with_measured_bias(before, after.value(), 4, {}, engine);
+  REQUIRE(measured.ok());
+  const auto& bias = measured.value().rescaled.back().bias.at(0);
+  CHECK(bias.after - bias.before == Approx(-60));
+  CHECK(bias.standard_error == Approx(std::sqrt(2 * (1.0 / 3) / 4)));
+  CHECK(measured.value().baseline.runs.size() == 4);
+}
+
+TEST_CASE("the answers are text, JSON and JUnit, with what a card is called escaped") {
+  CardCheck good, bad, unread;
+  good.card = "good";
+  good.verdict = CheckVerdict::agrees;
+  bad.card = "bad";
+  bad.verdict = CheckVerdict::disagrees;
+  bad.reason = "3 < 5 & \"so\"";
+  bad.readings = {{"step1.height_axis_mm", 100, 120, 5, 4, 4}};
+  unread.reason = "there is no such file";
+  const std::vector<CheckedFile> all{{"a.json", good}, {"b<.json", bad}, {"c.json", unread}};
+  const auto json = to_json(all);
+  CHECK(json["agree"] == 1);
+  CHECK(json["disagree"] == 1);
+  CHECK(json["not_checked"] == 1);
+  CHECK_FALSE(json["cards"][1]["readings"]["step1.height_axis_mm"]["agrees"].get<bool>());
+  const auto xml = junit_of(all);
+  CHECK_THAT(xml, Catch::Contains("tests=\"3\" failures=\"1\" errors=\"1\"") && Catch::Contains("b&lt;.json") &&
+                      Catch::Contains("3 &lt; 5 &amp; &quot;so&quot;") && Catch::Contains("<error"));
+  CHECK_THAT(text_of(all[1]), Catch::Contains("outside") && Catch::Contains("disagrees"));
+}

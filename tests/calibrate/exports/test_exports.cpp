@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "calibrate/exports/export.h"
+#include "calibrate/exports/force_curve.h"
+#include "calibrate/exports/soulie.h"
+#include "calibrate/study/parameters.h"
+#include "core/laws/attraction.h"
+#include "core/laws/constants.h"
+
+using namespace pastefit;
+
+namespace {
+
+constexpr double kRadius = 0.008;
+constexpr GrainPair kPair{kRadius, kRadius, kRadius};
+
+Card card() {
+  Card out;
+  out.title = "Paste";
+  auto values = usual_values();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out.parameters.push_back({std::string(parameter_kinds()[i].name), false, values[i], 0, 0, Scale::linear});
+  out.test.grains.radius_m = kRadius;
+  out.test = with_contact_of(out.test, values);
+  return out;
+}
+
+/// A mould with three grains in it: exporters do not care how it was filled.
+ExportScene scene(const Card& material) {
+  ExportScene out;
+  out.card = material;
+  out.packing.centres = {{0, 0, kRadius}, {0.05, 0, kRadius}, {0, 0.05, 0.1}};
+  out.packing.radii.assign(3, kRadius);
+  out.grain_density_kg_m3 = 3800;
+  out.sizes = size_classes(out.packing.radii);
+  return out;
+}
+
+std::string text_of(const Export& written) {
+  std::string text;
+  for (const auto& file : written.files) text += file.content;
+  for (const auto& note : written.notes) text += note + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the curve that is exported is the one the engine acts by, for every shape") {
+  ContactModel contact = card().test.contact;
+  auto& bridge = contact.bridge;
+  bridge.a_n_m2 = 2000;
+  bridge.b_n_m = 40;
+  bridge.liquid_volume_m3 = 1e-9;
+  bridge.surface_tension_n_m = 3;
+  const GrainPair uneven{0.006, 0.010, kRadius};
+  const double s = uneven.size_scale();
+  const auto compare = [&](auto law) {
+    const auto constants = grain_pair(contact, kRadius);
+    for (const double share : {0.0, 0.3, 0.7, 0.999}) {
+      const double d = -share * s * constants.rupture_gap;
+      CHECK(attraction_n(contact, uneven, d) == Approx(law(constants, d)).epsilon(1e-12));
+    }
+    CHECK(attraction_n(contact, uneven, -1.001 * s * constants.rupture_gap) == 0);
+    CHECK(attraction_n(contact, uneven, 1e-5) == Approx(s * s * constants.cohesion));
+  };
+  bridge.shape = BridgeShape::polynomial;
+  compare([&](const auto& k, double d) { return PolynomialAttraction::at<double>(k, d, s).force; });
+  bridge.shape = BridgeShape::linear;
+  compare([&](const auto& k, double d) { return PolynomialAttraction::at<double>(k, d, s).force; });
+  bridge.shape = BridgeShape::exponential;
+  compare([&](const auto& k, double d) { return ExponentialAttraction::at<double>(k, d, s).force; });
+  bridge.shape = BridgeShape::capillary;
+  compare([&](const auto& k, double d) { return CapillaryAttraction::at<double>(k, d, s).force; });
+}
+
+TEST_CASE("the work of a bridge is the integral of its force") {
+  const auto contact = card().test.contact;
+  const auto& b = contact.bridge;
+  const double closed = -(b.a_n_m2 * std::pow(b.d_c_m, 3) / 3 + b.b_n_m * b.d_c_m * b.d_c_m / 2 + b.c_n * b.d_c_m);
+  CHECK(bridge_work_j(contact, kPair, 0, -b.d_c_m) == Approx(closed).epsilon(1e-9));
+}
+
+TEST_CASE("a force table has a row at rupture and one at touch") {
+  const auto contact = card().test.contact;
+  const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);
+  CHECK(table.size() == 2001);
+  CHECK(table[0].overlap_m == contact.bridge.d_c_m);
+  CHECK(std::ranges::count(table, 0.0, &ForcePoint::overlap_m) == 1);
+  CHECK(table.back().overlap_m >= 0.0999 * kRadius);
+}
+
+TEST_CASE("classes keep the volume of the grains, and one size stays as it is") {
+  const std::vector<double> same(5, kRadius);
+  CHECK(size_classes(same).radii_m == std::vector<double>{kRadius});
+  CHECK(size_classes(same).largest_change == 0);
+  std::vector<double> radii;
+  for (int i = 0; i < 100; ++i) radii.push_back(0.004 + 0.00006 * i);
+  const auto classes = size_classes(radii, 6);
+  CHECK(classes.radii_m.size() == 6);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    before += std::pow(radii[i], 3);
+    after += std::pow(classes.radii_m.at(classes.class_of[i]), 3);
+  }
+  CHECK(after == Approx(before));
+  CHECK(classes.largest_change < 0.13);
+}
+
+TEST_CASE("every exporter writes files, and says what it loses") {
+  for (const auto& exporter : exporters()) {
+    INFO(exporter.name);
+    const auto written = exporter.write(scene(card()));
+    REQUIRE(written.ok());
+    CHECK(written.value().files.size() >= 3);
+    CHECK_FALSE(written.value().notes.empty());
+    const auto text = text_of(written.value());
+    CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf ") && !Catch::Contains("inf\n"));
+  }
+}
+
+TEST_CASE("what LAMMPS cannot represent is said with a number") {
+  Card material = card();
+  material.test.contact.bridge.offset_m = 0.1 * -material.test.contact.bridge.d_c_m;
+  material.test.contact.friction_basis = FrictionBasis::total;
+  const auto written = export_lammps(scene(material));
+  REQUIRE(written.ok());
+  const auto text = text_of(written.value());
+  // c (1 - gap/reach): from 0.2 of the reach on, 64 % of the work
+  CHECK_THAT(text, Catch::Contains("no memory") && Catch::Contains("64.0 % of the work"));
+  CHECK_THAT(text, Catch::Contains("friction is of the total normal force"));
+  material.test.contact.bridge.offset_m = -material.test.contact.bridge.d_c_m;
+  CHECK_THAT(text_of(export_lammps(scene(material)).value()), !Catch::Contains("no memory"));
+}
+
+TEST_CASE("a law the target lacks is refused, with a remedy") {
+  Card material = card();
+  material.test.contact.rolling = RollingModel::constant_torque;
+  material.test.table_wall.cohesion_factor = 0.5;
+  for (const auto write : {&export_lammps, &export_yade}) {
+    const auto written = write(scene(material));
+    REQUIRE_FALSE(written.ok());
+    CHECK(written.faults().size() == 2);
+  }
+  CHECK(export_liggghts(scene(material)).ok());
+}
+
+TEST_CASE("sizes become types in LAMMPS, each pair with its own table") {
+  auto several = scene(card());
+  several.packing.radii = {0.006, 0.008, 0.010};
+  several.sizes = size_classes(several.packing.radii);
+  const auto written = export_lammps(several);
+  REQUIRE(written.ok());
+  const auto text = text_of(written.value());
+  CHECK_THAT(text,
+             Catch::Contains("3 atom types") && Catch::Contains("ATTRACTION_1_1") && Catch::Contains("ATTRACTION_2_3"));
+}
+
+TEST_CASE("LIGGGHTS's bridge is fitted: a bridge of its own kind is found again") {
+  const SoulieBridge truth{kRadius, std::pow(0.4 * kRadius, 3), 2.5};
+  // Its curve as a polynomial of second degree through touch, middle and rupture.
+  ContactModel contact = card().test.contact;
+  const double reach = truth.rupture_gap_m();
+  const double f0 = truth.force_n(0), f1 = truth.force_n(0.5 * reach), f2 = truth.force_n(reach * (1 - 1e-9));
+  contact.bridge.c_n = f0;
+  contact.bridge.d_c_m = -reach;
+  contact.bridge.a_n_m2 = 2 * (f0 - 2 * f1 + f2) / (reach * reach);
+  contact.bridge.b_n_m = (3 * f0 - 4 * f1 + f2) / reach;
+  const auto fit = fit_soulie(contact, kRadius);
+  CHECK(fit.bridge.rupture_gap_m() == Approx(reach).epsilon(0.01));
+  CHECK(fit.bridge.surface_tension_n_m == Approx(2.5).epsilon(0.03));
+  CHECK(fit.difference.largest < 0.05);
+}

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Force of two grains against their distance, measured in another program with the deck that was exported for it,
+against the card's law.
+
+usage: two_grains.py PASTEFIT CARD lammps|liggghts|yade
+
+The program has to give the card's curve to 1e-6 of its peak. LIGGGHTS, whose nearest law is another one, has to give
+the curve that the export says it will, to 1e-6 of the peak; the difference to the card is reported.
+Exit status 77, and "skipped: ... is not installed", where the program is missing.
+"""
+
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIP, TOLERANCE = 77, 1e-6
+COMMANDS = {"lammps": ["lmp", "-in", "in.two_grains", "-log", "none"],
+            "liggghts": ["liggghts", "-in", "in.two_grains", "-log", "none"],
+            "yade": ["yade", "-n", "-x", "two_grains.py"]}
+
+
+def card_force(test, distance):
+    """Force that pushes two grains of the mean radius apart, by the card's numbers."""
+    contact, radius = test["contact"], test["grains"]["radius_m"]
+    bridge = contact["bridge"]
+    overlap = 2 * radius - distance
+    if overlap > 0:
+        modulus = contact["youngs_modulus_pa"] / (2 * (1 - contact["poissons_ratio"] ** 2))
+        cohesion = bridge["c_n"] if contact["cohesion_n"] is None else contact["cohesion_n"]
+        return 4 / 3 * modulus * math.sqrt(radius / 2) * overlap ** 1.5 - cohesion
+    if overlap < bridge["d_c_m"]:
+        return 0.0
+    return -((bridge["a_n_m2"] * overlap + bridge["b_n_m"]) * overlap + bridge["c_n"])
+
+
+def liggghts_force(test, fit, distance):
+    """The same with the bridge of Soulie et al. (2006) that the export names, at contact angle 0."""
+    radius = test["grains"]["radius_m"]
+    repulsion = card_force(test, distance) + fit["cohesion"] if distance < 2 * radius else 0.0
+    gap = max(distance - 2 * radius, 0.0)
+    if gap >= fit["volume"] ** (1 / 3):
+        return 0.0
+    v = fit["volume"] / radius ** 3
+    bridge = math.exp(-1.1 * v ** -0.53 * gap / radius + 0.48 - 0.0082 * math.log(v)) + 0.078 + 0.0018 * math.log(v)
+    return repulsion - math.pi * fit["tension"] * radius * bridge
+
+
+def fit_of(deck, test):
+    """Volume and tension as the deck gives them to LIGGGHTS."""
+    value = {}
+    for line in deck.read_text().splitlines():
+        words = line.split()
+        if len(words) == 7 and words[3] == "property/global" and words[5] == "scalar":
+            value[words[4]] = float(words[6])
+    radius, contact = test["grains"]["radius_m"], test["contact"]
+    grain = 4 / 3 * math.pi * radius ** 3
+    cohesion = contact["bridge"]["c_n"] if contact["cohesion_n"] is None else contact["cohesion_n"]
+    return {"volume": value["surfaceLiquidContentInitial"] * grain * (1 - math.sqrt(0.75)),
+            "tension": value["surfaceTension"], "cohesion": cohesion}
+
+
+def main(program, card_file, target):
+    command = COMMANDS[target]
+    if not shutil.which(command[0]):
+        print(f"skipped: {target} is not installed")
+        return SKIP
+    test = json.loads(pathlib.Path(card_file).read_text())["test"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        subprocess.run([program, "export", card_file, "--to", target, "--out", folder / "deck"], check=True,
+                       stdout=subprocess.DEVNULL)
+        run = subprocess.run(command, cwd=folder / "deck", capture_output=True, text=True, timeout=300)
+        points = [tuple(map(float, line.split()[1:])) for line in run.stdout.splitlines() if line.startswith("pair ")]
+        if len(points) < 200:
+            print(run.stdout[-2000:], run.stderr[-2000:])
+            return 1
+        fit = fit_of(folder / "deck" / "in.two_grains", test) if target == "liggghts" else None
+    peak = test["contact"]["bridge"]["c_n"]
+    expected = (lambda r: liggghts_force(test, fit, r)) if fit else (lambda r: card_force(test, r))
+    worst = max(abs(force - expected(distance)) / peak for distance, force in points)
+    radius = test["grains"]["radius_m"]
+    apart = max(abs(force - card_force(test, distance)) / peak for distance, force in points if distance > 2 * radius)
+    inside = [distance for distance, _ in points if distance < 2 * radius]
+    beyond = [distance for distance, force in points if force == 0]
+    print(f"{target}: {len(points)} distances, {len(inside)} in overlap, {len(beyond)} beyond rupture; largest error "
+          f"{worst:.1e} of the peak of {peak:.4g} N; across a gap {apart:.2g} of the peak from the card")
+    return 0 if worst < TOLERANCE and inside and beyond else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
