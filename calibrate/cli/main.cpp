@@ -6,6 +6,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/json_reader.h"
+#include "core/step/kernels.h"
 
 namespace pastefit {
 
@@ -18,9 +19,17 @@ int report(const Faults& faults, int status) {
 
 namespace {
 
+/// Which contact kernels this processor runs.
+std::string kernels_note() {
+  const std::string_view set = kernels_of_this_processor().instruction_set;
+  const bool plain = set == sse2::kernels.instruction_set;
+  return "contact kernels: " + std::string(set) +
+         (plain ? " (this processor lacks AVX2: slower, and other last bits than with AVX2 or AVX-512)" : "");
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
-  program.set_version_flag("--version", "pastefit " + program_version());
+  program.set_version_flag("--version", "pastefit " + program_version() + "\n" + kernels_note());
   program.require_subcommand(1);
   program.fallthrough(false);
 

@@ -132,16 +132,24 @@ double gentle_speed(const World& world) {
   return std::sqrt(std::pow(kGentle, 2.5) * 0.8 / std::numbers::pi * modulus / world.particles.density_kg_m3);
 }
 
-/// Soft grains would crush each other where they fall from high above: they sink as in a liquid instead.
+/// The grains fall freely. Soft ones that crush each other are poured once more and sink as in a liquid, at the gentle
+/// speed; not all of them, because that leaves a looser fill (0.59 instead of 0.62), and a looser fill stands 20 mm
+/// higher.
 void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packing) {
   const double top = top_of(packing);
+  const auto fall = [&](World& world, double longest) {
+    Runner runner(world, options);
+    packing.failure = runner.settle("fill.pour", longest);
+    add_work(packing, runner.summary());
+  };
   World world = filling_world(test, packing, top);
-  const double gentle = gentle_speed(world);
-  const bool crushing = 2 * kGravity * top > gentle * gentle;
-  if (crushing) world.drag = kGravity / gentle;
-  Runner runner(world, options);
-  packing.failure = runner.settle("fill.pour", kFillCap + (crushing ? top / gentle : 0.0));
-  add_work(packing, runner.summary());
+  fall(world, kFillCap);
+  if (packing.failure && packing.failure->reason == FailureReason::excessive_overlap) {
+    world = filling_world(test, packing, top);
+    const double speed = gentle_speed(world);
+    world.drag = kGravity / speed;
+    fall(world, kFillCap + top / speed);
+  }
   take_grains(world, packing);
 }
 

@@ -58,7 +58,7 @@ class CommandLine(unittest.TestCase):
     # what every command line has
 
     def test_help_and_version_are_answered(self):
-        self.assertRegex(run("--version").stdout, r"^pastefit \d+\.\d+\.\d+\n$")
+        self.assertRegex(run("--version").stdout, r"^pastefit \d+\.\d+\.\d+\ncontact kernels: (AVX-512|AVX2|SSE2.*)\n$")
         for arguments in (["--help"], ["calibrate", "--help"], ["simulate", "--help"], ["template", "--help"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 0)
