@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   std::string ladder, csv_path, svg_path;
   CLI::App app{"Error of h1, h2, sag and spread of the slump test against run time."};
   app.add_flag("--quick", quick, "few coarse settings, to see that the program works");
-  app.add_option("--ladder", ladder, "measure this one only")->check(CLI::IsMember({"step", "grains"}));
+  app.add_option("--ladder", ladder, "measure this one only")->check(CLI::IsMember({"step", "shortcuts", "grains"}));
   app.add_option("--csv", csv_path, "file for one row per run; settings that it has already are not run again");
   app.add_option("--svg", svg_path, "file for the figure");
   CLI11_PARSE(app, argc, argv);

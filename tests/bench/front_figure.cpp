@@ -89,12 +89,12 @@ class Panel {
 }  // namespace
 
 void write_figure(std::ostream& out, const std::vector<Row>& rows, std::size_t reading) {
-  out << "<svg xmlns='http://www.w3.org/2000/svg' width='" << 2 * kWidth << "' height='" << 2 * kHeight
+  out << "<svg xmlns='http://www.w3.org/2000/svg' width='" << 3 * kWidth << "' height='" << 2 * kHeight
       << "' font-family='sans-serif' font-size='11'>\n<rect width='100%' height='100%' fill='white'/>\n";
   double top = 0;
   for (const char* scene : {"dry", "cohesive"}) {
     double left = 0;
-    for (const char* ladder : {"step", "grains"}) {
+    for (const char* ladder : {"step", "shortcuts", "grains"}) {
       std::vector<const Row*> chosen;
       for (const Row& row : rows)
         if (row.setting.scene == scene && row.setting.ladder == ladder &&

@@ -110,6 +110,25 @@ std::vector<Setting> ladders(bool quick) {
     all.push_back({scene, "step", "fixed, 2 x advised", radius, 2.0, packings});
     if (!quick) all.push_back({scene, "step", "fixed, 4 x advised", radius, 4.0, packings});
   }
+  StepOptions fine, coarse;
+  fine.impact_resolution = 40;
+  fine.safety = 0.4;
+  coarse.impact_resolution = 9;
+  const auto rest = [](double times) {
+    RestCriterion criterion;
+    criterion.speed_over_fall *= times;
+    criterion.change_over_radius *= times;
+    return criterion;
+  };
+  for (const char* scene : {"dry", "cohesive"}) {
+    if (quick) break;
+    all.push_back(
+        {scene, "shortcuts", "40 steps an impact, rest at a fifth", radius, {}, packings, true, fine, rest(0.2)});
+    all.push_back({scene, "shortcuts", "rest at a third", radius, {}, packings, false, {}, rest(1.0 / 3)});
+    all.push_back({scene, "shortcuts", "the defaults", radius, {}, packings});
+    all.push_back({scene, "shortcuts", "rest at three times", radius, {}, packings, false, {}, rest(3)});
+    all.push_back({scene, "shortcuts", "9 steps an impact", radius, {}, packings, false, coarse, {}});
+  }
   // From coarse to fine, so that a run cut short has what is cheap. The finest is the reference.
   for (const Size& size : sizes)
     for (const char* scene : {"dry", "cohesive"})
@@ -129,7 +148,9 @@ Row measure(const Setting& setting, Fills& fills) {
     if (!fill) fill = fill_mould(test);
     options.packing = fill;
     if (setting.step_share && !fixed_step) fixed_step = *setting.step_share * advised_step(test, options);
+    options.steps = setting.steps;
     options.steps.fixed_step_s = fixed_step;
+    options.rest = setting.rest;
     const double start = cpu_seconds();
     const Outcome outcome = simulate(test, options);
     run.cpu_s = cpu_seconds() - start;

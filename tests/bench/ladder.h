@@ -20,12 +20,14 @@ using Readings = std::array<double, kReadings.size()>;
 /// What is varied: one row of a ladder.
 struct Setting {
   std::string scene;   ///< "dry" or "cohesive"
-  std::string ladder;  ///< "step" or "grains"
+  std::string ladder;  ///< "step", "shortcuts" or "grains"
   std::string name;
   double radius_m = 0.008;
   std::optional<double> step_share;  ///< fixed step over the smallest that the scene asks for; empty: the engine's own
   int packings = 4;
   bool reference = false;  ///< the rows of the same scene and ladder are compared with it
+  StepOptions steps = {};
+  RestCriterion rest = {};
 };
 
 /// One run of a setting.
