@@ -17,6 +17,7 @@ constexpr double kSolidFraction = 0.62;
 constexpr double kPackingFriction = 0.5;  // a looser fill than a rodded one: a dense one is brittle (see README)
 constexpr double kLidSpeed = 0.2;         // [m/s]
 constexpr double kFillCap = 4.0;          // [s]
+constexpr double kScoopSpeed = 1.0;       // [m/s]
 constexpr double kGentle = 0.2;           // deepest overlap of a falling grain, over its radius
 constexpr double kEmptiest = 0.45;        // solid fraction below which the fill has a hole
 
@@ -125,31 +126,25 @@ void add_work(Packing& packing, const RunSummary& run) {
   packing.run.simulated_s += run.simulated_s;
 }
 
-/// Speed at which a grain that hits a plane of its own kind is pressed in by `kGentle` of its radius (Hertz): the same
-/// for all sizes.
-double gentle_speed(const World& world) {
+/// Speed at which grains sink while they are poured: as a scoop lets them down, but no faster than presses a grain that
+/// hits a plane of its own kind in by `kGentle` of its radius (Hertz; the same for all sizes).
+double pouring_speed(const World& world) {
   const double modulus = 0.5 * world.grain_pair.normal_stiffness;
-  return std::sqrt(std::pow(kGentle, 2.5) * 0.8 / std::numbers::pi * modulus / world.particles.density_kg_m3);
+  const double harmless =
+      std::sqrt(std::pow(kGentle, 2.5) * 0.8 / std::numbers::pi * modulus / world.particles.density_kg_m3);
+  return std::min(kScoopSpeed, harmless);
 }
 
-/// The grains fall freely. Soft ones that crush each other are poured once more and sink as in a liquid, at the gentle
-/// speed; not all of them, because that leaves a looser fill (0.59 instead of 0.62), and a looser fill stands 20 mm
-/// higher.
+/// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
+/// 0.59: a weak paste then stands 20 mm lower (see README).
 void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packing) {
   const double top = top_of(packing);
-  const auto fall = [&](World& world, double longest) {
-    Runner runner(world, options);
-    packing.failure = runner.settle("fill.pour", longest);
-    add_work(packing, runner.summary());
-  };
   World world = filling_world(test, packing, top);
-  fall(world, kFillCap);
-  if (packing.failure && packing.failure->reason == FailureReason::excessive_overlap) {
-    world = filling_world(test, packing, top);
-    const double speed = gentle_speed(world);
-    world.drag = kGravity / speed;
-    fall(world, kFillCap + top / speed);
-  }
+  const double speed = pouring_speed(world);
+  world.drag = kGravity / speed;
+  Runner runner(world, options);
+  packing.failure = runner.settle("fill.pour", kFillCap + top / speed);
+  add_work(packing, runner.summary());
   take_grains(world, packing);
 }
 
