@@ -90,7 +90,7 @@ class Search {
   /// The candidate on the common packings that is likely to be best. The one that reads best is often the luckiest;
   /// what its neighbours read, all of them on packings of their own luck, tells them apart.
   Response likely_best() const {
-    const Response reads_best = ledger_.best_on(common_).value();
+    Response reads_best = ledger_.best_on(common_).value();
     if (noise() == 0) return reads_best;
     Surrogate surrogate(ledger_.singles());
     Response best;
