@@ -11,15 +11,7 @@ Result<Card> rescaled(Card card, double radius) {
   grains.standard_deviation_m *= s;
   grains.smallest_m *= s;
   grains.largest_m *= s;
-
-  Bridge& bridge = card.test.contact.bridge;
-  bridge.b_n_m *= s;
-  bridge.c_n *= s * s;
-  bridge.d_c_m *= s;
-  bridge.offset_m *= s;
-  bridge.liquid_volume_m3 *= s * s * s;
-  bridge.surface_tension_n_m *= s;
-  if (auto& cohesion = card.test.contact.cohesion_n) *cohesion *= s * s;
+  card.test.contact = enlarged(card.test.contact, s);
 
   if (auto faults = validate(card.test); !faults.empty()) return faults;
   card.observables.clear();

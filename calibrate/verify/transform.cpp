@@ -54,17 +54,9 @@ Shape shape_of(const Shape& shape, Transform transform) {
                longer * shell.height};
 }
 
-/// Forces go with the square of the length, the bridge's b with the length, its a not at all.
 void lengthen(Impact& test) {
   const double k = kLonger;
-  Bridge& bridge = test.contact.bridge;
-  bridge.b_n_m *= k;
-  bridge.c_n *= k * k;
-  bridge.d_c_m *= k;
-  bridge.offset_m *= k;
-  bridge.liquid_volume_m3 *= k * k * k;
-  bridge.surface_tension_n_m *= k;
-  if (test.contact.cohesion_n) *test.contact.cohesion_n *= k * k;
+  test.contact = enlarged(test.contact, k);
   test.reference_radius_m *= k;
   test.gravity_m_s2 /= k;
   test.duration_s *= k;

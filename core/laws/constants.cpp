@@ -20,6 +20,7 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
   pair.root_normal_stiffness = std::sqrt(pair.normal_stiffness);
   pair.tangential_ratio = 4 * g_star / e_star;
   pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
+  pair.lost_share = 1 - restitution * restitution;
   pair.tangential_damping = pair.damping * std::sqrt(pair.tangential_ratio);
   pair.largest_damping = std::max(pair.damping, kSurfaceLightness * pair.tangential_damping);
 }

@@ -17,6 +17,7 @@ struct PairConstants {
   double damping = 0;                ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
   double tangential_damping = 0;     ///< the same times sqrt(S_t / S_n)
   double largest_damping = 0;        ///< the larger of the normal and 3.5 times the tangential
+  double lost_share = 0;             ///< 1 - e^2: of its energy, in a head-on collision
   double friction = 0;               ///< Coulomb coefficient
   bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
   double rolling_friction = 0;       ///< mu_r

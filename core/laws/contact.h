@@ -124,8 +124,8 @@ struct ConstantTorqueRolling {
 /// no energy and unloading releases the tangential force with the area, as in Mindlin and Deresiewicz's full theory
 /// (Thornton et al. 2013); a spring that keeps its slip gains energy in every rebound.
 ///
-/// Square roots and divisions are what this function costs: there are five of the one and three of the other; what can
-/// be divided together is.
+/// Square roots and divisions are what this function costs most: two roots and one division, and a root and a division
+/// more for each of sliding and rolling where a contact of the batch yields; what can be divided together is.
 template <class Attraction, class Rolling, class Real>
 PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt,
                                  bool with_stored) {

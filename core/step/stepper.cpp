@@ -147,7 +147,6 @@ std::optional<Failure> Stepper::maintain_lists() {
   for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), leeway_, wall_leeway_);
   strayed_ = false;
   wall_moved_ = 0;
-  health_ = {fastest_, deepest.overlap, deepest.grain};
   if (deepest.overlap > options_.overlap_limit)
     return failure(FailureReason::excessive_overlap, particles.identity[deepest.grain], deepest.overlap,
                    options_.overlap_limit,

@@ -11,14 +11,7 @@
 
 namespace pastefit {
 
-/// What the last steps showed; renewed at every selection of contacts.
-struct Health {
-  double fastest = 0;  ///< [m/s]
-  double deepest = 0;  ///< overlap over the smaller radius
-  std::int32_t deepest_grain = -1;
-};
-
-/// Carries a world through time: lists, forces, integration, step size, health.
+/// Carries a world through time: lists, forces, integration, step size, failures.
 ///
 /// Leapfrog: velocities live half a step before positions; the first step is a half kick. Work that is not needed in
 /// every step is done when a bound on what can have moved is used up: contacts are selected from the candidates, and
@@ -37,7 +30,6 @@ class Stepper {
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
-  const Health& health() const { return health_; }
   /// As of the last step that was a multiple of `kLedgerInterval`.
   const Ledger& ledger() const { return ledger_; }
   static constexpr std::int64_t kLedgerInterval = 32;
@@ -69,7 +61,6 @@ class Stepper {
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
   TimeStep time_step_;
-  Health health_;
   EnergySums energy_;
   Ledger ledger_;
   bool looked_ = false;  ///< the ledger has its start

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pastefit {
 
@@ -13,14 +12,7 @@ constexpr double kLeastLoss = 0.3;    // share of a collision's energy beyond wh
 constexpr double kFastCrossing = 10;  // over the speed a bridge can give
 constexpr double kLevelsPerOctave = 16;
 
-/// Share of its energy that a head-on collision of this pair loses: 1 - e^2.
-double lost_share(const PairConstants& pair) {
-  const double beta = pair.damping / (2 * std::sqrt(5.0 / 6.0));
-  const double restitution = std::exp(-std::numbers::pi * beta / std::sqrt(std::max(1 - beta * beta, 1e-12)));
-  return 1 - restitution * restitution;
-}
-
-/// The level at or below a step. The last bits of pow and exp differ between processors; levels do not.
+/// The level at or below a step. The last bits of pow differ between processors; levels do not.
 double level_below(double step) {
   int octave = 0;
   const double mantissa = std::frexp(step, &octave);
@@ -35,8 +27,8 @@ double stability_limit(const World& world) {
 }
 
 double impact_limit(const World& world, const Pace& pace) {
-  double loss = lost_share(world.grain_pair);
-  for (const Wall& wall : world.walls) loss = std::min(loss, lost_share(wall.pair));
+  double loss = world.grain_pair.lost_share;
+  for (const Wall& wall : world.walls) loss = std::min(loss, wall.pair.lost_share);
   const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
   const double modulus = 0.5 * world.grain_pair.normal_stiffness;
   const double speed = std::max(pace.fastest, kSlowest);

@@ -191,7 +191,8 @@ void set_leeway(const Particles& particles, const Candidates& candidates, double
                 Leeway& leeway) {
   const std::int32_t n = particles.count();
   leeway.from.resize(n);
-  std::vector<double> own(n);
+  std::vector<double>& own = leeway.own;
+  own.resize(n);
   for (std::int32_t i = 0; i < n; ++i) {
     leeway.from[i] = particles.motion[i].position;
     own[i] = std::clamp(norm(particles.motion[i].velocity) * duration, least, most);

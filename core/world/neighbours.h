@@ -57,6 +57,7 @@ std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Ca
 struct Leeway {
   std::vector<Vec3> from;
   std::vector<double> distance;  ///< [m]
+  std::vector<double> own;       ///< what each grain by itself would be given [m]
 };
 
 /// Sets it to what each grain or its fastest candidate moves in `duration`, between the bounds [m].

@@ -1,0 +1,17 @@
+#include "core/rigs/materials.h"
+
+namespace pastefit {
+
+ContactModel enlarged(ContactModel model, double k) {
+  Bridge& bridge = model.bridge;
+  bridge.b_n_m *= k;
+  bridge.c_n *= k * k;
+  bridge.d_c_m *= k;
+  bridge.offset_m *= k;
+  bridge.liquid_volume_m3 *= k * k * k;
+  bridge.surface_tension_n_m *= k;
+  if (model.cohesion_n) *model.cohesion_n *= k * k;
+  return model;
+}
+
+}  // namespace pastefit
