@@ -88,6 +88,7 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
   pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
   set_rolling(pair, grains.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
+  pair.size_per_radius = 2 / reference_radius_m;
   return pair;
 }
 
@@ -99,6 +100,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
   pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
   set_rolling(pair, wall.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
+  pair.size_per_radius = 1 / reference_radius_m;
   return pair;
 }
 

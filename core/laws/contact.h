@@ -19,7 +19,6 @@ struct Meeting {
   Real root_radius;          ///< sqrt(R*)
   Real root_mass;            ///< sqrt(m*)
   Real inverse_mass;         ///< 1/m*
-  Real size_scale;           ///< s = 2 R*/R_ref
   Real neighbour_damping;    ///< sum of the damping rates of both bodies at the last step [1/s]
 };
 
@@ -172,7 +171,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Real damper = damper_n * approach;
 
   Action<Real> action;
-  const Real cohesion = Real(k.cohesion) * m.size_scale * m.size_scale;
+  const Real radius = m.root_radius * m.root_radius;
+  const Real size_scale = Real(k.size_per_radius) * radius;
+  const Real cohesion = Real(k.cohesion) * size_scale * size_scale;
   action.push = select(touching, repulsion + damper - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
   action.damping = largest_damping;
@@ -184,9 +185,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.stored = fused(Real(0.4), repulsion, -cohesion) * depth;
 
   if constexpr (Attraction::present) {
-    const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, m.size_scale, memory.bridge, action.heat_bridge);
+    const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, size_scale, memory.bridge, action.heat_bridge);
     if (with_stored)
-      action.stored = fused(-memory.bridge, Attraction::work(k, smaller(m.overlap, zero), m.size_scale), action.stored);
+      action.stored = fused(-memory.bridge, Attraction::work(k, smaller(m.overlap, zero), size_scale), action.stored);
     action.push = action.push - pull.force;
     action.stiffness = larger(action.stiffness, pull.slope);
   }
@@ -202,7 +203,6 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   BasicVec3<Real> roll{};
   Real roll_square = zero, moment_square = one, roll_limit = zero, stiffness_r = zero;
   BasicVec3<Real> rolling{};
-  const Real radius = m.root_radius * m.root_radius;
   if constexpr (Rolling::present) {
     rolling = fused(-dot(m.spin, m.normal), m.normal, m.spin);
     roll_limit = Real(k.rolling_friction) * load * radius;

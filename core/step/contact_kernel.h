@@ -17,7 +17,7 @@ using Vector = BasicVec3<Real>;
 /// One grain per lane.
 struct Grains {
   Vector position, velocity, spin;
-  Real radius, damping_rate;
+  Real radius, damping_rate, inverse_mass;
 };
 
 /// Rows of the lanes' grains, turned into packs.
@@ -29,8 +29,8 @@ PASTEFIT_INLINE Grains gather(const KernelTask& task, const std::int32_t* index)
   g.radius = columns[3];
   g.velocity = {columns[4], columns[5], columns[6]};
   g.damping_rate = columns[7];
-  Real inverse_mass;
-  read_quads([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z, inverse_mass);
+  read_quads([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z,
+             g.inverse_mass);
   return g;
 }
 
@@ -47,14 +47,14 @@ PASTEFIT_INLINE Place locate(const KernelTask& task, const std::int32_t* index) 
   return p;
 }
 
-PASTEFIT_INLINE Vector load(const double* const columns[3], std::int32_t k) {
-  return {Real::load(columns[0] + k), Real::load(columns[1] + k), Real::load(columns[2] + k)};
+PASTEFIT_INLINE Vector load(const double (&rows)[3][kBatch], int lane) {
+  return {Real::load(rows[0] + lane), Real::load(rows[1] + lane), Real::load(rows[2] + lane)};
 }
 
-PASTEFIT_INLINE void store(double* const columns[3], std::int32_t k, const Vector& v) {
-  v.x.store(columns[0] + k);
-  v.y.store(columns[1] + k);
-  v.z.store(columns[2] + k);
+PASTEFIT_INLINE void store(double (&rows)[3][kBatch], int lane, const Vector& v) {
+  v.x.store(rows[0] + lane);
+  v.y.store(rows[1] + lane);
+  v.z.store(rows[2] + lane);
 }
 
 /// Adds column l of the eight packs to the loads of the l-th pair, one pair after the other: two lanes may name the
@@ -81,16 +81,16 @@ PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int3
 /// The energies of a kernel's contacts, in the lanes of `EnergySums`, kept in registers until all are counted.
 class Tally {
  public:
-  PASTEFIT_INLINE void count(EnergySums::Kind kind, std::int32_t k, Real value) {
-    Real& lanes = sum_[kind][k % 8 / kWidth];
+  PASTEFIT_INLINE void count(EnergySums::Kind kind, int lane, Real value) {
+    Real& lanes = sum_[kind][lane / kWidth];
     lanes = lanes + value;
   }
-  PASTEFIT_INLINE void count(std::int32_t k, const Action<Real>& action) {
-    count(EnergySums::normal_damping, k, action.heat_normal);
-    count(EnergySums::sliding, k, action.heat_sliding);
-    count(EnergySums::rolling, k, action.heat_rolling);
-    count(EnergySums::bridges, k, action.heat_bridge);
-    count(EnergySums::stored, k, action.stored);
+  PASTEFIT_INLINE void count(int lane, const Action<Real>& action) {
+    count(EnergySums::normal_damping, lane, action.heat_normal);
+    count(EnergySums::sliding, lane, action.heat_sliding);
+    count(EnergySums::rolling, lane, action.heat_rolling);
+    count(EnergySums::bridges, lane, action.heat_bridge);
+    count(EnergySums::stored, lane, action.stored);
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
@@ -104,140 +104,175 @@ class Tally {
   Real sum_[EnergySums::kinds][8 / kWidth];
 };
 
-/// Memory columns of batch k in and out; roll only where the rolling law has memory.
+/// What a batch remembers, in and out; roll only where the rolling law has memory.
 template <class Rolling>
-PASTEFIT_INLINE Memory<Real> recall(const ContactView& c, std::int32_t k) {
+PASTEFIT_INLINE Memory<Real> recall(const ContactBatch& c, int lane) {
   Memory<Real> memory;
-  memory.slip = pastefit::PASTEFIT_ISA::load(c.slip, k);
-  if constexpr (Rolling::present) {
-    memory.roll = pastefit::PASTEFIT_ISA::load(c.roll, k);
-  }
-  memory.root_contact_radius = Real::load(c.root_contact_radius + k);
-  memory.damper = Real::load(c.damper + k);
-  memory.drag = Real::load(c.drag + k);
-  memory.bridge = Real::load(c.bridge + k);
+  memory.slip = load(c.slip, lane);
+  if constexpr (Rolling::present) memory.roll = load(c.roll, lane);
+  memory.root_contact_radius = Real::load(c.root_contact_radius + lane);
+  memory.damper = Real::load(c.damper + lane);
+  memory.drag = Real::load(c.drag + lane);
+  memory.bridge = Real::load(c.bridge + lane);
   return memory;
 }
 
 template <class Attraction, class Rolling>
-PASTEFIT_INLINE void remember(const ContactView& c, std::int32_t k, const Memory<Real>& memory) {
-  store(c.slip, k, memory.slip);
-  if constexpr (Rolling::present) {
-    store(c.roll, k, memory.roll);
+PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const Memory<Real>& memory) {
+  store(c.slip, lane, memory.slip);
+  if constexpr (Rolling::present) store(c.roll, lane, memory.roll);
+  memory.root_contact_radius.store(c.root_contact_radius + lane);
+  memory.damper.store(c.damper + lane);
+  memory.drag.store(c.drag + lane);
+  if constexpr (Attraction::present) memory.bridge.store(c.bridge + lane);
+}
+
+template <class Attraction, class Rolling>
+PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, ContactBatch& c, int lane,
+                                  Tally& tally) {
+  const Grains a = gather(task, c.i + lane), b = gather(task, c.j + lane);
+  const Vector between = b.position - a.position;
+  const Real square = larger(dot(between, between), Real(1e-200));
+  const Real distance = square_root(square);
+
+  Meeting<Real> meeting;
+  meeting.normal = (Real(1.0) / distance) * between;
+  meeting.overlap = a.radius + b.radius - distance;
+  const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
+  const Real lever_a = a.radius - half_depth, lever_b = b.radius - half_depth;
+  meeting.velocity = a.velocity - b.velocity + cross(fused(lever_a, a.spin, lever_b * b.spin), meeting.normal);
+  meeting.spin = a.spin - b.spin;
+  meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
+  meeting.smaller_radius = smaller(a.radius, b.radius);
+  meeting.root_radius = Real::load(c.root_radius + lane);
+  meeting.root_mass = Real::load(c.root_mass + lane);
+  meeting.inverse_mass = a.inverse_mass + b.inverse_mass;
+  meeting.neighbour_damping = a.damping_rate + b.damping_rate;
+
+  Memory<Real> memory = recall<Rolling>(c, lane);
+  const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
+  remember<Attraction, Rolling>(c, lane, memory);
+  tally.count(lane, action);
+
+  const Vector force = fused(-action.push, meeting.normal, action.traction);
+  const Vector turning = cross(meeting.normal, action.traction);
+  const Vector torque_a = fused(lever_a, turning, action.moment);
+  const Vector torque_b = fused(lever_b, turning, -action.moment);
+  const Real on_a[8] = {force.x,    force.y,    force.z,    action.damping,
+                        torque_a.x, torque_a.y, torque_a.z, action.stiffness};
+  const Real on_b[8] = {-force.x,   -force.y,   -force.z,   action.damping,
+                        torque_b.x, torque_b.y, torque_b.z, action.stiffness};
+  add_rows(task.load, c.i + lane, c.j + lane, on_a, on_b);
+}
+
+/// Pairs that do not touch: attraction along the line of centres.
+template <class Attraction, class Batch>
+PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& pair, Real scale, Batch& c, int lane,
+                                   Tally& tally) {
+  const Real zero(0.0);
+  const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
+  const Vector between = b.position - a.position;
+  const Real distance = square_root(larger(dot(between, between), Real(1e-200)));
+  const Real overlap = a.radius + b.radius - distance;
+  Real alive = Real::load(c.bridge + lane);
+  Real spent;
+  const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
+  alive.store(c.bridge + lane);
+  tally.count(EnergySums::bridges, lane, spent);
+  if (task.with_stored)
+    tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
+  const Vector force = (pull.force / distance) * between;
+  const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
+  const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
+  add_rows(task.load, c.i + lane, c.j + lane, on_a, on_b);
+}
+
+/// Whether a pair of the batch touches, or did so at the last step and has yet to forget it. Where none does, a contact
+/// exerts nothing and has nothing to remember.
+PASTEFIT_INLINE bool some_touch(const KernelTask& task, const ContactBatch& c) {
+  bool touch = false;
+  for (int lane = 0; lane < kBatch; lane += kWidth) {
+    const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
+    const Vector between = b.position - a.position;
+    const Real reach = a.radius + b.radius;
+    touch |= any(dot(between, between) < reach * reach) || any(Real::load(c.root_contact_radius + lane) > Real(0.0));
   }
-  memory.root_contact_radius.store(c.root_contact_radius + k);
-  memory.damper.store(c.damper + k);
-  memory.drag.store(c.drag + k);
-  if constexpr (Attraction::present) memory.bridge.store(c.bridge + k);
+  return touch;
+}
+
+constexpr int kAhead = 2;  // batches; 5 to 10 % in a bed too large for the caches
+
+PASTEFIT_INLINE void fetch(const ContactBatch* batch) {
+  for (std::size_t line = 0; line < sizeof(ContactBatch); line += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(batch) + line, 1);
 }
 
 template <class Attraction, class Rolling>
 void pair_kernel(const KernelTask& task) {
-  const ContactView& c = task.contacts;
   const PairConstants pair = task.pair;
   const Real dt(task.dt);
   Tally tally;
-  for (std::int32_t k = 0; k < c.count; k += kWidth) {
-    const Grains a = gather(task, c.i + k), b = gather(task, c.j + k);
-    const Vector between = b.position - a.position;
-    const Real square = larger(dot(between, between), Real(1e-200));
-    const Real distance = square_root(square);
-
-    Meeting<Real> meeting;
-    meeting.normal = (Real(1.0) / distance) * between;
-    meeting.overlap = a.radius + b.radius - distance;
-    const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
-    const Real lever_a = a.radius - half_depth, lever_b = b.radius - half_depth;
-    meeting.velocity = a.velocity - b.velocity + cross(fused(lever_a, a.spin, lever_b * b.spin), meeting.normal);
-    meeting.spin = a.spin - b.spin;
-    meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
-    meeting.smaller_radius = smaller(a.radius, b.radius);
-    meeting.root_radius = Real::load(c.root_radius + k);
-    meeting.root_mass = Real::load(c.root_mass + k);
-    meeting.inverse_mass = Real::load(c.inverse_mass + k);
-    meeting.size_scale = Real::load(c.size_scale + k);
-    meeting.neighbour_damping = a.damping_rate + b.damping_rate;
-
-    Memory<Real> memory = recall<Rolling>(c, k);
-    const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
-    remember<Attraction, Rolling>(c, k, memory);
-    tally.count(k, action);
-
-    const Vector force = fused(-action.push, meeting.normal, action.traction);
-    const Vector turning = cross(meeting.normal, action.traction);
-    const Vector torque_a = fused(lever_a, turning, action.moment);
-    const Vector torque_b = fused(lever_b, turning, -action.moment);
-    const Real on_a[8] = {force.x,    force.y,    force.z,    action.damping,
-                          torque_a.x, torque_a.y, torque_a.z, action.stiffness};
-    const Real on_b[8] = {-force.x,   -force.y,   -force.z,   action.damping,
-                          torque_b.x, torque_b.y, torque_b.z, action.stiffness};
-    add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
+  for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k) {
+    ContactBatch& batch = task.contacts[k];
+    fetch(task.contacts + k + kAhead);
+    if (k < task.stretch.near || some_touch(task, batch)) {
+      for (int lane = 0; lane < kBatch; lane += kWidth)
+        act_on_pairs<Attraction, Rolling>(task, pair, dt, batch, lane, tally);
+    } else if constexpr (Attraction::present) {
+      for (int lane = 0; lane < kBatch; lane += kWidth) {
+        const Real root_radius = Real::load(batch.root_radius + lane);
+        attract_pairs<Attraction>(task, pair, Real(pair.size_per_radius) * root_radius * root_radius, batch, lane,
+                                  tally);
+      }
+    }
   }
   tally.add_to(*task.energy);
 }
 
-/// Pairs held apart by more than they can approach before the next selection: attraction along the line of centres.
 template <class Attraction>
 void bridge_kernel(const KernelTask& task) {
-  const ContactView& c = task.contacts;
-  const Real zero(0.0);
   const PairConstants pair = task.pair;
   Tally tally;
-  for (std::int32_t k = 0; k < c.count; k += kWidth) {
-    const Place a = locate(task, c.i + k), b = locate(task, c.j + k);
-    const Vector between = b.position - a.position;
-    const Real distance = square_root(larger(dot(between, between), Real(1e-200)));
-    const Real scale = Real::load(c.size_scale + k);
-    const Real overlap = a.radius + b.radius - distance;
-    Real alive = Real::load(c.bridge + k);
-    Real spent;
-    const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
-    alive.store(c.bridge + k);
-    tally.count(EnergySums::bridges, k, spent);
-    if (task.with_stored)
-      tally.count(EnergySums::stored, k, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
-    const Vector force = (pull.force / distance) * between;
-    const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
-    const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
-    add_rows(task.load, c.i + k, c.j + k, on_a, on_b);
-  }
+  for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k)
+    for (int lane = 0; lane < kBatch; lane += kWidth)
+      attract_pairs<Attraction>(task, pair, Real::load(task.bridges[k].size_scale + lane), task.bridges[k], lane,
+                                tally);
   tally.add_to(*task.energy);
 }
 
 template <class Attraction, class Rolling>
 void wall_kernel(const KernelTask& task) {
-  const ContactView& c = task.contacts;
-  const WallView& w = task.wall;
   const PairConstants pair = task.pair;
   const Real dt(task.dt);
   Tally tally;
-  for (std::int32_t k = 0; k < c.count; k += kWidth) {
-    const Grains a = gather(task, c.i + k);
-    Meeting<Real> meeting;
-    meeting.normal = pastefit::PASTEFIT_ISA::load(w.normal, k);
-    meeting.overlap = Real::load(w.overlap + k);
-    const Real lever = a.radius - larger(meeting.overlap, Real(0.0));
-    meeting.velocity =
-        a.velocity - pastefit::PASTEFIT_ISA::load(w.wall_velocity, k) + cross(lever * a.spin, meeting.normal);
-    meeting.spin = a.spin;
-    meeting.twist = Real(0.5) * dot(a.spin, meeting.normal);
-    meeting.smaller_radius = a.radius;
-    meeting.root_radius = Real::load(c.root_radius + k);
-    meeting.root_mass = Real::load(c.root_mass + k);
-    meeting.inverse_mass = Real::load(c.inverse_mass + k);
-    meeting.size_scale = Real::load(c.size_scale + k);
-    meeting.neighbour_damping = a.damping_rate;
+  for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k)
+    for (int lane = 0; lane < kBatch; lane += kWidth) {
+      ContactBatch& c = task.contacts[k];
+      WallBatch& w = task.wall[k];
+      const Grains a = gather(task, c.i + lane);
+      Meeting<Real> meeting;
+      meeting.normal = load(w.normal, lane);
+      meeting.overlap = Real::load(w.overlap + lane);
+      const Real lever = a.radius - larger(meeting.overlap, Real(0.0));
+      meeting.velocity = a.velocity - load(w.wall_velocity, lane) + cross(lever * a.spin, meeting.normal);
+      meeting.spin = a.spin;
+      meeting.twist = Real(0.5) * dot(a.spin, meeting.normal);
+      meeting.smaller_radius = a.radius;
+      meeting.root_radius = Real::load(c.root_radius + lane);
+      meeting.root_mass = Real::load(c.root_mass + lane);
+      meeting.inverse_mass = a.inverse_mass;
+      meeting.neighbour_damping = a.damping_rate;
 
-    Memory<Real> memory = recall<Rolling>(c, k);
-    const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
-    remember<Attraction, Rolling>(c, k, memory);
-    tally.count(k, action);
+      Memory<Real> memory = recall<Rolling>(c, lane);
+      const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
+      remember<Attraction, Rolling>(c, lane, memory);
+      tally.count(lane, action);
 
-    store(w.force, k, action.traction - action.push * meeting.normal);
-    store(w.moment, k, lever * cross(meeting.normal, action.traction) + action.moment);
-    action.damping.store(w.damping + k);
-    action.stiffness.store(w.stiffness + k);
-  }
+      store(w.force, lane, action.traction - action.push * meeting.normal);
+      store(w.moment, lane, lever * cross(meeting.normal, action.traction) + action.moment);
+      action.damping.store(w.damping + lane);
+      action.stiffness.store(w.stiffness + lane);
+    }
   tally.add_to(*task.energy);
 }
 

@@ -9,9 +9,10 @@ const KernelTable& kernels_of_this_processor() {
   return sse2::kernels;
 }
 
-double EnergySums::total(Kind kind) const {
+double total(std::span<const EnergySums> shares, EnergySums::Kind kind) {
   double sum = 0;
-  for (const double value : lane[kind]) sum += value;
+  for (const EnergySums& share : shares)
+    for (const double value : share.lane[kind]) sum += value;
   return sum;
 }
 

@@ -1,27 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "core/laws/constants.h"
 #include "core/rigs/materials.h"
+#include "core/world/batches.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
 
-/// Columns of contacts or bridges (which leave most empty) as a kernel sees them: plain pointers, begin .. end a
-/// multiple of kBatch, 64-byte aligned.
-struct ContactView {
-  const std::int32_t *i, *j;
-  const double *root_radius, *root_mass, *inverse_mass, *size_scale;
-  double *slip[3], *roll[3], *root_contact_radius, *damper, *drag, *bridge;
-  std::int32_t count;
-};
-
-/// What a wall kernel reads and writes besides.
-struct WallView {
-  const double *normal[3], *wall_velocity[3], *overlap;
-  double *force[3], *moment[3], *damping, *stiffness;
+/// A stretch of a list's batches: pairs that touched when they were chosen, then pairs that may touch. Batches of the
+/// latter are computed in full only if one of their pairs does.
+struct Stretch {
+  std::int32_t begin, near, end;
 };
 
 /// Energies of a step, summed in eight lanes by the contact's place in its batch, so that every instruction set sums
@@ -29,15 +22,20 @@ struct WallView {
 struct alignas(64) EnergySums {
   enum Kind { normal_damping, sliding, rolling, bridges, stored, kinds };
   double lane[kinds][8] = {};
-  double total(Kind kind) const;
+  void forget(Kind kind) {
+    for (double& value : lane[kind]) value = 0;
+  }
 };
+double total(std::span<const EnergySums> shares, EnergySums::Kind kind);
 
 struct KernelTask {
   const Motion* motion;
   const Spin* spin;
   Load* load;  ///< pair kernels add to it; wall kernels write their columns instead
-  ContactView contacts;
-  WallView wall;
+  ContactBatch* contacts;
+  BridgeBatch* bridges;
+  WallBatch* wall;  ///< beside `contacts`
+  Stretch stretch;
   PairConstants pair;
   double dt;
   EnergySums* energy;

@@ -14,6 +14,7 @@ struct StepOptions {
   double bridge_resolution = 10;         ///< steps in which the fastest grain crosses a bridge
   double overlap_limit = 0.5;            ///< largest overlap over the smaller radius; beyond it the run is invalid
   double skin = 0.8;                     ///< skin of the candidate list over the mean radius
+  int threads = 1;                       ///< that share the work of a step; the bits do not depend on it
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 

@@ -7,40 +7,17 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kStepsPerSelection = 12;  // selections are a tenth of the work of a step; see README
-constexpr double kSmallestLeeway = 0.005;  // of the mean radius
-constexpr double kLargestLeeway = 0.1;
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
 constexpr double kRunawaySpeed = 100;    // [m/s]; nothing in a laboratory test comes near it
 
-ContactView view(Contacts& c) {
-  ContactView v{};
-  v.i = c.i.data();
-  v.j = c.j.data();
-  v.root_radius = c.root_radius.data();
-  v.root_mass = c.root_mass.data();
-  v.inverse_mass = c.inverse_mass.data();
-  v.size_scale = c.size_scale.data();
-  for (int k = 0; k < 3; ++k) {
-    v.slip[k] = c.slip[k].data();
-    v.roll[k] = c.roll[k].data();
-  }
-  v.root_contact_radius = c.root_contact_radius.data();
-  v.damper = c.damper.data();
-  v.drag = c.drag.data();
-  v.bridge = c.bridge.data();
-  v.count = c.padded();
-  return v;
+void put(const Vec3& v, double (&rows)[3][kBatch], int lane) {
+  rows[0][lane] = v.x;
+  rows[1][lane] = v.y;
+  rows[2][lane] = v.z;
 }
 
-ContactView view(Bridges& b) {
-  ContactView v{};
-  v.i = b.i.data();
-  v.j = b.j.data();
-  v.size_scale = b.size_scale.data();
-  v.bridge = b.bridge.data();
-  v.count = b.padded();
-  return v;
+Vec3 taken(const double (&rows)[3][kBatch], int lane) {
+  return {rows[0][lane], rows[1][lane], rows[2][lane]};
 }
 
 double speed_of(const Wall& wall) {
@@ -51,27 +28,43 @@ double speed_of(const Wall& wall) {
   return norm(wall.velocity) + norm(wall.angular_velocity) * reach;
 }
 
+double stiffest_grain(const Particles& particles) {
+  double stiffest = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i)
+    stiffest = std::max(stiffest, particles.load[i].stiffness * particles.spin[i].inverse_mass);
+  return stiffest;
+}
+
 /// What the normal springs of all contacts hold [J].
 double elastic_energy(const World& world) {
   const auto spring = [](const PairConstants& pair, double root_radius, double overlap) {
     return 0.4 * pair.hertz * root_radius * std::pow(std::max(overlap, 0.0), 2.5);
   };
   double sum = 0;
-  const Contacts& contacts = world.acting.contacts;
-  for (std::int32_t k = 0; k < contacts.count; ++k) {
-    const Motion &a = world.particles.motion[contacts.i[k]], &b = world.particles.motion[contacts.j[k]];
-    sum += spring(world.grain_pair, contacts.root_radius[k], a.radius + b.radius - norm(b.position - a.position));
-  }
-  for (const Wall& wall : world.walls)
-    for (std::int32_t k = 0; k < wall.touching.contacts.count; ++k)
-      sum += spring(wall.pair, wall.touching.contacts.root_radius[k], wall.touching.overlap[k]);
+  for (const Block& block : world.pairs.blocks)
+    for (std::int32_t k = 0; k < block.contacts.count; ++k) {
+      const std::int32_t i = block.contacts.first(k), j = block.contacts.second(k);
+      if (i == j) continue;  // padding
+      const Motion &a = world.particles.motion[i], &b = world.particles.motion[j];
+      const double overlap = a.radius + b.radius - norm(b.position - a.position);
+      sum += spring(world.grain_pair, block.contacts.root_radius(k), overlap);
+    }
+  for (const Block& block : world.pairs.blocks)
+    for (std::size_t w = 0; w < block.walls.size(); ++w)
+      for (std::int32_t k = 0; k < block.walls[w].count; ++k)
+        sum += spring(world.walls[w].pair, block.walls[w].contacts.root_radius(k),
+                      block.walls[w].batches[k / kBatch].overlap[k % kBatch]);
   return sum;
 }
 
 }  // namespace
 
 Stepper::Stepper(World& world, const StepOptions& options)
-    : world_(world), options_(options), kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()) {
+    : world_(world),
+      options_(options),
+      kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
+      team_(options.threads),
+      lists_(world, options.skin * world.reference_radius, team_) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
@@ -88,7 +81,10 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
         FailureReason::grain_lost, world_.particles.identity[pierced_], options_.overlap_limit, options_.overlap_limit,
         "a grain is pressed into a wall by more than the allowed share of its radius; take stiffer grains or a "
         "smaller step");
-  const double advised = time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_}, options_));
+  // Later on the stiffness of the step before serves: it is known from moving the grains, and safety has room for it.
+  if (dt_ == 0) stiffest_ = stiffest_grain(world_.particles);
+  const double advised =
+      time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_, stiffest_}, options_));
   const double dt = options_.fixed_step_s.value_or(advised);
   if (dt < kSmallestShare * time_step_.first() && !options_.fixed_step_s)
     return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
@@ -107,7 +103,6 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
 std::optional<Failure> Stepper::maintain_lists() {
   double fastest_wall = 0;
   for (const Wall& wall : world_.walls) fastest_wall = std::max(fastest_wall, speed_of(wall));
-  wall_moved_ += fastest_wall * dt_;
   if (runaway_ >= 0) {
     const double speed = norm(world_.particles.motion[runaway_].velocity);
     const bool finite = std::isfinite(speed);
@@ -118,117 +113,112 @@ std::optional<Failure> Stepper::maintain_lists() {
                          "or less cohesive grains"
                        : "a velocity is not a number; take a smaller step");
   }
-  if (lists_valid_ && !strayed_ && wall_moved_ <= wall_leeway_) return {};
-
-  Particles& particles = world_.particles;
-  const double radius = world_.reference_radius;
-  const double skin = options_.skin * radius;
-  if (lists_valid_) {
-    double farthest = 0;
-    for (std::int32_t i = 0; i < particles.count(); ++i) {
-      const Vec3 shift = particles.motion[i].position - listed_position_[i];
-      farthest = std::max(farthest, dot(shift, shift));
-    }
-    lists_valid_ = 2 * std::sqrt(farthest) <= skin - 2 * kLargestLeeway * radius;
-  }
-  if (!lists_valid_) {
-    const std::vector<std::int32_t> new_place =
-        rebuild(particles, world_.acting, world_.candidates, world_.reach(), skin);
-    for (Wall& wall : world_.walls) renumber(wall, new_place);
-    listed_position_.resize(particles.count());
-    for (std::int32_t i = 0; i < particles.count(); ++i) listed_position_[i] = particles.motion[i].position;
-    lists_valid_ = true;
-  }
-  const double duration = dt_ * kStepsPerSelection;
-  set_leeway(particles, world_.candidates, duration, kSmallestLeeway * radius, kLargestLeeway * radius, leeway_);
-  wall_leeway_ = std::clamp(fastest_wall * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
-  const Deepest deepest =
-      select_interactions(particles, world_.candidates, world_.acting, scratch_, world_.reach(), leeway_);
-  for (Wall& wall : world_.walls) select_contacts(particles, wall, world_.reach(), leeway_, wall_leeway_);
-  strayed_ = false;
-  wall_moved_ = 0;
+  const Deepest deepest = lists_.update(dt_, fastest_wall * dt_, fastest_wall);
   if (deepest.overlap > options_.overlap_limit)
-    return failure(FailureReason::excessive_overlap, particles.identity[deepest.grain], deepest.overlap,
+    return failure(FailureReason::excessive_overlap, world_.particles.identity[deepest.grain], deepest.overlap,
                    options_.overlap_limit,
                    "two grains overlap by more than the allowed share of a radius; stiffer grains or less cohesion");
   return {};
 }
 
-void Stepper::compute_forces() {
-  const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
-  std::fill(std::begin(energy_.lane[EnergySums::stored]), std::end(energy_.lane[EnergySums::stored]), 0.0);
+KernelTask Stepper::task(const PairConstants& pair) {
   KernelTask task{};
-  task.energy = &energy_;
-  task.with_stored = world_.step % kLedgerInterval == 0;
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
-  task.contacts = view(world_.acting.contacts);
-  task.pair = world_.grain_pair;
+  task.pair = pair;
   task.dt = dt_;
-  kernels_.pair[attraction][rolling](task);
-  if (world_.acting.bridges.count > 0) {
-    task.contacts = view(world_.acting.bridges);
-    kernels_.bridge[attraction](task);
-  }
-  for (Wall& wall : world_.walls) act_on_wall(wall);
+  task.with_stored = world_.step % kLedgerInterval == 0;
+  return task;
 }
 
-void Stepper::act_on_wall(Wall& wall) {
-  WallContacts& touching = wall.touching;
-  const std::int32_t n = touching.contacts.count;
-  wall.force = wall.torque = {};
-  if (n == 0) return;
-  Particles& particles = world_.particles;
-  for (std::int32_t k = 0; k < n; ++k) {
-    const Motion& grain = particles.motion[touching.contacts.i[k]];
-    const Nearest point = nearest(wall.shape, grain.position);
-    touching.normal[0][k] = point.direction.x;
-    touching.normal[1][k] = point.direction.y;
-    touching.normal[2][k] = point.direction.z;
-    touching.overlap[k] = grain.radius - point.distance;
-    if (touching.overlap[k] > options_.overlap_limit * grain.radius) pierced_ = touching.contacts.i[k];
-    const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
-    const Vec3 velocity = wall.velocity_before + cross(wall.angular_velocity_before, arm);
-    touching.wall_velocity[0][k] = velocity.x;
-    touching.wall_velocity[1][k] = velocity.y;
-    touching.wall_velocity[2][k] = velocity.z;
-  }
+void Stepper::compute_forces() {
+  const std::size_t blocks = world_.pairs.blocks.size();
+  if (energy_.size() < blocks) energy_.resize(blocks);
+  for (EnergySums& energy : energy_) energy.forget(EnergySums::stored);
+  act_on_pairs();
+  for (std::size_t w = 0; w < world_.walls.size(); ++w) act_on_wall(w);
+}
 
-  KernelTask task{};
-  task.energy = &energy_;
-  task.with_stored = world_.step % kLedgerInterval == 0;
-  task.motion = particles.motion.data();
-  task.spin = particles.spin.data();
-  task.contacts = view(touching.contacts);
-  for (int c = 0; c < 3; ++c) {
-    task.wall.normal[c] = touching.normal[c].data();
-    task.wall.wall_velocity[c] = touching.wall_velocity[c].data();
-    task.wall.force[c] = touching.force[c].data();
-    task.wall.moment[c] = touching.moment[c].data();
-  }
-  task.wall.overlap = touching.overlap.data();
-  task.wall.damping = touching.damping.data();
-  task.wall.stiffness = touching.stiffness.data();
-  task.pair = wall.pair;
-  task.dt = dt_;
+void Stepper::act_on_pairs() {
+  const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
+  const KernelTask all = task(world_.grain_pair);
+  in_two_rounds(team_, static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+    Block& block = world_.pairs.blocks[b];
+    KernelTask mine = all;
+    mine.energy = &energy_[b];
+    mine.contacts = block.contacts.batches.data();
+    mine.stretch = {0, block.contacts.near / kBatch, block.contacts.batch_count()};
+    kernels_.pair[attraction][rolling](mine);
+    if (block.bridges.count == 0) return;
+    mine.bridges = block.bridges.batches.data();
+    mine.stretch = {0, 0, block.bridges.batch_count()};
+    kernels_.bridge[attraction](mine);
+  });
+}
+
+void Stepper::act_on_wall(std::size_t w) {
+  Wall& wall = world_.walls[w];
+  const KernelTask all = task(wall.pair);
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)](task);
+  const Kernel kernel = kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)];
+  const auto blocks = static_cast<int>(world_.pairs.blocks.size());
+  wall_shares_.assign(blocks, {});
+  team_.each(blocks, [&](int b, int) {
+    WallContacts& touching = world_.pairs.blocks[b].walls[w];
+    if (touching.count == 0) return;
+    wall_shares_[b].pierced = find_wall(wall, touching);
+    KernelTask mine = all;
+    mine.energy = &energy_[b];
+    mine.contacts = touching.contacts.batches.data();
+    mine.wall = touching.batches.data();
+    mine.stretch = {0, 0, touching.contacts.batch_count()};
+    kernel(mine);
+    add_loads(wall, touching, wall_shares_[b]);
+  });
+  wall.force = wall.torque = {};
+  for (const WallShare& share : wall_shares_) {
+    wall.force += share.force;
+    wall.torque += share.torque;
+    if (share.pierced >= 0) pierced_ = share.pierced;
+  }
+}
 
-  for (std::int32_t k = 0; k < n; ++k) {
-    const std::int32_t i = touching.contacts.i[k];
-    Load& load = particles.load[i];
-    const Vec3 force{touching.force[0][k], touching.force[1][k], touching.force[2][k]};
+/// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
+std::int32_t Stepper::find_wall(const Wall& wall, WallContacts& touching) const {
+  std::int32_t pierced = -1;
+  for (std::int32_t k = 0; k < touching.count; ++k) {
+    WallBatch& batch = touching.batches[k / kBatch];
+    const int lane = k % kBatch;
+    const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
+    const Nearest point = nearest(wall.shape, grain.position);
+    const double overlap = grain.radius - point.distance;
+    if (overlap > options_.overlap_limit * grain.radius) pierced = touching.contacts.first(k);
+    const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
+    put(point.direction, batch.normal, lane);
+    put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
+    batch.overlap[lane] = overlap;
+  }
+  return pierced;
+}
+
+/// What the kernel found, on the grains, and summed up on the wall.
+void Stepper::add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum) {
+  for (std::int32_t k = 0; k < touching.count; ++k) {
+    const WallBatch& batch = touching.batches[k / kBatch];
+    const int lane = k % kBatch;
+    const std::int32_t i = touching.contacts.first(k);
+    Load& load = world_.particles.load[i];
+    const Vec3 force = taken(batch.force, lane);
     load.force += force;
-    load.torque += Vec3{touching.moment[0][k], touching.moment[1][k], touching.moment[2][k]};
-    load.damping += touching.damping[k];
+    load.torque += taken(batch.moment, lane);
+    load.damping += batch.damping[lane];
     // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
-    load.stiffness += 0.5 * touching.stiffness[k];
-    wall.force += -force;
-    const Motion& grain = particles.motion[i];
-    const Vec3 normal{touching.normal[0][k], touching.normal[1][k], touching.normal[2][k]};
-    const Vec3 arm = grain.position + (grain.radius - touching.overlap[k]) * normal - wall.pivot;
-    wall.torque += cross(arm, -force);
+    load.stiffness += 0.5 * batch.stiffness[lane];
+    sum.force += -force;
+    const Motion& grain = world_.particles.motion[i];
+    const Vec3 arm = grain.position + (grain.radius - batch.overlap[lane]) * taken(batch.normal, lane) - wall.pivot;
+    sum.torque += cross(arm, -force);
   }
 }
 
@@ -259,11 +249,11 @@ void Stepper::look_at_energy(double dt) {
     ledger_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
     ledger_.height += m * world_.gravity * motion.position.z;
   }
-  ledger_.stored = energy_.total(EnergySums::stored);
-  ledger_.heat_normal = energy_.total(EnergySums::normal_damping);
-  ledger_.heat_sliding = energy_.total(EnergySums::sliding);
-  ledger_.heat_rolling = energy_.total(EnergySums::rolling);
-  ledger_.heat_bridges = energy_.total(EnergySums::bridges);
+  ledger_.stored = total(energy_, EnergySums::stored);
+  ledger_.heat_normal = total(energy_, EnergySums::normal_damping);
+  ledger_.heat_sliding = total(energy_, EnergySums::sliding);
+  ledger_.heat_rolling = total(energy_, EnergySums::rolling);
+  ledger_.heat_bridges = total(energy_, EnergySums::bridges);
   if (looked_) return;
   looked_ = true;
   ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;
@@ -273,12 +263,30 @@ void Stepper::look_at_energy(double dt) {
 }
 
 void Stepper::integrate(double dt) {
+  const auto blocks = static_cast<int>(world_.pairs.blocks.size());
+  moved_.assign(blocks, {});
+  team_.each(blocks, [&](int b, int) {
+    moved_[b] = move_grains(world_.pairs.blocks[b], dt);
+    if (moved_[b].strayed) lists_.note_strayed(b);
+  });
+  fastest_ = stiffest_ = 0;
+  for (const Moved& moved : moved_) {
+    fastest_ = std::max(fastest_, moved.fastest);
+    stiffest_ = std::max(stiffest_, moved.stiffest);
+    ledger_.heat_drag += moved.heat_drag;
+    if (moved.runaway >= 0) runaway_ = moved.runaway;
+  }
+  world_.particles.load[world_.particles.count()] = {};
+}
+
+Stepper::Moved Stepper::move_grains(const Block& block, double dt) {
   Particles& particles = world_.particles;
   const double kick = 0.5 * (dt_ + dt);  // from the half step before to the half step after
   const double fall = kick * world_.gravity;
   const double kept = 1 / (1 + kick * world_.drag);
+  Moved moved;
   double fastest = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
+  for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
     Motion& motion = particles.motion[i];
     Spin& spin = particles.spin[i];
     Load& load = particles.load[i];
@@ -288,25 +296,24 @@ void Stepper::integrate(double dt) {
     motion.velocity.z -= fall;
     motion.velocity = kept * motion.velocity;
     motion.position += dt * motion.velocity;
-    const Vec3 way = motion.position - leeway_.from[i];
-    // Written so that a value that is not a number counts as beyond the bound.
-    strayed_ |= !(dot(way, way) <= leeway_.distance[i] * leeway_.distance[i]);
+    moved.strayed |= !lists_.allow(i, motion.position);
     motion.damping_rate = load.damping * lightness;
     const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
     spin.velocity += (kick * inverse_inertia) * load.torque;
     spin.velocity = kept * spin.velocity;
     if (world_.drag > 0) {
       const double rate = 0.5 * kick * world_.drag;
-      ledger_.heat_drag += rate / lightness * dot(motion.velocity, velocity_before + motion.velocity) +
-                           rate / inverse_inertia * dot(spin.velocity, spin_before + spin.velocity);
+      moved.heat_drag += rate / lightness * dot(motion.velocity, velocity_before + motion.velocity) +
+                         rate / inverse_inertia * dot(spin.velocity, spin_before + spin.velocity);
     }
     const double square = dot(motion.velocity, motion.velocity);
-    if (!(square < kRunawaySpeed * kRunawaySpeed)) runaway_ = i;
+    if (!(square < kRunawaySpeed * kRunawaySpeed)) moved.runaway = i;
     fastest = std::max(fastest, square);
+    moved.stiffest = std::max(moved.stiffest, load.stiffness * lightness);
     load = {};
   }
-  particles.load[particles.count()] = {};
-  fastest_ = std::sqrt(fastest);
+  moved.fastest = std::sqrt(fastest);
+  return moved;
 }
 
 Failure Stepper::failure(FailureReason reason, std::int64_t grain, double value, double limit,

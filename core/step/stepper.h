@@ -6,6 +6,7 @@
 #include "core/result.h"
 #include "core/step/kernels.h"
 #include "core/step/ledger.h"
+#include "core/step/lists.h"
 #include "core/step/time_step.h"
 #include "core/world/world.h"
 
@@ -25,7 +26,7 @@ class Stepper {
   std::optional<Failure> step(const std::function<void(World&, double)>& drive);
 
   /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
-  void forget_lists() { lists_valid_ = false; }
+  void forget_lists() { lists_.forget(); }
 
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
@@ -35,33 +36,47 @@ class Stepper {
   static constexpr std::int64_t kLedgerInterval = 32;
 
  private:
+  /// What a block does to a wall.
+  struct WallShare {
+    Vec3 force, torque;
+    std::int32_t pierced = -1;  ///< a grain too deep in the wall
+  };
+  /// What a block's grains did in a step.
+  struct Moved {
+    double fastest = 0, stiffest = 0, heat_drag = 0;
+    bool strayed = false;
+    std::int32_t runaway = -1;
+  };
+
   std::optional<Failure> maintain_lists();
   void compute_forces();
-  void act_on_wall(Wall& wall);
+  void act_on_pairs();
+  KernelTask task(const PairConstants& pair);
+  void act_on_wall(std::size_t wall);
+  std::int32_t find_wall(const Wall& wall, WallContacts& touching) const;
+  void add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum);
   void account_walls(double dt);
   void integrate(double dt);
+  Moved move_grains(const Block& block, double dt);
   void look_at_energy(double dt);
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
   World& world_;
   StepOptions options_;
   const KernelTable& kernels_;
-  Scratch scratch_;
-  Leeway leeway_;
-  std::vector<Vec3> listed_position_;
-
-  bool lists_valid_ = false;
-  bool strayed_ = false;    ///< a grain has left its leeway
-  double wall_leeway_ = 0;  ///< way of a wall that the selected contacts allow for [m]
-  double wall_moved_ = 0;   ///< bound on what has been used of it [m]
+  Team team_;
+  Lists lists_;
 
   double dt_ = 0;              ///< step that led to the present positions; 0 before the first
   double fastest_ = 0;         ///< largest speed of a grain at the last step
+  double stiffest_ = 0;        ///< largest stiffness over mass of a grain at the last step [1/s^2]
   std::int32_t pierced_ = -1;  ///< a grain too deep in a wall
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
   TimeStep time_step_;
-  EnergySums energy_;
+  std::vector<EnergySums> energy_;  ///< of each block
+  std::vector<WallShare> wall_shares_;
+  std::vector<Moved> moved_;
   Ledger ledger_;
   bool looked_ = false;  ///< the ledger has its start
 };

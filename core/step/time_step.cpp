@@ -19,11 +19,8 @@ double level_below(double step) {
   return std::ldexp(std::floor(mantissa * 2 * kLevelsPerOctave) / (2 * kLevelsPerOctave), octave);
 }
 
-double stability_limit(const World& world) {
-  double stiffest = 0;
-  for (std::int32_t i = 0; i < world.particles.count(); ++i)
-    stiffest = std::max(stiffest, world.particles.load[i].stiffness * world.particles.spin[i].inverse_mass);
-  return stiffest > 0 ? std::sqrt(2 / stiffest) : 1e300;
+double stability_limit(const Pace& pace) {
+  return pace.stiffest > 0 ? std::sqrt(2 / pace.stiffest) : 1e300;
 }
 
 double impact_limit(const World& world, const Pace& pace) {
@@ -47,7 +44,7 @@ double bridge_limit(const World& world, const Pace& pace) {
 }  // namespace
 
 double advised_step(const World& world, const Pace& pace, const StepOptions& options) {
-  return std::min({options.safety * stability_limit(world), impact_limit(world, pace) / options.impact_resolution,
+  return std::min({options.safety * stability_limit(pace), impact_limit(world, pace) / options.impact_resolution,
                    bridge_limit(world, pace) / options.bridge_resolution});
 }
 

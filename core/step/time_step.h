@@ -5,16 +5,17 @@
 
 namespace pastefit {
 
-/// The smallest grain and the largest speed of a scene: what the shortest collision follows from.
+/// What limits the step of a scene.
 struct Pace {
   double smallest_radius = 0;  ///< [m]
   double smallest_mass = 0;    ///< [kg]
   double fastest = 0;          ///< [m/s]
+  double stiffest = 0;         ///< largest sum of the stiffnesses at a grain over its mass [1/s^2]
 };
 
 /// The largest step the scene allows now [s], the least of three:
 ///   stability of the leapfrog: safety * 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the largest
-///   stiffness of a contact, rotation counted, as the kernels left it in the loads);
+///   stiffness of a contact, rotation counted);
 ///   impacts: the shortest Hertz collision at the largest speed takes impact_resolution/(1 - e^2) steps, at most
 ///   impact_resolution/0.3, so that the integration's error stays small against the energy the collision loses;
 ///   bridges: none is crossed in fewer than bridge_resolution steps. A grain that is ten times as fast as a bridge can

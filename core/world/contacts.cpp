@@ -6,74 +6,88 @@ namespace pastefit {
 
 namespace {
 
-/// Size scale of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
+/// Size of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
 constexpr double kNoSize = 1e-30;
-
-/// Columns grow by a tenth at a time, so that a steady scene allocates nothing and little is kept in vain.
-template <class... Columns>
-void grow_columns(std::int32_t n, Columns&... columns) {
-  const auto grow_one = [n](auto& column) {
-    const std::size_t needed = static_cast<std::size_t>(n) + kBatch;
-    if (column.size() >= needed) return;
-    column.reserve(needed + needed / 10);
-    column.resize(needed + needed / 10);
-  };
-  (grow_one(columns), ...);
-}
 
 }  // namespace
 
-void Choice::grow() {
-  grow_columns(count + 1, i, j, source);
+Contact Contact::turned() const {
+  Contact other = *this;
+  for (int c = 0; c < 3; ++c) {
+    other.slip[c] *= -1;
+    other.roll[c] *= -1;
+  }
+  return other;
 }
 
-void Contacts::rearrange(Choice& choice, std::int32_t dummy) {
-  count = choice.count;
-  while (choice.count % kBatch != 0) choice.add(dummy, dummy, Choice::kNew);
-  const std::int32_t* source = choice.source.data();
-  const std::int32_t n = choice.count;
-  const auto gather = [&](Column<double>& column) {
-    if (spare_.size() < static_cast<std::size_t>(n)) {
-      spare_.clear();
-      grow_columns(n, spare_);
-    }
-    const double* from = column.data();
-    for (std::int32_t k = 0; k < n; ++k) spare_[k] = source[k] < 0 ? 0.0 : from[source[k]];
-    std::swap(column, spare_);
-  };
-  for (auto* column : {&root_radius, &root_mass, &inverse_mass, &size_scale, &slip[0], &slip[1], &slip[2], &roll[0],
-                       &roll[1], &roll[2], &root_contact_radius, &damper, &drag, &bridge})
-    gather(*column);
-  std::swap(i, choice.i);
-  std::swap(j, choice.j);
-  for (std::int32_t k = count; k < n; ++k) describe(k, 1.0, 1.0, kNoSize);
-  choice.clear();
+Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j) {
+  const double ra = particles.motion[i].radius, rb = particles.motion[j].radius;
+  const double lightness_a = particles.spin[i].inverse_mass, lightness_b = particles.spin[j].inverse_mass;
+  Contact contact;
+  contact.root_radius = std::sqrt(i == j ? ra : ra * rb / (ra + rb));
+  contact.root_mass = std::sqrt(1 / (i == j ? lightness_a : lightness_a + lightness_b));
+  return contact;
 }
 
-void Contacts::describe(std::int32_t k, double effective_radius, double effective_mass, double scale) {
-  root_radius[k] = std::sqrt(effective_radius);
-  root_mass[k] = std::sqrt(effective_mass);
-  inverse_mass[k] = 1 / effective_mass;
-  size_scale[k] = scale;
+void ContactList::add(std::int32_t i, std::int32_t j, const Contact& contact) {
+  const int lane = count % kBatch;
+  ContactBatch& batch = next();
+  batch.i[lane] = i;
+  batch.j[lane] = j;
+  batch.root_radius[lane] = contact.root_radius;
+  batch.root_mass[lane] = contact.root_mass;
+  for (int c = 0; c < 3; ++c) {
+    batch.slip[c][lane] = contact.slip[c];
+    batch.roll[c][lane] = contact.roll[c];
+  }
+  batch.root_contact_radius[lane] = contact.root_contact_radius;
+  batch.damper[lane] = contact.damper;
+  batch.drag[lane] = contact.drag;
+  batch.bridge[lane] = contact.bridge;
 }
 
-void Bridges::grow(std::int32_t n) {
-  grow_columns(n, i, j, size_scale, bridge);
+void ContactList::pad(std::int32_t dummy) {
+  Contact nothing;
+  nothing.root_radius = std::sqrt(kNoSize);
+  while (count % kBatch != 0) add(dummy, dummy, nothing);
 }
 
-void Bridges::append(std::int32_t a, std::int32_t b, double scale, double alive) {
-  const std::int32_t k = count++;
-  if (i.size() < static_cast<std::size_t>(count) + kBatch) grow(count);
-  i[k] = a;
-  j[k] = b;
-  size_scale[k] = scale;
-  bridge[k] = alive;
+void ContactList::append(const ContactList& others) {
+  near = count;
+  for (std::int32_t batch = 0; batch < others.batch_count(); ++batch) {
+    next() = others.batches[batch];
+    count += kBatch - 1;
+  }
 }
 
-void Bridges::pad(std::int32_t dummy) {
-  const std::int32_t real = count;
-  while (count % kBatch != 0) append(dummy, dummy, kNoSize, 0.0);
-  count = real;
+Contact ContactList::contact(std::int32_t k) const {
+  const ContactBatch& batch = batches[k / kBatch];
+  const int lane = k % kBatch;
+  Contact contact;
+  contact.root_radius = batch.root_radius[lane];
+  contact.root_mass = batch.root_mass[lane];
+  for (int c = 0; c < 3; ++c) {
+    contact.slip[c] = batch.slip[c][lane];
+    contact.roll[c] = batch.roll[c][lane];
+  }
+  contact.root_contact_radius = batch.root_contact_radius[lane];
+  contact.damper = batch.damper[lane];
+  contact.drag = batch.drag[lane];
+  contact.bridge = batch.bridge[lane];
+  return contact;
+}
+
+void BridgeList::add(std::int32_t i, std::int32_t j, double size_scale, double alive) {
+  const int lane = count % kBatch;
+  BridgeBatch& batch = next();
+  batch.i[lane] = i;
+  batch.j[lane] = j;
+  batch.size_scale[lane] = size_scale;
+  batch.bridge[lane] = alive;
+}
+
+void BridgeList::pad(std::int32_t dummy) {
+  while (count % kBatch != 0) add(dummy, dummy, kNoSize, 0.0);
 }
 
 }  // namespace pastefit

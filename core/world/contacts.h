@@ -1,80 +1,70 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "core/laws/constants.h"
 #include "core/world/aligned.h"
+#include "core/world/batches.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
 
-/// Contacts are worked on in batches of this many; lists are padded to a multiple of it.
-inline constexpr int kBatch = 8;
+/// A contact taken out of its batch; what it remembers is zero for a pair that has met only now.
+struct Contact {
+  double root_radius = 0, root_mass = 1;
+  double slip[3] = {}, roll[3] = {};
+  double root_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
 
-/// A list's length with its padding.
-constexpr std::int32_t padded(std::int32_t count) {
-  return (count + kBatch - 1) / kBatch * kBatch;
-}
+  /// The same seen from the other grain: vectors change their sign.
+  Contact turned() const;
+};
 
-/// Which pairs a list of contacts is to hold next, in order, and whose memory each goes on with.
-struct Choice {
-  static constexpr std::int32_t kNew = -1;  ///< a source: the pair has met only now
+/// Two grains that have met only now, or (i = j) a grain and a wall.
+Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j);
 
-  Column<std::int32_t> i, j, source;
-  std::int32_t count = 0;
+/// A list of batches that is filled pair by pair; it keeps its memory when cleared, so that a steady scene allocates
+/// nothing.
+template <class Batch>
+class BatchList {
+ public:
+  Column<Batch> batches;
+  std::int32_t count = 0;  ///< pairs, the padding among them once it is there
 
   void clear() { count = 0; }
-  void add(std::int32_t a, std::int32_t b, std::int32_t from) {
-    if (std::min(i.size(), source.size()) < static_cast<std::size_t>(count) + kBatch) grow();
-    i[count] = a;
-    j[count] = b;
-    source[count++] = from;
+  std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }
+
+ protected:
+  /// The batch of a further pair, which becomes pair `count - 1`.
+  Batch& next() {
+    const auto batch = static_cast<std::size_t>(count++ / kBatch);
+    if (batch == batches.capacity()) batches.reserve(batch + batch / 8 + 8);
+    if (batch == batches.size()) batches.emplace_back();
+    return batches[batch];
   }
-
- private:
-  void grow();
 };
 
-/// Pairs that touch or may touch before the next selection, as columns: 17 of them, 128 bytes a contact. What they
-/// remember from step to step is explained with `Memory` in core/laws/contact.h.
-/// Order: by i, then by j; the sums of a step are taken in this order on every machine.
-/// The columns may be longer than the list: `count` says how much of them is meant.
-struct Contacts {
-  Column<std::int32_t> i, j;
-  Column<double> root_radius, root_mass, inverse_mass, size_scale;
-  std::array<Column<double>, 3> slip, roll;
-  Column<double> root_contact_radius, damper, drag, bridge;
-  std::int32_t count = 0;  ///< without padding
+/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch.
+class ContactList : public BatchList<ContactBatch> {
+ public:
+  std::int32_t near = 0;  ///< a multiple of kBatch, as `count` is of a padded list
 
-  std::int32_t padded() const { return pastefit::padded(count); }
-
-  /// Becomes the list of `choice`, which is used up, padded with contacts of the dummy particle. New pairs remember
-  /// nothing and are yet to be described. Column by column through one spare, so that no second list is kept.
-  void rearrange(Choice& choice, std::int32_t dummy);
-  /// Sets the constants of contact k.
-  void describe(std::int32_t k, double effective_radius, double effective_mass, double scale);
-
- private:
-  Column<double> spare_;
-};
-
-/// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need
-/// is the distance. 4 columns, 24 bytes a pair. Order, length and padding as in `Contacts`.
-struct Bridges {
-  Column<std::int32_t> i, j;
-  Column<double> size_scale, bridge;
-  std::int32_t count = 0;
-
-  std::int32_t padded() const { return pastefit::padded(count); }
-  void clear() { count = 0; }
-  void append(std::int32_t a, std::int32_t b, double scale, double alive);
+  void add(std::int32_t i, std::int32_t j, const Contact& contact);
   void pad(std::int32_t dummy);
+  /// Puts those of another list, padded like this one, after them as those that may touch.
+  void append(const ContactList& near);
+  Contact contact(std::int32_t k) const;
+  std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
+  std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
+  double root_radius(std::int32_t k) const { return batches[k / kBatch].root_radius[k % kBatch]; }
+  double bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
+  bool touched(std::int32_t k) const { return batches[k / kBatch].root_contact_radius[k % kBatch] > 0; }
+};
 
- private:
-  void grow(std::int32_t n);
+class BridgeList : public BatchList<BridgeBatch> {
+ public:
+  void add(std::int32_t i, std::int32_t j, double size_scale, double alive);
+  void pad(std::int32_t dummy);
+  double bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
 };
 
 }  // namespace pastefit

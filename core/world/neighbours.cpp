@@ -2,62 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/world/cells.h"
 
 namespace pastefit {
 
 namespace {
 
-/// Cells of a box around the grains. Grains outside the box (none in a healthy run) are counted in its outermost cells.
-struct Grid {
-  Vec3 origin;
-  double inverse_size = 0;
-  std::int32_t nx = 1, ny = 1, nz = 1;
-
-  std::int32_t cells() const { return nx * ny * nz; }
-  std::int32_t along(double offset, std::int32_t n) const {
-    const double k = offset * inverse_size;
-    return k > 0 ? std::min(static_cast<std::int32_t>(std::min(k, 1e9)), n - 1) : 0;
-  }
-  std::int32_t cell(const Vec3& p) const {
-    return (along(p.z - origin.z, nz) * ny + along(p.y - origin.y, ny)) * nx + along(p.x - origin.x, nx);
-  }
-};
-
-Grid make_grid(const Particles& particles, double size) {
-  Vec3 low = particles.motion[0].position, high = low;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Vec3& p = particles.motion[i].position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  // A handful of stray grains must not make the grid huge: larger cells are slower, never wrong.
-  const double most_cells = 64.0 * particles.count() + 1000;
-  const Vec3 span = high - low;
-  while ((span.x / size + 1) * (span.y / size + 1) * (span.z / size + 1) > most_cells) size *= 1.3;
-  Grid grid;
-  grid.origin = low;
-  grid.inverse_size = 1 / size;
-  grid.nx = static_cast<std::int32_t>(span.x / size) + 1;
-  grid.ny = static_cast<std::int32_t>(span.y / size) + 1;
-  grid.nz = static_cast<std::int32_t>(span.z / size) + 1;
-  return grid;
-}
-
-/// Old index of the grain at each new place, by cell, and the first place of every cell.
-void sort_by_cell(const Particles& particles, const Grid& grid, std::vector<std::int32_t>& order,
-                  std::vector<std::int32_t>& first) {
-  const std::int32_t n = particles.count();
-  std::vector<std::int32_t> cell(n);
-  first.assign(grid.cells() + 1, 0);
-  for (std::int32_t i = 0; i < n; ++i) {
-    cell[i] = grid.cell(particles.motion[i].position);
-    ++first[cell[i] + 1];
-  }
-  for (std::int32_t c = 0; c < grid.cells(); ++c) first[c + 1] += first[c];
-  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-  order.resize(n);
-  for (std::int32_t i = 0; i < n; ++i) order[next[cell[i]]++] = i;
-}
+constexpr std::int32_t kGrainsPerBlock =
+    2000;  // at least; enough work to be handed to a thread, small enough for a cache
 
 double largest_radius(const Particles& particles) {
   double largest = 0;
@@ -70,59 +24,106 @@ double size_scale(double r1, double r2, double reference_radius) {
   return 2 * r1 * r2 / ((r1 + r2) * reference_radius);
 }
 
-/// Candidates with a memory, grouped by the lower index of their grains: found again after the grains have been sorted.
+/// Contacts and bridges of the blocks as they were, grouped by the lower index of their grains: found again after the
+/// grains have been sorted.
 class Remembered {
  public:
-  Remembered(const Candidates& old, const std::vector<std::int32_t>& new_place, std::int32_t grains)
-      : first_(grains + 1, 0) {
+  Remembered(const std::vector<Block>& blocks, const Candidates& old, const std::vector<std::int32_t>& new_place,
+             std::int32_t grains)
+      : blocks_(blocks), first_(grains + 1, 0) {
     const auto lower = [&](std::size_t c) { return std::min(new_place[old.i[c]], new_place[old.j[c]]); };
     const auto upper = [&](std::size_t c) { return std::max(new_place[old.i[c]], new_place[old.j[c]]); };
-    const auto known = [&](std::size_t c) { return old.is_contact(c) || old.is_bridge(c); };
     for (std::size_t c = 0; c < old.size(); ++c)
-      if (known(c)) ++first_[lower(c) + 1];
+      if (old.place(c) != Candidates::kNone) ++first_[lower(c) + 1];
     for (std::int32_t i = 0; i < grains; ++i) first_[i + 1] += first_[i];
     std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-    upper_.resize(first_.back());
-    place_.resize(first_.back());
-    for (std::size_t c = 0; c < old.size(); ++c) {
-      if (!known(c)) continue;
-      const std::int32_t p = next[lower(c)]++;
-      upper_[p] = upper(c);
-      place_[p] = old.place(c);
-    }
+    known_.resize(first_.back());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t c = blocks[b].candidates; c < blocks[b].candidates_end; ++c)
+        if (old.place(c) != Candidates::kNone)
+          known_[next[lower(c)]++] = {upper(c), old.place(c), static_cast<std::int32_t>(b),
+                                      new_place[old.i[c]] > new_place[old.j[c]]};
   }
 
-  std::int32_t find(std::int32_t i, std::int32_t j) const {
-    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p)
-      if (upper_[p] == j) return place_[p];
+  /// Puts the pair's memory into the block's lists and returns its place there.
+  std::int32_t recall(std::int32_t i, std::int32_t j, Block& block) const {
+    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p) {
+      const Known& known = known_[p];
+      if (known.upper != j) continue;
+      if (known.place >= 0) {
+        const Contact contact = blocks_[known.block].contacts.contact(known.place);
+        block.contacts.add(i, j, known.turned ? contact.turned() : contact);
+        return block.contacts.count - 1;
+      }
+      const double alive = blocks_[known.block].bridges.bridge(Candidates::bridge_at(known.place));
+      block.bridges.add(i, j, 0, alive);
+      return Candidates::place_of_bridge(block.bridges.count - 1);
+    }
     return Candidates::kNone;
   }
 
  private:
-  std::vector<std::int32_t> first_, upper_, place_;
+  struct Known {
+    std::int32_t upper, place, block;
+    bool turned;
+  };
+  const std::vector<Block>& blocks_;
+  std::vector<std::int32_t> first_;
+  std::vector<Known> known_;
 };
 
-/// Gives the bridges the new indices.
-void renumber(Bridges& bridges, const std::vector<std::int32_t>& new_place) {
-  for (std::int32_t k = 0; k < bridges.count; ++k) {
-    const std::int32_t a = new_place[bridges.i[k]], b = new_place[bridges.j[k]];
-    bridges.i[k] = std::min(a, b);
-    bridges.j[k] = std::max(a, b);
+/// Hands the contacts with a wall over to the blocks in which their grains are now.
+void redistribute(const std::vector<Block>& old, std::size_t wall, const std::vector<std::int32_t>& new_place,
+                  std::vector<Block>& blocks) {
+  struct Known {
+    std::int32_t grain;
+    Contact contact;
+  };
+  std::vector<Known> known;
+  for (const Block& block : old) {
+    if (wall >= block.walls.size()) continue;
+    const WallContacts& touching = block.walls[wall];
+    for (std::int32_t k = 0; k < touching.count; ++k)
+      known.push_back({new_place[touching.contacts.first(k)], touching.contacts.contact(k)});
+  }
+  std::sort(known.begin(), known.end(), [](const Known& a, const Known& b) { return a.grain < b.grain; });
+  auto block = blocks.begin();
+  for (const auto& [grain, contact] : known) {
+    while (grain >= block->grains_end) ++block;
+    block->walls[wall].contacts.add(grain, grain, contact);
+    ++block->walls[wall].count;
   }
 }
 
-/// Gives the contacts the new indices; a pair whose order changes is seen from the other side: its vectors change sign.
-void renumber(Contacts& contacts, const std::vector<std::int32_t>& new_place) {
-  for (std::int32_t k = 0; k < contacts.count; ++k) {
-    const std::int32_t a = new_place[contacts.i[k]], b = new_place[contacts.j[k]];
-    contacts.i[k] = std::min(a, b);
-    contacts.j[k] = std::max(a, b);
-    if (a < b) continue;
-    for (int c = 0; c < 3; ++c) {
-      contacts.slip[c][k] = -contacts.slip[c][k];
-      contacts.roll[c][k] = -contacts.roll[c][k];
-    }
+/// Whole layers of cells, so that a grain's neighbours are in its block or the next.
+std::vector<Block> blocks_of(const Cells& cells, const std::vector<std::int32_t>& first) {
+  std::vector<Block> blocks;
+  const std::int32_t layer = cells.rows() * cells.row_length();
+  std::int32_t begin = 0;
+  for (std::int32_t l = 1; l <= cells.layers(); ++l) {
+    const std::int32_t end = first[l * layer];
+    if (end - begin < kGrainsPerBlock && l < cells.layers()) continue;
+    blocks.emplace_back();
+    blocks.back().grains = begin;
+    blocks.back().grains_end = end;
+    begin = end;
   }
+  return blocks;
+}
+
+/// Calls `look(begin, end)` for half of the neighbourhood of a cell's grains besides those of the cell: the cell after
+/// it, and the three cells above it in each later row. Cells of a row are neighbours in memory: three are one range.
+template <class Look>
+void look_around(const Cells& cells, const std::vector<std::int32_t>& first, std::int32_t x, std::int32_t y,
+                 std::int32_t z, const Look& look) {
+  const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, cells.row_length() - 1);
+  const auto look_row = [&](std::int32_t row_y, std::int32_t row_z) {
+    if (row_y < 0 || row_y >= cells.rows() || row_z >= cells.layers()) return;
+    const std::int32_t row = (row_z * cells.rows() + row_y) * cells.row_length();
+    look(first[row + left], first[row + right + 1]);
+  };
+  look_row(y + 1, z);
+  for (std::int32_t dy = -1; dy <= 1; ++dy) look_row(y + dy, z + 1);
 }
 
 }  // namespace
@@ -134,28 +135,35 @@ void Candidates::clear() {
 }
 
 void Candidates::add(std::int32_t a, std::int32_t b, std::int32_t place) {
+  if (i.size() == i.capacity()) {
+    // By an eighth at a time: lists are long, and little is to be kept in vain.
+    const std::size_t room = i.size() + i.size() / 8 + 64;
+    i.reserve(room);
+    j.reserve(room);
+    place_.reserve(room);
+  }
   i.push_back(a);
   j.push_back(b);
   place_.push_back(place);
 }
 
-std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Candidates& candidates,
-                                  const AttractionReach& reach, double skin) {
+void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const AttractionReach& reach, double skin) {
   const std::int32_t n = particles.count();
   const double largest = largest_radius(particles);
   const double farthest = std::max(reach.formation_gap, reach.rupture_gap) / reach.reference_radius;
-  const Grid grid = make_grid(particles, 2 * largest + farthest * largest + skin);
-
-  std::vector<std::int32_t> order, first;
-  sort_by_cell(particles, grid, order, first);
-  reorder(particles, order);
+  const Cells cells(particles, 2 * largest + farthest * largest + skin);
+  const Sorted sorted = sort_by_cell(particles, cells);
+  const std::vector<std::int32_t>& first = sorted.first;
+  reorder(particles, sorted.order);
   std::vector<std::int32_t> new_place(n);
-  for (std::int32_t k = 0; k < n; ++k) new_place[order[k]] = k;
-  const Remembered remembered(candidates, new_place, n);
-  renumber(acting.contacts, new_place);
-  renumber(acting.bridges, new_place);
-
+  for (std::int32_t k = 0; k < n; ++k) new_place[sorted.order[k]] = k;
+  const std::vector<Block> old = std::exchange(pairs.blocks, blocks_of(cells, first));
+  for (Block& block : pairs.blocks) block.walls.resize(walls);
+  for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
+  Candidates& candidates = pairs.candidates;
+  const Remembered remembered(old, candidates, new_place, n);
   candidates.clear();
+  auto block = pairs.blocks.begin();
   const auto look = [&](std::int32_t i, std::int32_t begin, std::int32_t end) {
     const Motion& a = particles.motion[i];
     for (std::int32_t j = begin; j < end; ++j) {
@@ -163,99 +171,102 @@ std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Ca
       const Vec3 between = b.position - a.position;
       const double range = a.radius + b.radius + farthest * 2 * a.radius * b.radius / (a.radius + b.radius) + skin;
       if (dot(between, between) >= range * range) continue;
-      candidates.add(i, j, remembered.find(i, j));
+      candidates.add(i, j, remembered.recall(i, j, *block));
     }
   };
-  // Half of the neighbourhood: the rest of this cell's row, and the three cells above it in each later row. Cells along
-  // x are neighbours in memory, so a row of three is one range.
-  for (std::int32_t z = 0; z < grid.nz; ++z)
-    for (std::int32_t y = 0; y < grid.ny; ++y)
-      for (std::int32_t x = 0; x < grid.nx; ++x) {
-        const std::int32_t cell = (z * grid.ny + y) * grid.nx + x;
-        const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, grid.nx - 1);
+  std::int32_t cell = 0;
+  for (std::int32_t z = 0; z < cells.layers(); ++z)
+    for (std::int32_t y = 0; y < cells.rows(); ++y)
+      for (std::int32_t x = 0; x < cells.row_length(); ++x, ++cell) {
+        const std::int32_t next = x + 1 < cells.row_length() ? cell + 1 : cell;
         for (std::int32_t i = first[cell]; i < first[cell + 1]; ++i) {
-          look(i, i + 1, first[cell - x + right + 1]);
-          const auto look_row = [&](std::int32_t row_y, std::int32_t row_z) {
-            if (row_y < 0 || row_y >= grid.ny || row_z >= grid.nz) return;
-            const std::int32_t row = (row_z * grid.ny + row_y) * grid.nx;
-            look(i, first[row + left], first[row + right + 1]);
-          };
-          look_row(y + 1, z);
-          for (std::int32_t dy = -1; dy <= 1; ++dy) look_row(y + dy, z + 1);
+          if (i == block->grains_end) {
+            block->candidates_end = candidates.size();
+            (++block)->candidates = candidates.size();
+          }
+          look(i, i + 1, first[next + 1]);
+          look_around(cells, first, x, y, z, [&](std::int32_t begin, std::int32_t end) { look(i, begin, end); });
         }
       }
-  return new_place;
+  block->candidates_end = candidates.size();
 }
 
-void set_leeway(const Particles& particles, const Candidates& candidates, double duration, double least, double most,
-                Leeway& leeway) {
-  const std::int32_t n = particles.count();
-  leeway.from.resize(n);
-  std::vector<double>& own = leeway.own;
-  own.resize(n);
-  for (std::int32_t i = 0; i < n; ++i) {
-    leeway.from[i] = particles.motion[i].position;
-    own[i] = std::clamp(norm(particles.motion[i].velocity) * duration, least, most);
-  }
-  leeway.distance = own;
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const std::int32_t i = candidates.i[c], j = candidates.j[c];
-    leeway.distance[i] = std::max(leeway.distance[i], own[j]);
-    leeway.distance[j] = std::max(leeway.distance[j], own[i]);
-  }
-}
-
-Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting, Scratch& scratch,
-                            const AttractionReach& reach, const Leeway& leeway) {
-  const auto n = static_cast<std::int32_t>(candidates.size());
-  Choice& choice = scratch.choice;
-  Bridges& bridges = scratch.bridges;
-  choice.clear();
-  bridges.clear();
-  scratch.alive.clear();
+Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, Selection& chosen,
+                     const AttractionReach& reach, const Leeway& leeway) {
+  chosen.contacts.clear();
+  chosen.near.clear();
+  chosen.bridges.clear();
+  chosen.near_candidates.clear();
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
-  for (std::int32_t c = 0; c < n; ++c) {
-    const std::int32_t i = candidates.i[c], j = candidates.j[c];
+  for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
+    const std::int32_t i = candidates.i[c], j = candidates.j[c], place = candidates.place(c);
     const Motion &a = particles.motion[i], &b = particles.motion[j];
     const Vec3 between = b.position - a.position;
     const double square = dot(between, between), touch = a.radius + b.radius;
-    const double margin = leeway.distance[i] + leeway.distance[j];
-    const bool contact = candidates.is_contact(c), bridge = candidates.is_bridge(c);
-    const std::int32_t k = candidates.index(c);
-    const double alive = contact ? acting.contacts.bridge[k] : bridge ? acting.bridges.bridge[k] : 0.0;
-    const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
-    const double range = touch + (alive > 0 ? reach.rupture_gap : forming) * scale + margin;
-    if (square >= range * range) {
-      candidates.set_none(c);
+    const bool contact = place >= 0;
+    const double alive = contact                     ? block.contacts.bridge(place)
+                         : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
+                                                     : 0.0;
+    const double near = touch + leeway.distance[i] + leeway.distance[j];
+    if (square >= near * near) {
+      const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
+      const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
+      candidates.set_place(c, Candidates::kNone);
+      if (square >= range * range) continue;
+      candidates.set_place(c, Candidates::place_of_bridge(chosen.bridges.count));
+      chosen.bridges.add(i, j, scale, alive);
       continue;
     }
-    if (square >= (touch + margin) * (touch + margin)) {
-      candidates.set_bridge(c, bridges.count);
-      bridges.append(i, j, scale, alive);
-      continue;
-    }
+    Contact pair = contact ? block.contacts.contact(place) : new_contact(particles, i, j);
+    pair.bridge = alive;
     if (square < touch * touch) {
       const double overlap = (touch - std::sqrt(square)) / std::min(a.radius, b.radius);
       if (overlap > deepest.overlap) deepest = {overlap, i};
+    } else if (pair.root_contact_radius == 0) {
+      candidates.set_place(c, chosen.near.count);
+      chosen.near.add(i, j, pair);
+      chosen.near_candidates.push_back(c);
+      continue;
     }
-    candidates.set_contact(c, choice.count);
-    choice.add(i, j, contact ? k : Choice::kNew);
-    scratch.alive.push_back(contact ? -1.0 : alive);
+    candidates.set_place(c, chosen.contacts.count);
+    chosen.contacts.add(i, j, pair);
   }
-  Contacts& contacts = acting.contacts;
-  contacts.rearrange(choice, particles.count());
-  for (std::int32_t k = 0; k < contacts.count; ++k) {
-    if (scratch.alive[k] < 0) continue;
-    const std::int32_t i = contacts.i[k], j = contacts.j[k];
-    const double ra = particles.motion[i].radius, rb = particles.motion[j].radius;
-    const double ma = particles.spin[i].inverse_mass, mb = particles.spin[j].inverse_mass;
-    contacts.describe(k, ra * rb / (ra + rb), 1 / (ma + mb), size_scale(ra, rb, reach.reference_radius));
-    contacts.bridge[k] = scratch.alive[k];
-  }
-  bridges.pad(particles.count());
-  std::swap(acting.bridges, bridges);
+  chosen.contacts.pad(particles.count());
+  chosen.near.pad(particles.count());
+  chosen.bridges.pad(particles.count());
+  for (const std::size_t c : chosen.near_candidates)
+    candidates.set_place(c, chosen.contacts.count + candidates.place(c));
+  chosen.contacts.append(chosen.near);
+  std::swap(block.contacts, chosen.contacts);
+  std::swap(block.bridges, chosen.bridges);
   return deepest;
+}
+
+void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
+                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway) {
+  // Both lists are in the order of the grains: one pass merges memory into the new list.
+  const ContactList& contacts = touching.contacts;
+  ContactList& chosen = selection.contacts;
+  chosen.clear();
+  std::int32_t old = 0;
+  for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
+    while (old < touching.count && contacts.first(old) < i) ++old;
+    const bool known = old < touching.count && contacts.first(old) == i;
+    const Motion& grain = particles.motion[i];
+    const double scale = grain.radius / reach.reference_radius;
+    const bool bridged = known && contacts.bridge(old) > 0;
+    const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
+    const double margin = leeway.distance[i] + wall_leeway;
+    if (nearest(wall.shape, grain.position).distance >= grain.radius + gap * scale + margin) continue;
+    chosen.add(i, i, known ? contacts.contact(old) : new_contact(particles, i, i));
+  }
+  touching.count = chosen.count;
+  chosen.pad(particles.count());
+  std::swap(touching.contacts, chosen);
+  touching.batches.assign(touching.contacts.batch_count(), {});
+  for (std::int32_t k = touching.count; k < touching.contacts.count; ++k)
+    touching.batches.back().overlap[k % kBatch] = -1;
 }
 
 }  // namespace pastefit

@@ -3,16 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/team.h"
 #include "core/world/contacts.h"
 #include "core/world/particles.h"
+#include "core/world/walls.h"
 
 namespace pastefit {
-
-/// What acts between grains, by how much work it takes: contacts in full, bridges by their distance only.
-struct Interactions {
-  Contacts contacts;
-  Bridges bridges;
-};
 
 /// Pairs near enough that they may meet before the list is made again.
 class Candidates {
@@ -21,23 +17,58 @@ class Candidates {
 
   std::size_t size() const { return i.size(); }
   void clear();
-
-  // Where the pair's memory is kept now.
-  bool is_contact(std::size_t c) const { return place_[c] >= 0; }
-  bool is_bridge(std::size_t c) const { return place_[c] < kNone; }
-  std::int32_t index(std::size_t c) const { return place_[c] >= 0 ? place_[c] : kNone - 1 - place_[c]; }
-
-  std::int32_t place(std::size_t c) const { return place_[c]; }
-
   void add(std::int32_t a, std::int32_t b, std::int32_t place);
-  void set_contact(std::size_t c, std::int32_t k) { place_[c] = k; }
-  void set_bridge(std::size_t c, std::int32_t k) { place_[c] = kNone - 1 - k; }
-  void set_none(std::size_t c) { place_[c] = kNone; }
+
+  /// Where a pair's memory is kept in the lists of its block: contact k (k), bridge k (-2 - k), nowhere (kNone).
+  std::int32_t place(std::size_t c) const { return place_[c]; }
+  void set_place(std::size_t c, std::int32_t place) { place_[c] = place; }
   static constexpr std::int32_t kNone = -1;
+  static std::int32_t place_of_bridge(std::int32_t k) { return -2 - k; }
+  static std::int32_t bridge_at(std::int32_t place) { return -2 - place; }
 
  private:
-  std::vector<std::int32_t> place_;  ///< contact k: k; bridge k: -2 - k; neither: -1
+  std::vector<std::int32_t> place_;
 };
+
+/// Contacts of a block's grains with one wall, in the order of the grains.
+struct WallContacts {
+  ContactList contacts;
+  std::int32_t count = 0;     ///< of them, without padding
+  Column<WallBatch> batches;  ///< beside those of `contacts`
+};
+
+/// A run of grains that are neighbours in space, with the pairs of which it holds the first grain. Their second grains
+/// lie in the same block or in the next: blocks of the same parity can be worked on at the same time.
+struct Block {
+  std::int32_t grains = 0, grains_end = 0;
+  std::size_t candidates = 0, candidates_end = 0;
+  ContactList contacts;
+  BridgeList bridges;
+  std::vector<WallContacts> walls;  ///< one for each wall of the world
+};
+
+/// What acts between grains, by how much work it takes: contacts in full, bridges by their distance only; and what may
+/// do so soon. The sums of a step are taken in the order of the blocks and their lists.
+struct Pairs {
+  std::vector<Block> blocks;
+  Candidates candidates;
+};
+
+/// Calls `work(block, member)` so that no two neighbouring blocks are worked on at the same time, and every block of
+/// odd number after both of its neighbours. One member alone goes to and fro, so that what two blocks share stays in a
+/// cache; sums have the same order.
+template <class Work>
+void in_two_rounds(Team& team, int blocks, const Work& work) {
+  if (team.size() == 1) {
+    for (int even = 0; even <= blocks; even += 2) {
+      if (even < blocks) work(even, 0);
+      if (even > 0) work(even - 1, 0);
+    }
+    return;
+  }
+  for (const int first : {0, 1})
+    team.each((blocks + 1 - first) / 2, [&](int task, int member) { work(2 * task + first, member); });
+}
 
 /// How far beyond touching two grains can act on each other.
 struct AttractionReach {
@@ -46,23 +77,18 @@ struct AttractionReach {
   double reference_radius = 1;
 };
 
-/// Sorts the grains in space (cells of the largest interaction plus skin, x fastest) and lists all pairs whose gap is
-/// below reach + skin. Contacts and bridges keep their memory; it is turned where a pair's order changes.
-/// Returns the new place of every grain by its old one, for those who also hold indices.
-std::vector<std::int32_t> rebuild(Particles& particles, Interactions& acting, Candidates& candidates,
-                                  const AttractionReach& reach, double skin);
+/// Sorts the grains in space (cells of the largest interaction plus skin), divides them into blocks, and lists all
+/// pairs whose gap is below reach + skin. Contacts and bridges keep their memory; it is turned where a pair's order
+/// changes. Of the walls the first ones stay what they were, if their number is another one now.
+void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const AttractionReach& reach, double skin);
 
-/// How far every grain may move before the acting pairs are chosen anew, and from where. Where all is slow the lists
-/// are tight; a grain near a fast one may be hit and has as much leeway as that.
+/// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
+/// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
 struct Leeway {
   std::vector<Vec3> from;
   std::vector<double> distance;  ///< [m]
   std::vector<double> own;       ///< what each grain by itself would be given [m]
 };
-
-/// Sets it to what each grain or its fastest candidate moves in `duration`, between the bounds [m].
-void set_leeway(const Particles& particles, const Candidates& candidates, double duration, double least, double most,
-                Leeway& leeway);
 
 /// The deepest overlap of two grains over the smaller radius, and one of them.
 struct Deepest {
@@ -70,16 +96,21 @@ struct Deepest {
   std::int32_t grain = -1;
 };
 
-/// Lists that `select_interactions` fills and uses up, kept so that nothing is allocated in a steady scene.
-struct Scratch {
-  Choice choice;
-  Bridges bridges;
-  std::vector<double> alive;  ///< by chosen contact: its bridge
+/// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
+struct Selection {
+  ContactList contacts, near;
+  BridgeList bridges;
+  std::vector<std::size_t> near_candidates;
 };
 
-/// Chooses from the candidates the pairs that act or may act while no grain moves beyond its leeway: contacts those
-/// that may touch, bridges the rest.
-Deepest select_interactions(const Particles& particles, Candidates& candidates, Interactions& acting, Scratch& scratch,
-                            const AttractionReach& reach, const Leeway& leeway);
+/// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
+/// those that may touch, bridges the rest.
+Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, Selection& selection,
+                     const AttractionReach& reach, const Leeway& leeway);
+
+/// Lists the block's grains that touch a wall or may do so while they stay within their leeway, and the wall within its
+/// own [m].
+void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
+                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway);
 
 }  // namespace pastefit

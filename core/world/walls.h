@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/laws/constants.h"
 #include "core/vec3.h"
-#include "core/world/aligned.h"
-#include "core/world/contacts.h"
-#include "core/world/neighbours.h"
 
 namespace pastefit {
 
@@ -45,16 +41,6 @@ struct Nearest {
 };
 Nearest nearest(const Shape& shape, const Vec3& centre);
 
-/// Contacts of grains with one wall; columns beside those of `Contacts` (whose j is unused).
-struct WallContacts {
-  Contacts contacts;
-  Choice choice;
-  std::array<Column<double>, 3> normal, wall_velocity;
-  Column<double> overlap;
-  std::array<Column<double>, 3> force, moment;  ///< of the wall on the grain, written by the kernel
-  Column<double> damping, stiffness;
-};
-
 /// A boundary: shape, surface, rigid motion, and what the grains do to it.
 struct Wall {
   std::string name;
@@ -66,17 +52,9 @@ struct Wall {
   Vec3 velocity_before, angular_velocity_before;  ///< those of the move that led here
   Vec3 force;                                     ///< of the grains on the wall at the last step [N]
   Vec3 torque;                                    ///< about `pivot` [N m]
-  WallContacts touching;
 };
 
 /// Moves the wall by its own rigid motion over `dt`. Rotation is about the y axis through `pivot` only.
 void move(Wall& wall, double dt);
-
-/// Lists the grains that touch the wall or may do so while they stay within their leeway, and the wall within its own.
-void select_contacts(const Particles& particles, Wall& wall, const AttractionReach& reach, const Leeway& leeway,
-                     double wall_leeway);
-
-/// Gives the wall's contacts the grains' new places.
-void renumber(Wall& wall, const std::vector<std::int32_t>& new_place);
 
 }  // namespace pastefit

@@ -17,8 +17,7 @@ inline constexpr double kGravity = 9.81;  ///< [m/s^2], downwards along z
 class World {
  public:
   Particles particles;
-  Interactions acting;
-  Candidates candidates;
+  Pairs pairs;
   std::vector<Wall> walls;
   PairConstants grain_pair;
   BridgeShape attraction = BridgeShape::none;

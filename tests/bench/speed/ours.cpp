@@ -60,8 +60,10 @@ OurRun run_ours(const Scene& scene, Bed&& bed) {
   OurRun run;
   run.seconds = processor_seconds() - start;
   run.advised_step_s = stepper.smallest_advised_step();
-  run.contacts = static_cast<double>(world.acting.contacts.count) / world.particles.count();
-  run.bridges = static_cast<double>(world.acting.bridges.count) / world.particles.count();
+  for (const Block& block : world.pairs.blocks) {
+    run.contacts += static_cast<double>(block.contacts.count) / world.particles.count();
+    run.bridges += static_cast<double>(block.bridges.count) / world.particles.count();
+  }
   return run;
 }
 

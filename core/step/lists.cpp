@@ -1,0 +1,127 @@
+#include "core/step/lists.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kStepsPerSelection = 18;
+constexpr double kSmallestLeeway = 0.005;  // of the mean radius
+constexpr double kLargestLeeway = 0.2;
+constexpr double kNearlyUsed = 0.6;  // of a leeway
+constexpr double kLeastShare = 0.5;  // of the leeway a grain would be given that its skin must have room for
+
+}  // namespace
+
+Lists::Lists(World& world, double skin, Team& team) : world_(world), skin_(skin), team_(team) {
+  selections_.resize(team.size());
+}
+
+Deepest Lists::update(double dt, double wall_way, double wall_speed) {
+  wall_way_ += wall_way;
+  const bool walls_due = wall_way_ > wall_leeway_;
+  if (valid_ && !walls_due && std::find(strayed_.begin(), strayed_.end(), true) == strayed_.end()) return {};
+  const double duration = dt * kStepsPerSelection;
+  if (valid_) take_along();
+  const bool relisted = !valid_ || !give_leeway(duration);
+  if (relisted) {
+    list_candidates();
+    give_leeway(duration);
+  }
+  if (walls_due || relisted) {
+    const double radius = world_.reference_radius;
+    wall_leeway_ = std::clamp(wall_speed * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
+    wall_way_ = 0;
+  }
+  const Deepest deepest = select_pairs();
+  select_at_walls(walls_due || relisted);
+  std::fill(strayed_.begin(), strayed_.end(), false);
+  return deepest;
+}
+
+/// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour too.
+void Lists::take_along() {
+  const std::vector<Block>& blocks = world_.pairs.blocks;
+  const auto nearly = [&](std::int32_t i) {
+    const Vec3 way = world_.particles.motion[i].position - leeway_.from[i];
+    return dot(way, way) > kNearlyUsed * kNearlyUsed * leeway_.distance[i] * leeway_.distance[i];
+  };
+  team_.each(static_cast<int>(blocks.size()), [&](int b, int) {
+    for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !strayed_[b]; ++i) strayed_[b] = nearly(i);
+  });
+}
+
+void Lists::list_candidates() {
+  Particles& particles = world_.particles;
+  rebuild(particles, world_.pairs, world_.walls.size(), world_.reach(), skin_);
+  listed_.resize(particles.count());
+  for (std::int32_t i = 0; i < particles.count(); ++i) listed_[i] = particles.motion[i].position;
+  leeway_.from.resize(particles.count());
+  leeway_.own.assign(particles.count(), 0.0);
+  leeway_.distance.resize(particles.count());
+  strayed_.assign(world_.pairs.blocks.size(), true);
+  valid_ = true;
+}
+
+bool Lists::give_leeway(double duration) {
+  const Pairs& pairs = world_.pairs;
+  const std::vector<Motion>& motion = world_.particles.motion;
+  const double least = kSmallestLeeway * world_.reference_radius, most = kLargestLeeway * world_.reference_radius;
+  const auto blocks = static_cast<int>(pairs.blocks.size());
+  team_.each(blocks, [&](int b, int) {
+    if (!strayed_[b]) return;
+    for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
+      leeway_.from[i] = motion[i].position;
+      leeway_.own[i] = std::clamp(norm(motion[i].velocity) * duration, least, most);
+      leeway_.distance[i] = leeway_.own[i];
+    }
+  });
+  in_two_rounds(team_, blocks, [&](int b, int) {
+    const bool first = strayed_[b], second = b + 1 < blocks && strayed_[b + 1];
+    if (!first && !second) return;
+    const Block& block = pairs.blocks[b];
+    for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
+      const std::int32_t i = pairs.candidates.i[c], j = pairs.candidates.j[c];
+      if (first) leeway_.distance[i] = std::max(leeway_.distance[i], leeway_.own[j]);
+      if (j < block.grains_end ? first : second) leeway_.distance[j] = std::max(leeway_.distance[j], leeway_.own[i]);
+    }
+  });
+  // Two grains of a candidate may each use half of its skin.
+  std::vector<char> enough(blocks, true);
+  team_.each(blocks, [&](int b, int) {
+    if (!strayed_[b]) return;
+    for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
+      const double left = 0.5 * skin_ - norm(motion[i].position - listed_[i]);
+      if (!(left >= kLeastShare * leeway_.distance[i])) enough[b] = false;
+      leeway_.distance[i] = std::min(leeway_.distance[i], left);
+    }
+  });
+  return std::find(enough.begin(), enough.end(), false) == enough.end();
+}
+
+Deepest Lists::select_pairs() {
+  std::vector<Block>& blocks = world_.pairs.blocks;
+  std::vector<Deepest> deepest(blocks.size());
+  team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
+    const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
+    if (strayed_[b] || next_strayed)
+      deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b], selections_[member],
+                                          world_.reach(), leeway_);
+  });
+  return *std::max_element(deepest.begin(), deepest.end(),
+                           [](const Deepest& a, const Deepest& b) { return a.overlap < b.overlap; });
+}
+
+void Lists::select_at_walls(bool everywhere) {
+  std::vector<Block>& blocks = world_.pairs.blocks;
+  team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
+    if (!everywhere && !strayed_[b]) return;
+    for (std::size_t w = 0; w < world_.walls.size(); ++w)
+      select_at_wall(world_.particles, world_.walls[w], blocks[b], blocks[b].walls[w], selections_[member],
+                     world_.reach(), leeway_, wall_leeway_);
+  });
+}
+
+}  // namespace pastefit

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "core/team.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// Keeps the lists of a world true while its grains and walls move. Three kinds, each made from the one before when a
+/// bound on what may have moved is used up: all grains, sorted in space; candidates, made anew for the whole world when
+/// a grain has used up its share of the skin; contacts and bridges, chosen anew for the blocks of which a grain has
+/// left its leeway, and for their neighbours that share pairs with them. What is calm is left alone.
+class Lists {
+ public:
+  /// `skin`: of the candidates [m].
+  Lists(World& world, double skin, Team& team);
+
+  /// To be called after the world was changed from outside.
+  void forget() { valid_ = false; }
+
+  /// Brings the lists up to date before a step of about `dt`; the walls have moved by up to `wall_way` since the last
+  /// call, and the fastest of them moves with `wall_speed`. Returns the deepest overlap among the pairs it looked at.
+  Deepest update(double dt, double wall_way, double wall_speed);
+
+  /// Whether a grain that is here now is still where the lists allow it to be. A position that is not a number is not.
+  bool allow(std::int32_t grain, const Vec3& position) const {
+    const Vec3 way = position - leeway_.from[grain];
+    return dot(way, way) <= leeway_.distance[grain] * leeway_.distance[grain];
+  }
+  /// A grain of the block is not.
+  void note_strayed(std::size_t block) { strayed_[block] = true; }
+
+ private:
+  void take_along();
+  void list_candidates();
+  /// Gives the grains of the strayed blocks a new leeway; false if one has too little of its skin left.
+  bool give_leeway(double duration);
+  Deepest select_pairs();
+  void select_at_walls(bool everywhere);
+
+  World& world_;
+  double skin_;
+  Team& team_;
+  std::vector<Selection> selections_;  ///< one for each member of the team
+  Leeway leeway_;
+  std::vector<Vec3> listed_;   ///< where the grains were when the candidates were listed
+  std::vector<char> strayed_;  ///< blocks to be chosen for anew (not bool: threads write side by side)
+  bool valid_ = false;
+  double wall_leeway_ = 0;  ///< way of a wall that the selected contacts allow for [m]
+  double wall_way_ = 0;     ///< bound on what has been used of it [m]
+};
+
+}  // namespace pastefit

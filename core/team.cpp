@@ -1,0 +1,56 @@
+#include "core/team.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr int kPatience = 20000;  // looks before a thread goes to sleep: some tens of microseconds
+
+/// Waits until `value` is no longer `old`.
+template <class T>
+void wait_for_change(const std::atomic<T>& value, T old) {
+  for (int look = 0; look < kPatience; ++look) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    __builtin_ia32_pause();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+Team::Team(int size) {
+  for (int member = 1; member < size; ++member) helpers_.emplace_back([this, member] { help(member); });
+}
+
+Team::~Team() {
+  over_ = true;
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void Team::share() {
+  next_.store(0, std::memory_order_relaxed);
+  busy_.store(static_cast<int>(helpers_.size()), std::memory_order_relaxed);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  take_tasks(0);
+  for (int busy = busy_.load(std::memory_order_acquire); busy > 0; busy = busy_.load(std::memory_order_acquire))
+    wait_for_change(busy_, busy);
+}
+
+void Team::help(int member) {
+  for (std::uint32_t seen = 0;;) {
+    wait_for_change(round_, seen);
+    seen = round_.load(std::memory_order_acquire);
+    if (over_) return;
+    take_tasks(member);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
+}
+
+void Team::take_tasks(int member) {
+  for (int task; (task = next_.fetch_add(1, std::memory_order_relaxed)) < tasks_;) call_(work_, task, member);
+}
+
+}  // namespace pastefit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace pastefit {
+
+/// Threads that share the work inside one simulation. They wait actively for a moment between two pieces of work,
+/// because a step has several of them and lasts less than it takes to wake a sleeping thread.
+///
+/// Requirement on the work: tasks write to different places, and what they add up is combined in the order of the
+/// tasks, not of the threads; then every size of the team gives the same bits.
+class Team {
+ public:
+  explicit Team(int size = 1);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int size() const { return static_cast<int>(helpers_.size()) + 1; }
+
+  /// Calls `work(task, member)` once for every task 0 .. tasks-1 and returns when all are done. Which member
+  /// (0 .. size-1) does which task is left to chance. `work` must not throw.
+  template <class Work>
+  void each(int tasks, const Work& work) {
+    if (helpers_.empty() || tasks <= 1) {
+      for (int task = 0; task < tasks; ++task) work(task, 0);
+      return;
+    }
+    call_ = [](const void* self, int task, int member) { (*static_cast<const Work*>(self))(task, member); };
+    work_ = &work;
+    tasks_ = tasks;
+    share();
+  }
+
+ private:
+  void share();
+  void help(int member);
+  void take_tasks(int member);
+
+  std::vector<std::thread> helpers_;
+  void (*call_)(const void*, int, int) = nullptr;
+  const void* work_ = nullptr;
+  int tasks_ = 0;
+  alignas(64) std::atomic<int> next_{0};
+  alignas(64) std::atomic<std::uint32_t> round_{0};  ///< grows by one with every piece of work
+  alignas(64) std::atomic<int> busy_{0};             ///< helpers that have not finished this round
+  bool over_ = false;
+};
+
+}  // namespace pastefit
