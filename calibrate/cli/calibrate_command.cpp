@@ -52,6 +52,13 @@ std::vector<std::string> readings_of(const Study& study) {
   return names;
 }
 
+std::vector<std::string> free_names(const Study& study) {
+  std::vector<std::string> names;
+  for (const auto& parameter : study.parameters)
+    if (parameter.free) names.push_back(parameter.name);
+  return names;
+}
+
 std::vector<std::string> fitted_of(const Study& study) {
   std::vector<std::string> names;
   for (const auto& weight : study.weights)
@@ -60,8 +67,8 @@ std::vector<std::string> fitted_of(const Study& study) {
 }
 
 /// Card and summary, to the folder and to the person.
-int deliver(const Card& card, const Inference& inference, const OutputFolder& folder) {
-  const auto summary = summary_of(card, words_of(inference));
+int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
+  const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   std::printf("\n%s", summary.c_str());
@@ -104,10 +111,12 @@ int calibrate(const CalibrateOptions& options) {
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
   SimulationObjective objective(study, store.value(), evaluator);
   const auto calibration = search(
-      objective, search_options, [&](const Progress& progress) { line.show(progress); }, readings_of(study));
+      objective, search_options, [&](const Progress& progress) { line.show(progress); }, readings_of(study),
+      free_names(study));
   const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
   std::optional<Inference> inference;
-  if (found)
+  // Readings that no material meets say nothing of the parameters.
+  if (found && calibration.status != CalibrationStatus::out_of_reach)
     inference = examine(study, objective, store.value(), calibration, search_options.examination_simulations,
                         search_options.seed);
   line.end();
@@ -123,8 +132,8 @@ int calibrate(const CalibrateOptions& options) {
   }
   auto card =
       card_of(study, calibration, search_options, store.value(), counts, options.study, lab_file_of(options.study));
-  card.inference = card_inference(*inference);
-  return deliver(card, *inference, folder.value());
+  if (inference) card.inference = card_inference(*inference);
+  return deliver(card, inference, folder.value());
 }
 
 }  // namespace

@@ -90,8 +90,8 @@ void Ledger::measure_noise() {
   }
 }
 
-void Ledger::report() const {
-  if (progress_) progress_({phase_, simulations(), budget_, best_misfit_mm_});
+void Ledger::report(const std::string& note) const {
+  if (progress_) progress_({phase_, simulations(), budget_, best_misfit_mm_, note});
 }
 
 void Ledger::keep_single(const Response& response) {

@@ -31,6 +31,8 @@ class Ledger : public Objective {
   void hold_back(int simulations) { held_back_ = simulations; }
   /// Begins a phase: weighs anew all that was answered.
   void enter(std::string_view phase);
+  /// Tells whoever waits.
+  void say(const std::string& note) const { report(note); }
 
   /// Best answer on exactly these packings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
@@ -44,7 +46,7 @@ class Ledger : public Objective {
   void keep_single(const Response& response);
   void weigh(Response& response) const;
   void measure_noise();
-  void report() const;
+  void report(const std::string& note = {}) const;
 
   Objective& objective_;
   const std::function<void(const Progress&)>& progress_;

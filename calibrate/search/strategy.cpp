@@ -10,6 +10,7 @@
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
+#include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
 #include "calibrate/search/surrogate.h"
 
@@ -37,13 +38,22 @@ std::string number(double value) {
 class Search {
  public:
   Search(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress,
-         std::span<const std::string> readings)
-      : objective_(objective), options_(options), ledger_(objective, options, progress), readings_(readings) {}
+         std::span<const std::string> readings, std::span<const std::string> parameters)
+      : objective_(objective),
+        options_(options),
+        ledger_(objective, options, progress),
+        readings_(readings),
+        parameters_(parameters) {}
 
   Calibration run() {
     common_ = fresh_packings(options_.packings);
     ledger_.hold_back(options_.confirmation_packings);
     screen();
+    if (is_out_of_reach()) {
+      ledger_.evaluate({&out_of_reach_->nearest, 1}, common_);
+      if (!ledger_.stop_requested() && ledger_.best_on(common_)) confirm();
+      return conclude();
+    }
     while (ledger_.any_feasible() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
@@ -75,6 +85,17 @@ class Search {
       ledger_.evaluate(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
     }
+  }
+
+  /// Says what the screening tells of the reach, and whether a search would be in vain.
+  bool is_out_of_reach() {
+    const int spare = ledger_.budget_left() - static_cast<int>(common_.size());
+    out_of_reach_ =
+        find_out_of_reach(ledger_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
+    if (!ledger_.any_feasible() || ledger_.stop_requested()) return false;
+    ledger_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
+                              : words_of(reach_of(ledger_.singles(), objective_.residuals()), readings_));
+    return out_of_reach_.has_value();
   }
 
   /// The best starting point known, on whatever packings.
@@ -133,7 +154,7 @@ class Search {
     int fruitless = 0;
     while (!goal_is_met() && may_go_on() && fruitless < fruitless_proposals) {
       Surrogate surrogate(ledger_.singles());
-      const UnitPoint proposal = propose(surrogate, best_point());
+      const UnitPoint proposal = least_point(surrogate, best_point());
       const bool known = std::any_of(ledger_.history().begin(), ledger_.history().end(), [&](const Response& seen) {
         return seen.packings == common_ && (seen.point - proposal).lpNorm<Eigen::Infinity>() < same_point;
       });
@@ -247,6 +268,10 @@ class Search {
     } else if (ledger_.stop_requested()) {
       result_.status = CalibrationStatus::stopped;
       result_.reason = "The search was stopped; the best so far is given" + spent;
+    } else if (out_of_reach_) {
+      result_.status = CalibrationStatus::out_of_reach;
+      result_.reason = words_of(*out_of_reach_, readings_, parameters_) +
+                       " The search was not begun; the material that comes nearest is given" + spent;
     } else if (!ledger_.any_feasible()) {
       result_.status = CalibrationStatus::failed;
       result_.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
@@ -271,7 +296,8 @@ class Search {
   Objective& objective_;
   const SearchOptions& options_;
   Ledger ledger_;
-  std::span<const std::string> readings_;
+  std::span<const std::string> readings_, parameters_;
+  std::optional<OutOfReach> out_of_reach_;
   std::vector<std::uint64_t> common_;  // every candidate is compared on these
   std::uint64_t packings_used_ = 0;
   bool confirmed_ = false;
@@ -327,9 +353,10 @@ Faults validate(const SearchOptions& options, int parameters) {
 }
 
 Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings) {
+                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
+                   std::span<const std::string> parameters) {
   if (!validate(options, objective.parameters()).empty()) throw std::logic_error("search: options that are not valid");
-  return Search(objective, options, progress, readings).run();
+  return Search(objective, options, progress, readings, parameters).run();
 }
 
 }  // namespace pastefit
