@@ -112,7 +112,7 @@ std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const Uni
 
 std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const ReachOptions& options, int& probes) {
   const int parameters = ledger.parameters();
-  const double tolerance = options.tolerance_mm * std::sqrt(ledger.residuals());
+  const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
   while (!ledger.stop_requested()) {
     const Approach approach(ledger.singles(), reading, tolerance);
     if (!approach.suspect()) return std::nullopt;
@@ -148,7 +148,7 @@ std::string name_of(std::span<const std::string> names, std::size_t index, const
 
 std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options) {
   int probes = options.probes;
-  for (std::size_t k = 0; ledger.any_feasible() && k < static_cast<std::size_t>(ledger.residuals()); ++k)
+  for (std::size_t k = 0; ledger.any_feasible() && k < static_cast<std::size_t>(ledger.readings()); ++k)
     if (auto found = examine(ledger, k, options, probes)) return found;
   return std::nullopt;
 }
@@ -169,11 +169,15 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
   return out + ".";
 }
 
-std::string words_of(std::span<const Reach> reach, std::span<const std::string> readings) {
+std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings) {
   std::string out;
+  const auto count = singles.empty() ? 0 : static_cast<int>(singles.front().observables.size());
+  const std::vector<Reach> reach = reach_of(singles, count);
   for (std::size_t k = 0; k < reach.size(); ++k) {
+    const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
+    if (std::ranges::none_of(singles, fitted)) continue;
     const Reach& one = reach[k];
-    out += (k == 0 ? "" : " ") + name_of(readings, k, "reading ") +
+    out += (out.empty() ? "" : " ") + name_of(readings, k, "reading ") +
            format(" went from %.3g to %.3g, ", one.lowest, one.highest);
     if (one.all_above || one.all_below)
       out += std::string("always ") + (one.all_above ? "above" : "below") +

@@ -47,7 +47,7 @@ std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& 
 std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
                      std::span<const std::string> parameters);
 
-/// What the simulations so far did, where nothing is out of reach for certain.
-std::string words_of(std::span<const Reach> reach, std::span<const std::string> readings);
+/// What the simulations so far did with the fitted readings, where nothing is out of reach for certain.
+std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings);
 
 }  // namespace pastefit

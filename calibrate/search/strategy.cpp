@@ -18,6 +18,7 @@ namespace pastefit {
 namespace {
 
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
+constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
 constexpr double same_point = 0.01;     // proposals closer than this bring nothing new [unit cube]
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
 
@@ -76,11 +77,13 @@ class Search {
   void screen() {
     ledger_.enter("screening");
     const std::span<const std::uint64_t> first(common_.data(), 1);
+    const int known = static_cast<int>(ledger_.singles().size());
     int asked = 0;
     // If everything fails, further points of the same sequence look elsewhere, while half of the budget lasts.
-    while (!ledger_.any_feasible() && !ledger_.stop_requested()) {
-      const int count = std::min(options_.screening, ledger_.budget_left());
-      if (count < 1 || asked > options_.budget_simulations / 2) return;
+    while ((!ledger_.any_feasible() || known + asked < options_.screening) && !ledger_.stop_requested()) {
+      const int missing = options_.screening - (ledger_.any_feasible() ? known + asked : 0);
+      const int count = std::min(missing, ledger_.budget_left());
+      if (count < 1 || asked > options_.budget_simulations / objective_.simulations_each() / 2) return;
       const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
       ledger_.evaluate(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
@@ -94,7 +97,7 @@ class Search {
         find_out_of_reach(ledger_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
     if (!ledger_.any_feasible() || ledger_.stop_requested()) return false;
     ledger_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
-                              : words_of(reach_of(ledger_.singles(), objective_.residuals()), readings_));
+                              : words_of_screening(ledger_.singles(), readings_));
     return out_of_reach_.has_value();
   }
 
@@ -128,7 +131,17 @@ class Search {
 
   bool goal_is_met() const {
     const auto best = ledger_.best_on(common_);
-    return best && best->misfit_mm <= goal_share * options_.tolerance_mm;
+    return best && best->misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(*best);
+  }
+
+  bool agrees_with_priors(const Response& response) const {
+    const auto priors = objective_.residuals() - objective_.readings();
+    return (response.residuals.tail(priors).array().abs() <= far_from_prior).all();
+  }
+
+  /// The misfit at which an optimiser may end by itself; none where what is known beforehand has a say.
+  double optimisers_goal_mm() const {
+    return objective_.residuals() > objective_.readings() ? 0 : goal_share * options_.tolerance_mm;
   }
 
   /// Brings candidates on the common packings; false if not a single one could be had.
@@ -142,7 +155,7 @@ class Search {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
       nlopt.evaluations = std::max(1, ledger_.budget_left() / static_cast<int>(2 * common_.size()));
-      nlopt.goal_mm = goal_share * options_.tolerance_mm;
+      nlopt.goal_mm = optimisers_goal_mm();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
       search_nlopt(ledger_, common_, best_point(), nlopt);
@@ -205,7 +218,7 @@ class Search {
     CeresOptions ceres;
     ceres.trust_region = trust_region;
     ceres.evaluations = evaluations;
-    ceres.goal_mm = goal_share * options_.tolerance_mm;
+    ceres.goal_mm = optimisers_goal_mm();
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
@@ -249,7 +262,7 @@ class Search {
     result_.history = ledger_.history();
     result_.simulations = ledger_.simulations();
     result_.failures = ledger_.failures();
-    result_.reach = reach_of(ledger_.singles(), objective_.residuals());
+    result_.reach = reach_of(ledger_.singles(), objective_.readings());
     explain();
     return std::move(result_);
   }
@@ -328,7 +341,7 @@ std::vector<std::string_view> strategy_names() {
   return names;
 }
 
-Faults validate(const SearchOptions& options, int parameters) {
+Faults validate(const SearchOptions& options, int parameters, int tests) {
   Faults faults;
   const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
     if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
@@ -346,7 +359,7 @@ Faults validate(const SearchOptions& options, int parameters) {
   demand(options.confirmation_packings >= 1, "search.confirmation_packings",
          std::to_string(options.confirmation_packings), "at least 1");
   demand(options.tolerance_mm > 0, "search.tolerance_mm", number(options.tolerance_mm), "above 0");
-  const int least = options.screening + options.packings + options.confirmation_packings;
+  const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
   demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
          "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
   return faults;
@@ -355,7 +368,8 @@ Faults validate(const SearchOptions& options, int parameters) {
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
                    std::span<const std::string> parameters) {
-  if (!validate(options, objective.parameters()).empty()) throw std::logic_error("search: options that are not valid");
+  if (!validate(options, objective.parameters(), objective.simulations_each()).empty())
+    throw std::logic_error("search: options that are not valid");
   return Search(objective, options, progress, readings, parameters).run();
 }
 

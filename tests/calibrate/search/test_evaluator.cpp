@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "core/rigs/packing.h"
 
@@ -36,9 +37,10 @@ struct Laboratory {
       if (parameter.name == "strength_pa") parameter = {"strength_pa", true, 0, 100, 10000, Scale::logarithmic};
       if (parameter.name == "friction") parameter = {"friction", true, 0, 0, 1, Scale::linear};
     }
-    study.lab.measurements = {
+    study.tests.emplace_back();
+    study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
-    study.weights = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
+    study.tests[0].weights = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
     study.search.budget_simulations = 20;
     options.threads = 4;
     options.simulator.fill = [this](const SlumpTable&, const RunOptions&) {
@@ -61,7 +63,7 @@ struct Laboratory {
   ~Laboratory() { std::filesystem::remove_all(folder); }
 
   Store store() const {
-    auto opened = Store::open(folder / "evaluations.sqlite", {"study", "lab", "program"});
+    auto opened = Store::open(folder / "evaluations.sqlite", {"program", "inputs"});
     REQUIRE(opened.ok());
     return std::move(opened).value();
   }
@@ -167,7 +169,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
     else if (friction > 0.95)
       outcome.observables.set("step1.height_mm", 300);  // the worst a heap can do
   };
-  laboratory.study.lab.test.mould.height_m = 0.3;
+  laboratory.study.tests[0].lab.test.mould.height_m = 0.3;
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const std::vector<UnitPoint> points{at(0.5, 0), at(0.5, 0.1), at(0.5, 0.2), at(0.5, 1)};
   const auto responses = objective.evaluate(points, kPackings);
@@ -247,6 +249,36 @@ TEST_CASE("a simulation beyond the wall limit is a stored failure, and the next 
   CHECK_FALSE(objective.stop_requested());
 }
 
+TEST_CASE("core-seconds are counted over all simulations, and spent they are a stop request") {
+  Laboratory laboratory;
+  auto store = laboratory.store();
+  laboratory.options.core_budget_s = 0.05;
+  laboratory.twist = [](auto&&...) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, std::vector<std::uint64_t>{1});
+  CHECK_FALSE(objective.stop_requested());
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.1, 0.5), at(0.2, 0.5)}, kPackings);
+  CHECK(objective.stop_requested());
+  CHECK(objective.counts().core_s > 0.05);
+}
+
+TEST_CASE("what is known of a parameter beforehand is a residual of its own, in its own deviations") {
+  Laboratory laboratory;
+  auto& strength = laboratory.study.parameters[0];
+  strength.prior = Prior{1000, 230.2585092994046};  // a hundredth of two decades: 0.05 of ln(10000/100)
+  laboratory.study.parameters[5].prior = Prior{0.4, 0.1};
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  CHECK(objective.residuals() == 5);
+  CHECK(objective.readings() == 3);
+  const auto response = objective.evaluate(std::vector<UnitPoint>{at(0.6, 0.5)}, kPackings)[0];
+  CHECK(response.observables.size() == 3);
+  CHECK(response.residuals[3] == Approx(2));
+  CHECK(response.residuals[4] == Approx(1));
+  CHECK(response.misfit_mm == Approx(2));
+  CHECK(response.misfit == Approx(0.5 * response.residuals.squaredNorm()));
+}
+
 TEST_CASE("points outside the unit cube are refused as a programming error") {
   Laboratory laboratory;
   auto store = laboratory.store();
@@ -262,4 +294,112 @@ TEST_CASE("an exception of the engine reaches the caller") {
   laboratory.twist = [](auto&&...) { throw std::runtime_error("a bug"); };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   CHECK_THROWS_WITH(objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings), "a bug");
+}
+
+namespace {
+
+/// A second test of the same material, whose mould is of other size: it reads 200 mm lower.
+void add_low_mould(Laboratory& laboratory, bool hold_out) {
+  auto& tests = laboratory.study.tests;
+  tests[0].name = "high";
+  tests.push_back(tests[0]);
+  tests[1].name = "low";
+  tests[1].hold_out = hold_out;
+  tests[1].lab.test.mould.height_m = 0.06;
+  tests[1].lab.measurements = {{"step1.height_mm", 20, 1, 2}};
+  tests[1].weights = {{"step1.height_mm", 1}};
+  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+    if (test.mould.height_m != 0.06) return;
+    outcome.observables.set("step1.height_mm", 20 + static_cast<double>(test.packing_seed));
+  };
+}
+
+}  // namespace
+
+TEST_CASE("two tests of one material are one residual vector, each reading under its test's name") {
+  Laboratory laboratory;
+  add_low_mould(laboratory, false);
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  CHECK(objective.residuals() == 4);
+  CHECK(objective.simulations_each() == 2);
+  CHECK(objective.budget_left() == 10);
+  const std::vector<UnitPoint> points{at(0.5, 0.5)};
+  const auto response = objective.evaluate(points, kPackings)[0];
+  CHECK(response.observables[0] == Approx(102));
+  CHECK(response.observables[3] == Approx(22));
+  CHECK(response.residuals[3] == Approx(2));
+  CHECK(response.misfit_mm == Approx(2));
+  CHECK(laboratory.runs == 4);
+  CHECK(laboratory.fills == 4);
+  CHECK(objective.counts().simulated == 4);
+  CHECK(objective.budget_left() == 8);
+  const auto record = record_of(laboratory.study, store, std::vector<Response>{response});
+  REQUIRE(record.size() == 2);
+  CHECK(record[0].observables.find("high/step1.height_mm") == 101.0);
+  CHECK(record[0].observables.find("low/step1.height_mm") == 21.0);
+}
+
+TEST_CASE("a candidate that fails in one of two tests has failed") {
+  Laboratory laboratory;
+  add_low_mould(laboratory, false);
+  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+    if (test.mould.height_m == 0.06) fail(outcome, FailureReason::grain_lost, 0.1);
+  };
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  const auto response = objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings)[0];
+  CHECK(response.failed);
+  CHECK(response.evaluations[0].failure->reason == FailureReason::grain_lost);
+  CHECK(objective.counts().failures[FailureReason::grain_lost] == 2);
+}
+
+TEST_CASE("a test that is held out is never simulated by a search, and predicted when asked") {
+  Laboratory laboratory;
+  add_low_mould(laboratory, true);
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  CHECK(objective.residuals() == 3);
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings);
+  CHECK(laboratory.runs == 2);
+  const auto predicted = objective.predict(at(0.5, 0.5), kPackings, 1);
+  REQUIRE(predicted.size() == 2);
+  CHECK(predicted[1].observables.find("step1.height_mm") == 23.0);
+  CHECK(objective.budget_left() == 16);
+}
+
+TEST_CASE("what was simulated before holds within narrower bounds, and for another reading of the laboratory") {
+  Laboratory laboratory;
+  const auto stored = [&](const char* inputs) {
+    auto opened = Store::open(laboratory.folder / "evaluations.sqlite", {"program", inputs});
+    REQUIRE(opened.ok());
+    return std::move(opened).value();
+  };
+  {
+    auto store = stored("{}");
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    CHECK(objective.earlier().empty());
+    (void)objective.evaluate(std::vector<UnitPoint>{at(0.25, 0.5), at(0.75, 0.5), at(0.5, 0.1)}, kPackings);
+    CHECK(objective.earlier().empty());  // its own search asks for them again
+  }
+  laboratory.study.parameters[0].lower = 1000;  // the middle of 100 to 10000 on its scale
+  laboratory.study.tests[0].lab.measurements[0].value = 90;
+  {
+    auto store = stored(R"({"narrower": true})");
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    const auto earlier = objective.earlier();
+    REQUIRE(earlier.size() == 4);  // 0.75 and 0.5 of the old range, two packings each
+    CHECK(earlier[0].point[0] == Approx(0).margin(1e-9));
+    CHECK(earlier[0].point[1] == Approx(0.1));
+    CHECK(earlier[2].point[0] == Approx(0.5));
+    CHECK(earlier[2].packings == std::vector<std::uint64_t>{1});
+    CHECK(earlier[2].residuals[0] == Approx(2 * (101 - 90) / 2.0));
+    CHECK(record_of(laboratory.study, store, {}).size() == 4);
+    (void)objective.evaluate(std::vector<UnitPoint>{at(0.3, 0.5)}, kPackings);
+    CHECK(objective.earlier().size() == 4);
+  }
+  laboratory.study.tests[0].lab.test.lift_velocity_m_s *= 2;  // another test: nothing holds
+  auto store = stored(R"({"faster": true})");
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  CHECK(objective.earlier().empty());
 }
