@@ -183,7 +183,7 @@ Command add_calibrate(CLI::App& verb) {
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
   verb.add_option("--core-budget", options->core_budget_s,
-                  "the same for the time of all simulations together, each counted on its core")
+                  "the same for the processor time of all simulations together")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -17,6 +18,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so a stop is obeyed at once
+
+/// Processor time of the calling thread.
+double core_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -202,6 +210,7 @@ void SimulationObjective::run(Task& task) {
 
   bool by_user = false;
   const auto start = Clock::now();
+  const double core_start = core_seconds();
   options.watch_interval_s = kWatchInterval;
   options.watch = [&](const Moment&) {
     by_user = by_user || stop_requested();
@@ -219,6 +228,10 @@ void SimulationObjective::run(Task& task) {
   evaluation.wall_s = seconds_since(start);
 
   auto faults = store_.add(evaluation);
+  {
+    const std::lock_guard lock(mutex_);
+    counts_.core_s += core_seconds() - core_start;
+  }
   if (!faults.empty()) {
     const std::lock_guard lock(mutex_);
     store_faults_ = std::move(faults);
@@ -231,7 +244,6 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
   const std::lock_guard lock(mutex_);
   if (!asked_.insert(evaluation.key).second) return;
   ++(from_store ? counts_.answered : counts_.simulated);
-  if (!from_store) counts_.core_s += evaluation.wall_s;
   if (const auto failure = failure_of(study_.tests[test], evaluation)) ++counts_.failures[failure->reason];
   if (options_.observer) options_.observer(counts_);
 }

@@ -27,7 +27,7 @@ struct Simulator {
 
 /// Tally of the evaluations one objective was asked for; each is counted once, however often it was asked.
 struct EvaluationCounts {
-  double core_s = 0;                      ///< time of those finished now, each on its core
+  double core_s = 0;                      ///< processor time of those finished now
   int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
   int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
@@ -39,7 +39,7 @@ struct EvaluatorOptions {
   int budget = 0;                           ///< evaluations in all, known ones included; 0: the study's budget
   double wall_limit_s = 600;                ///< a simulation that takes longer fails with `stopped`
   double wall_budget_s = 0;                 ///< from now on; then as if `stop` had become true; 0: no end
-  double core_budget_s = 0;                 ///< of all simulations made from now on together; likewise
+  double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
   Simulator simulator;

@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <thread>
 
+#include "calibrate/card/calibration_card.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
@@ -253,7 +255,15 @@ TEST_CASE("core-seconds are counted over all simulations, and spent they are a s
   Laboratory laboratory;
   auto store = laboratory.store();
   laboratory.options.core_budget_s = 0.05;
-  laboratory.twist = [](auto&&...) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  laboratory.twist = [](auto&&...) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));  // a core that waits is not counted
+    const auto now = [] {
+      timespec time{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    for (const double start = now(); now() - start < 0.02;) continue;
+  };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, std::vector<std::uint64_t>{1});
   CHECK_FALSE(objective.stop_requested());
@@ -366,6 +376,38 @@ TEST_CASE("a test that is held out is never simulated by a search, and predicted
   REQUIRE(predicted.size() == 2);
   CHECK(predicted[1].observables.find("step1.height_mm") == 23.0);
   CHECK(objective.budget_left() == 16);
+}
+
+TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts is judged") {
+  for (const auto& [measured, within] : {std::pair{23.0, true}, std::pair{40.0, false}}) {
+    Laboratory laboratory;
+    add_low_mould(laboratory, true);
+    auto& held = laboratory.study.tests[1];
+    held.lab.measurements = {{"step1.height_mm", measured, 1, 2}, {"step1.spread_mm", 900, 1, 2}};
+    held.weights = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}};
+    auto store = laboratory.store();
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    Calibration calibration;
+    const std::vector<UnitPoint> points{at(0.5, 0.5)};
+    calibration.best = calibration.search = calibration.confirmation =
+        objective.evaluate(points, std::vector<std::uint64_t>{1, 2, 3, 4})[0];
+    const auto card = [&] {
+      return card_of(laboratory.study, calibration, laboratory.study.search, store, objective.counts(), "study.json");
+    };
+    REQUIRE(card().further.size() == 1);
+    CHECK(card().further[0].observables.empty());  // not predicted yet
+    CHECK_FALSE(card().further[0].within_noise);
+    predict_hold_outs(laboratory.study, calibration, objective);
+    const CardTest test = card().further[0];
+    CHECK(test.name == "low");
+    REQUIRE(test.within_noise);
+    CHECK(*test.within_noise == within);
+    CHECK(test.observables[0].simulated == Approx(22.5));
+    CHECK(test.observables[0].band);
+    CHECK_FALSE(test.observables[1].band);
+    CHECK(card().observables[0].measured == 100.0);
+    CHECK(card().baseline.runs.size() == 4);
+  }
 }
 
 TEST_CASE("what was simulated before holds within narrower bounds, and for another reading of the laboratory") {
