@@ -114,7 +114,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
     ObjectReader reader(list[i], place, document.faults());
     read_one_of_many(reader, folder, tests, in_labs);
   }
-  std::ranges::stable_partition(tests, [](const StudyTest& test) { return !test.hold_out; });
+  std::stable_partition(tests.begin(), tests.end(), [](const StudyTest& test) { return !test.hold_out; });
   if (!tests.empty() && tests.front().hold_out)
     document.fault("tests", "all are held out, so nothing is fitted", "leave \"hold_out\" out in at least one");
   return tests;
