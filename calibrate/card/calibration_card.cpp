@@ -4,11 +4,16 @@
 #include <cmath>
 
 #include "calibrate/card/machine.h"
+#include "calibrate/check/statistics.h"
+#include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
 namespace {
+
+constexpr double kHoldOutAlarm = 0.05;  // probability that a right prediction is called wrong, all readings of a test
 
 /// Mean and standard deviation of a reading over the packings; nothing if some packing did not give it.
 std::optional<CardObservable> mean_of(const std::string& name, const std::vector<Observables>& runs) {
@@ -26,41 +31,96 @@ std::optional<CardObservable> mean_of(const std::string& name, const std::vector
   return out;
 }
 
-}  // namespace
-
-Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,
-             const EvaluationCounts& counts, const std::string& study_file, const std::string& lab_file) {
-  const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
-  const auto& shown = fresh ? calibration.confirmation : calibration.best;
-  const auto values = values_at(study, shown.point);
-
-  Card card;
-  card.title = study.title;
-  card.test = test_with(study, values, shown.packings.at(0));
-  card.parameters = study.parameters;
-  for (std::size_t i = 0; i < values.size(); ++i) card.parameters[i].value = values[i];
-
+/// A material in one test of a study: what the store has of it on these packings; nothing if one of them is missing.
+std::vector<Observables> runs_of(const Study& study, std::size_t test, const std::vector<double>& values,
+                                 const std::vector<std::uint64_t>& packings, const Store& store) {
   std::vector<Observables> runs;
-  for (const auto packing : shown.packings)
-    runs.push_back(store.find(evaluation_key(store.identity(), values, packing)).value().observables);
-  card.baseline.program = store.identity().program;
-  card.baseline.machine = machine_type();
-  for (std::size_t i = 0; i < runs.size(); ++i) card.baseline.runs.push_back({shown.packings[i], runs[i]});
+  for (const auto packing : packings) {
+    auto found = store.find(key_of(study, test, values, packing, store.identity().program));
+    if (!found || failure_of(study.tests[test], *found)) return {};
+    runs.push_back(std::move(found->observables));
+  }
+  return runs;
+}
+
+/// Every reading of the runs, beside the laboratory's where it has one.
+std::vector<CardObservable> observables_of(const StudyTest& test, const std::vector<Observables>& runs) {
+  std::vector<CardObservable> out;
   for (const auto& reading : runs.at(0).all()) {
     auto observable = mean_of(reading.name, runs);
     if (!observable) continue;
-    for (std::size_t i = 0; i < study.lab.measurements.size(); ++i) {
-      const auto& measurement = study.lab.measurements[i];
+    for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
+      const auto& measurement = test.lab.measurements[i];
       if (measurement.observable != reading.name) continue;
       observable->measured = measurement.value;
       observable->standard_deviation = measurement.standard_deviation;
       observable->repeats = measurement.repeats;
-      observable->weight = study.weights[i].weight;
+      observable->weight = test.weights[i].weight;
     }
-    card.observables.push_back(std::move(*observable));
-    if (reading.name == "fill.solid_fraction")
-      card.grain_density_kg_m3 = card.test.bulk_density_kg_m3 / card.observables.back().simulated;
+    out.push_back(std::move(*observable));
   }
+  return out;
+}
+
+/// Holds a prediction against the laboratory: each reading that counts within the noise of both.
+void judge(CardTest& test, std::size_t packings) {
+  std::vector<CardObservable*> judged;
+  for (auto& observable : test.observables)
+    if (observable.measured && observable.weight > 0) judged.push_back(&observable);
+  const double share = kHoldOutAlarm / static_cast<double>(judged.size());
+  test.within_noise = !judged.empty();
+  for (auto* observable : judged) {
+    const Sample measured{observable->repeats, *observable->measured, observable->standard_deviation};
+    const Sample simulated{static_cast<int>(packings), observable->simulated, observable->simulated_standard_deviation};
+    observable->band = unequal_band_of(measured, simulated, share);
+    const bool within = std::abs(observable->simulated - *observable->measured) <= *observable->band;
+    test.within_noise = *test.within_noise && within;
+  }
+}
+
+CardTest further_of(const Study& study, std::size_t index, const std::vector<double>& values,
+                    const std::vector<std::uint64_t>& packings, const Store& store) {
+  const auto& test = study.tests[index];
+  CardTest out;
+  out.name = test.name;
+  out.hold_out = test.hold_out;
+  out.lab_file = test.lab_file;
+  out.lab_hash = test.lab.hash;
+  out.lab = test.lab.provenance;
+  out.test = test_with(test.lab.test, values, packings.at(0));
+  const auto runs = runs_of(study, index, values, packings, store);
+  if (runs.empty()) return out;
+  out.observables = observables_of(test, runs);
+  if (out.hold_out) judge(out, packings.size());
+  return out;
+}
+
+}  // namespace
+
+Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,
+             const EvaluationCounts& counts, const std::string& study_file) {
+  const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
+  const auto& shown = fresh ? calibration.confirmation : calibration.best;
+  const auto values = values_at(study, shown.point);
+  const auto& first = study.tests.at(0);
+
+  Card card;
+  card.title = study.title;
+  card.test = test_with(first.lab.test, values, shown.packings.at(0));
+  card.test_name = first.name;
+  card.parameters = study.parameters;
+  for (std::size_t i = 0; i < values.size(); ++i) card.parameters[i].value = values[i];
+
+  const auto runs = runs_of(study, 0, values, shown.packings, store);
+  card.baseline.program = store.identity().program;
+  card.baseline.machine = machine_type();
+  for (std::size_t i = 0; i < runs.size(); ++i) card.baseline.runs.push_back({shown.packings[i], runs[i]});
+  card.observables = observables_of(first, runs);
+  for (const auto& observable : card.observables)
+    if (observable.name == "fill.solid_fraction")
+      card.grain_density_kg_m3 = card.test.bulk_density_kg_m3 / observable.simulated;
+  for (std::size_t i = 1; i < study.tests.size(); ++i)
+    card.further.push_back(further_of(study, i, values, shown.packings, store));
 
   card.confirmation = {shown.packings, fresh, shown.misfit_mm, options.tolerance_mm,
                        fresh && shown.misfit_mm <= options.tolerance_mm};
@@ -73,8 +133,20 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  counts.simulated + counts.answered,
                  {}};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
-  card.provenance = {study_file, study.hash, lab_file, study.lab.hash, study.lab.provenance, store.identity().program};
+  card.provenance = {study_file,     study.hash,           first.lab_file,
+                     first.lab.hash, first.lab.provenance, store.identity().program};
   return card;
+}
+
+void predict_hold_outs(const Study& study, const Calibration& calibration, SimulationObjective& objective) {
+  const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
+  if (!fresh) return;
+  for (const auto test : tests_of(study, true))
+    objective.predict(calibration.confirmation.point, calibration.confirmation.packings, test);
+}
+
+int hold_out_simulations(const Study& study, const SearchOptions& options) {
+  return static_cast<int>(tests_of(study, true).size()) * options.confirmation_packings;
 }
 
 }  // namespace pastefit

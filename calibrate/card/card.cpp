@@ -29,6 +29,7 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
     out["weight"] = observable.weight;
     out["difference"] = observable.simulated - *observable.measured;
   }
+  if (observable.band) out["band"] = *observable.band;
   return out;
 }
 
@@ -43,6 +44,28 @@ ordered_json conditions_to_json(const Card& card) {
   out["largest_pressure_pa"] = card.test.bulk_density_kg_m3 * kGravity * card.test.mould.height_m;
   for (const auto& observable : card.observables)
     if (observable.measured && observable.weight > 0) out["fitted"][observable.name] = *observable.measured;
+  return out;
+}
+
+ordered_json observables_to_json(const std::vector<CardObservable>& observables, std::size_t packings) {
+  auto out = ordered_json::object();
+  for (const auto& observable : observables) out[observable.name] = observable_to_json(observable, packings);
+  return out;
+}
+
+ordered_json provenance_to_json(const Provenance& lab) {
+  return {{"source", lab.source}, {"licence", lab.licence}, {"notes", lab.notes}, {"twin", lab.twin}};
+}
+
+ordered_json further_to_json(const CardTest& test, std::size_t packings) {
+  ordered_json out{{"name", test.name},
+                   {"hold_out", test.hold_out},
+                   {"lab_file", test.lab_file},
+                   {"lab_hash", test.lab_hash},
+                   {"lab", provenance_to_json(test.lab)},
+                   {"test", to_json(test.test)},
+                   {"observables", observables_to_json(test.observables, packings)}};
+  if (test.within_noise) out["within_noise"] = *test.within_noise;
   return out;
 }
 
@@ -104,10 +127,13 @@ ordered_json to_json(const Card& card) {
     auto& bounds = out["free"][parameter.name] = {{"lower", parameter.lower}, {"upper", parameter.upper}};
     for (const auto& scale : scales)
       if (scale.value == parameter.scale) bounds["scale"] = scale.name;
+    if (const auto& prior = parameter.prior)
+      bounds["prior"] = {{"value", prior->value}, {"standard_deviation", prior->standard_deviation}};
   }
-  out["observables"] = ordered_json::object();
-  for (const auto& observable : card.observables)
-    out["observables"][observable.name] = observable_to_json(observable, card.confirmation.packings.size());
+  const auto packings = card.confirmation.packings.size();
+  out["observables"] = observables_to_json(card.observables, packings);
+  if (!card.test_name.empty()) out["test_name"] = card.test_name;
+  for (const auto& test : card.further) out["further_tests"].push_back(further_to_json(test, packings));
   out["confirmation"] = {{"packings", card.confirmation.packings},
                          {"fresh", card.confirmation.fresh},
                          {"misfit_mm", card.confirmation.misfit_mm},
@@ -121,16 +147,9 @@ ordered_json to_json(const Card& card) {
   out["search"]["failures"] = ordered_json::object();
   for (const auto& [reason, count] : search.failures) out["search"]["failures"][reason] = count;
   const auto& provenance = card.provenance;
-  out["provenance"] = {{"study_file", provenance.study_file},
-                       {"study_hash", provenance.study_hash},
-                       {"lab_file", provenance.lab_file},
-                       {"lab_hash", provenance.lab_hash},
-                       {"lab",
-                        {{"source", provenance.lab.source},
-                         {"licence", provenance.lab.licence},
-                         {"notes", provenance.lab.notes},
-                         {"twin", provenance.lab.twin}}},
-                       {"program", provenance.program}};
+  out["provenance"] = {{"study_file", provenance.study_file},       {"study_hash", provenance.study_hash},
+                       {"lab_file", provenance.lab_file},           {"lab_hash", provenance.lab_hash},
+                       {"lab", provenance_to_json(provenance.lab)}, {"program", provenance.program}};
   add_inference(out, card.inference);
   out["baseline"] = baseline_to_json(card.baseline);
   for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));

@@ -21,14 +21,26 @@ struct CardObservable {
   std::optional<double> measured;           ///< mean of the laboratory's repeats; empty: not measured
   double standard_deviation = 0;            ///< of one measurement
   int repeats = 0;
-  double weight = 0;  ///< in the fit; 0: reported only
+  double weight = 0;                          ///< in the fit; 0: reported only
+  std::optional<double> band = std::nullopt;  ///< of a hold-out: |simulated - measured| that the noise of both explains
+};
+
+/// A further test of the same material, beside the card's own.
+struct CardTest {
+  std::string name;
+  bool hold_out = false;  ///< predicted, not fitted
+  std::string lab_file, lab_hash;
+  Provenance lab;
+  SlumpTable test;  ///< with the same material in its own grains
+  std::vector<CardObservable> observables;
+  std::optional<bool> within_noise;  ///< of a hold-out: every reading that counts lies within its band
 };
 
 /// How well the calibrated material was confirmed.
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds of the packings that the simulated readings are means over
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
-  double misfit_mm = 0;                 ///< root mean square difference of the fitted lengths
+  double misfit_mm = 0;                 ///< root mean square difference of the fitted lengths, all tests together
   double tolerance_mm = 0;              ///< what the study asked for
   bool meets_laboratory = false;        ///< on fresh packings, nothing failed, and misfit_mm <= tolerance_mm
 };
@@ -119,6 +131,8 @@ struct Card {
   std::optional<double> grain_density_kg_m3;  ///< of the grains, such that the mould holds the bulk density
   std::vector<Parameter> parameters;          ///< scale-free, every known one, in the order of `parameter_kinds`
   std::vector<CardObservable> observables;
+  std::string test_name;          ///< of `test`, where a study had several; empty: it had one
+  std::vector<CardTest> further;  ///< the other tests of such a study, on the same packings
   Confirmation confirmation;
   SearchRecord search;
   CardProvenance provenance;
@@ -131,8 +145,8 @@ struct Card {
 /// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws.
 /// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated
 /// - measured, standard_error = simulated_standard_deviation/sqrt(packings), `conditions` (what the fit was made for).
-/// `intervals`, `correlation`, `not_identified`, `rebaselined` and `rescaled` are written when there is something in
-/// them.
+/// `intervals`, `correlation`, `not_identified`, `test_name`, `further_tests`, `rebaselined` and `rescaled` are written
+/// when there is something in them.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

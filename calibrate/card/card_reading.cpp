@@ -31,7 +31,47 @@ CardObservable read_observable(ObjectReader& reader, std::string name) {
   reader.integer("repeats", out.repeats, 0, 1'000'000, need);
   reader.number("weight", out.weight, kNotNegative, need);
   reader.number("difference", derived, kAny, Need::optional);
+  if (double band = 0; reader.number("band", band, kNotNegative, Need::optional)) out.band = band;
   return out;
+}
+
+void read_observables(ObjectReader& card, const json& document, std::vector<CardObservable>& target) {
+  card.object("observables", kRequired, [&](ObjectReader& observables) {
+    for (const auto& [name, value] : document["observables"].items())
+      observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {
+        target.push_back(read_observable(observable, key));
+      });
+  });
+}
+
+/// A test with a reader of its own, which knows its fields.
+SlumpTable read_test(const json& document, const std::string& place, Faults& faults) {
+  const auto test = slump_table_from_json(document.is_object() ? document.value("test", json()) : json());
+  if (test.ok()) return test.value();
+  for (const auto& fault : test.faults())
+    faults.push_back({fault.where.empty() ? place : joined(place, fault.where), fault.what, fault.remedy});
+  return {};
+}
+
+void read_lab_provenance(ObjectReader& reader, Provenance& target) {
+  reader.object("lab", kRequired, [&](ObjectReader& lab) {
+    lab.text("source", target.source, kRequired);
+    lab.text("licence", target.licence, kRequired);
+    lab.text("notes", target.notes, kRequired);
+    lab.flag("twin", target.twin, kRequired);
+  });
+}
+
+void read_further(ObjectReader& reader, const json& document, CardTest& test) {
+  reader.text("name", test.name, kRequired);
+  reader.flag("hold_out", test.hold_out, kRequired);
+  reader.text("lab_file", test.lab_file, kRequired);
+  reader.text("lab_hash", test.lab_hash, kRequired);
+  read_lab_provenance(reader, test.lab);
+  reader.known("test");
+  test.test = read_test(document, reader.place("test"), reader.faults());
+  read_observables(reader, document, test.observables);
+  if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
 }
 
 void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
@@ -53,6 +93,11 @@ void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
         bounds.number("lower", parameter.lower, kAny, kRequired);
         bounds.number("upper", parameter.upper, kAny, kRequired);
         bounds.choice("scale", parameter.scale, scales, kRequired);
+        bounds.object("prior", kOptional, [&](ObjectReader& prior) {
+          auto& known = parameter.prior.emplace();
+          prior.number("value", known.value, kAny, kRequired);
+          prior.number("standard_deviation", known.standard_deviation, kNotNegative, kRequired);
+        });
       });
   });
 }
@@ -80,12 +125,7 @@ void read_provenance(ObjectReader& reader, CardProvenance& provenance) {
   reader.text("study_hash", provenance.study_hash, kRequired);
   reader.text("lab_file", provenance.lab_file, kRequired);
   reader.text("lab_hash", provenance.lab_hash, kRequired);
-  reader.object("lab", kRequired, [&](ObjectReader& lab) {
-    lab.text("source", provenance.lab.source, kRequired);
-    lab.text("licence", provenance.lab.licence, kRequired);
-    lab.text("notes", provenance.lab.notes, kRequired);
-    lab.flag("twin", provenance.lab.twin, kRequired);
-  });
+  read_lab_provenance(reader, provenance.lab);
   reader.text("program", provenance.program, kRequired);
 }
 
@@ -197,17 +237,12 @@ Result<Card> card_from_json(const json& document) {
   if (!upgraded.ok()) return upgraded.faults();
   Card card;
   Faults faults;
-  json& rest = upgraded.value();
-  const auto test = slump_table_from_json(rest.value("test", json()));
-  rest.erase("test");  // it had a reader of its own
-  if (test.ok())
-    card.test = test.value();
-  else
-    for (const auto& fault : test.faults())
-      faults.push_back({fault.where.empty() ? "test" : "test." + fault.where, fault.what, fault.remedy});
+  const json& rest = upgraded.value();
+  card.test = read_test(rest, "test", faults);
   {
     ObjectReader reader(rest, "", faults);
     reader.known("format");
+    reader.known("test");
     reader.known("conditions");
     reader.text("title", card.title, kRequired);
     double derived = 0;
@@ -216,12 +251,9 @@ Result<Card> card_from_json(const json& document) {
       material.nullable_number("grain_density_kg_m3", card.grain_density_kg_m3, kNotNegative, kRequired);
     });
     read_parameters(reader, card.parameters);
-    reader.object("observables", kRequired, [&](ObjectReader& observables) {
-      for (const auto& [name, value] : rest["observables"].items())
-        observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {
-          card.observables.push_back(read_observable(observable, key));
-        });
-    });
+    read_observables(reader, rest, card.observables);
+    reader.text("test_name", card.test_name, kOptional);
+    read_list(reader, rest, "further_tests", card.further, read_further);
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);

@@ -6,10 +6,9 @@ namespace pastefit {
 
 SlumpTable filling_of(const Card& card, std::uint64_t packing) {
   Study study;
-  study.lab.test = card.test;
   study.parameters = card.parameters;
   const Eigen::VectorXd middle = Eigen::VectorXd::Constant(free_count(study), 0.5);
-  const auto stiffness = test_with(study, values_at(study, middle), packing).contact;
+  const auto stiffness = test_with(card.test, values_at(study, middle), packing).contact;
   SlumpTable test = card.test;
   test.packing_seed = packing;
   test.contact.youngs_modulus_pa = stiffness.youngs_modulus_pa;

@@ -15,6 +15,7 @@ Result<Card> rescaled(Card card, double radius) {
 
   if (auto faults = validate(card.test); !faults.empty()) return faults;
   card.observables.clear();
+  card.further.clear();
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = false;
   card.confirmation.misfit_mm = 0;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,10 +13,12 @@
 #include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
@@ -28,7 +31,7 @@ struct CalibrateOptions {
   bool force = false;
   int threads = 0;
   int budget = 0;
-  double wall_budget_s = 0;
+  double wall_budget_s = 0, core_budget_s = 0;
   std::optional<std::uint64_t> seed;
 };
 
@@ -40,28 +43,52 @@ const std::vector<std::string> kResults = {kCard, kSummary, kStore, kStore + "-w
 constexpr std::uintmax_t kSpace = 16u << 20;             // card, summary, SQLite's own files
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
 
-std::string lab_file_of(const std::string& study_file) {
-  Faults faults;
-  const auto document = read_json(study_file, faults);
-  return document ? document->value("lab", "") : "";
-}
-
-std::vector<std::string> readings_of(const Study& study) {
+std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
   std::vector<std::string> names;
-  for (const auto& measurement : study.lab.measurements) names.push_back(measurement.observable);
+  for (const auto& reading : readings)
+    if (!fitted_only || reading.weight > 0) names.push_back(reading.name);
   return names;
 }
 
-std::vector<std::string> fitted_of(const Study& study) {
+std::vector<std::string> free_names(const Study& study) {
   std::vector<std::string> names;
-  for (const auto& weight : study.weights)
-    if (weight.weight > 0) names.push_back(weight.observable);
+  for (const auto& parameter : study.parameters)
+    if (parameter.free) names.push_back(parameter.name);
   return names;
+}
+
+int prior_count(const Study& study) {
+  return static_cast<int>(
+      std::ranges::count_if(study.parameters, [](const Parameter& parameter) { return parameter.prior.has_value(); }));
+}
+
+std::string changed_places(const Store& store) {
+  std::string out;
+  for (const auto& place : store.changes()) out += (out.empty() ? "" : ", ") + place;
+  return out;
+}
+
+/// A store of which nothing is of the study's tests: going on would mix two laboratories in one folder.
+Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
+  if (store.size() == 0 || holding(study, store) > 0) return {};
+  return {{file,
+           "none of its " + std::to_string(store.size()) +
+               " evaluations is of a test of this study; changed: " + changed_places(store),
+           "resume with the apparatus, the grains and the density as they were; or choose another output folder, or "
+           "start anew with --force"}};
+}
+
+/// What has changed since the evaluations were made, and how many of them still hold.
+std::string changes_in(const Study& study, const Store& store) {
+  if (store.changes().empty()) return "";
+  return "Changed since the last run: " + changed_places(store) + ". " +
+         std::to_string(earlier_of(study, store).size()) +
+         " candidates are known from before within the present bounds; they do not count in the budget.\n";
 }
 
 /// Card and summary, to the folder and to the person.
-int deliver(const Card& card, const Inference& inference, const OutputFolder& folder) {
-  const auto summary = summary_of(card, words_of(inference));
+int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
+  const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   std::printf("\n%s", summary.c_str());
@@ -78,7 +105,10 @@ int calibrate(const CalibrateOptions& options) {
   auto search_options = study.search;
   if (options.budget > 0) search_options.budget_simulations = options.budget;
   if (options.seed) search_options.seed = *options.seed;
-  if (const auto faults = validate(search_options, free_count(study)); !faults.empty())
+  auto for_the_search = search_options;
+  for_the_search.budget_simulations -= hold_out_simulations(study, search_options);
+  const auto fitted_tests = static_cast<int>(tests_of(study, false).size());
+  if (const auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty())
     return report(in_file(faults, options.study));
 
   const auto budget = search_options.budget_simulations;
@@ -89,25 +119,32 @@ int calibrate(const CalibrateOptions& options) {
                                    kSpace + static_cast<std::uintmax_t>(budget) * kSpaceOfEvaluation);
   if (!folder.ok()) return report(folder.faults());
   if (options.force) folder.value().clear(kResults);
-  auto store = Store::open(folder.value().file(kStore), {study.hash, study.lab.hash, program_identity()});
+  auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
+  if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())
+    return report(faults);
 
   std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
               budget, store.value().size());
-  std::printf("%s", warning_before(free_count(study), fitted_of(study)).c_str());
+  std::printf("%s%s", changes_in(study, store.value()).c_str(),
+              warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
   ProgressLine line(budget);
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
   evaluator.budget = budget;
   evaluator.wall_budget_s = options.wall_budget_s;
+  evaluator.core_budget_s = options.core_budget_s;
   evaluator.stop = &listen_for_stop();
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
   SimulationObjective objective(study, store.value(), evaluator);
   const auto calibration = search(
-      objective, search_options, [&](const Progress& progress) { line.show(progress); }, readings_of(study));
+      objective, for_the_search, [&](const Progress& progress) { line.show(progress); },
+      names_of(readings_of(study), false), free_names(study));
   const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
   std::optional<Inference> inference;
-  if (found)
+  if (found) predict_hold_outs(study, calibration, objective);
+  // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
+  if (found && calibration.status != CalibrationStatus::out_of_reach && !*evaluator.stop)
     inference = examine(study, objective, store.value(), calibration, search_options.examination_simulations,
                         search_options.seed);
   line.end();
@@ -121,10 +158,9 @@ int calibrate(const CalibrateOptions& options) {
     std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.value().file(kStore).c_str());
     return kFailed;
   }
-  auto card =
-      card_of(study, calibration, search_options, store.value(), counts, options.study, lab_file_of(options.study));
-  card.inference = card_inference(*inference);
-  return deliver(card, *inference, folder.value());
+  auto card = card_of(study, calibration, search_options, store.value(), counts, options.study);
+  if (inference) card.inference = card_inference(*inference);
+  return deliver(card, inference, folder.value());
 }
 
 }  // namespace
@@ -144,6 +180,10 @@ Command add_calibrate(CLI::App& verb) {
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   verb.add_option("--wall-budget", options->wall_budget_s, "end after this time with the best so far; --resume goes on")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--core-budget", options->core_budget_s,
+                  "the same for the processor time of all simulations together")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");

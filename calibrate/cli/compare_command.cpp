@@ -13,6 +13,7 @@
 #include "calibrate/store/program.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
@@ -73,7 +74,8 @@ void print(const std::vector<StrategySummary>& rows, double tolerance_mm) {
 }
 
 /// The strategies that were asked for, or all that can search so many parameters.
-Result<std::vector<std::string>> strategies_of(const CompareOptions& options, SearchOptions search, int parameters) {
+Result<std::vector<std::string>> strategies_of(const CompareOptions& options, SearchOptions search, int parameters,
+                                               int tests) {
   Faults faults;
   std::vector<std::string> names = options.strategies;
   if (names.empty())
@@ -81,7 +83,7 @@ Result<std::vector<std::string>> strategies_of(const CompareOptions& options, Se
   std::vector<std::string> able;
   for (const auto& name : names) {
     search.strategy = name;
-    const auto found = validate(search, parameters);
+    const auto found = validate(search, parameters, tests);
     if (found.empty()) able.push_back(name);
     for (const auto& fault : found) {
       const bool its_own = fault.where == "search.strategy";
@@ -101,7 +103,8 @@ int compare(const CompareOptions& options) {
   comparison.search = study.search;
   if (options.budget > 0) comparison.search.budget_simulations = options.budget;
   comparison.seeds = options.seeds;
-  auto strategies = strategies_of(options, comparison.search, free_count(study));
+  auto strategies =
+      strategies_of(options, comparison.search, free_count(study), static_cast<int>(tests_of(study, false).size()));
   if (!strategies.ok()) return report(in_file(strategies.faults(), options.study));
   comparison.strategies = std::move(strategies).value();
   for (int k = 0; k < options.judge_packings; ++k)
@@ -113,7 +116,7 @@ int compare(const CompareOptions& options) {
   auto folder = OutputFolder::open(options.out, kResults, earlier, kSpace);
   if (!folder.ok()) return report(folder.faults());
   if (options.force) folder.value().clear(kResults);
-  auto store = Store::open(folder.value().file(kStore), {study.hash, study.lab.hash, program_identity()});
+  auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
 
   const auto& stop = listen_for_stop();

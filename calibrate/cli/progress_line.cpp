@@ -24,6 +24,9 @@ void ProgressLine::show(const Progress& progress) {
   phase_ = progress.phase;
   best_misfit_mm_ = progress.best_misfit_mm;
   print(new_phase);
+  if (progress.note.empty()) return;
+  std::printf("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
+  std::fflush(stdout);
 }
 
 void ProgressLine::show(const EvaluationCounts& counts) {

@@ -107,16 +107,16 @@ SlumpTable with_parameters(const SlumpTable& test, std::vector<double> values, c
   return with_contact_of(test, values);
 }
 
-std::optional<SlumpTable> study_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
+std::optional<SlumpTable> study_scene(const json&, const Settings& settings, const std::filesystem::path& file,
                                       Faults& faults) {
   const auto study = read_study(file);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
     return std::nullopt;
   }
-  auto test = study.value().lab.test;
+  auto test = study.value().tests.at(0).lab.test;
   if (!settings.others.empty()) {
-    const auto lab_file = (file.parent_path() / document["lab"].get<std::string>()).lexically_normal();
+    const auto lab_file = (file.parent_path() / study.value().tests[0].lab_file).lexically_normal();
     const auto lab = read_json(lab_file, faults);
     if (!lab) return std::nullopt;
     const auto changed = read_with(*lab, settings, lab_file, faults,

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <unordered_set>
 
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
@@ -13,21 +13,18 @@ namespace {
 
 constexpr double least_survival = 1e-3;  // a model of failures is too rough to rule a candidate out
 
-}  // namespace
-
-std::vector<StoredEvaluation> asked_of(const Study& study, const Store& store, std::span<const Response> history) {
-  std::vector<StoredEvaluation> asked;
-  std::unordered_set<std::string> known;
-  for (const Response& response : history) {
-    const std::vector<double> values = values_at(study, response.point);
-    for (const std::uint64_t packing : response.packings) {
-      const std::string key = evaluation_key(store.identity(), values, packing);
-      if (!known.insert(key).second) continue;
-      if (auto evaluation = store.find(key)) asked.push_back(std::move(*evaluation));
-    }
+/// Sum of squares, each in standard deviations of the prior.
+double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
+  double squares = 0;
+  for (std::size_t j = 0; j < evidence.parameters.size(); ++j) {
+    if (!evidence.parameters[j].prior) continue;
+    const UnitPrior prior = unit_prior(evidence.parameters[j]);
+    squares += std::pow((point[static_cast<Eigen::Index>(j)] - prior.mean) / prior.deviation, 2);
   }
-  return asked;
+  return squares;
 }
+
+}  // namespace
 
 Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations) {
   Evidence evidence;
@@ -41,6 +38,7 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
     if (!evaluation.failure) good.push_back(&evaluation);
   }
   if (good.empty()) return evidence;
+  const std::vector<StudyReading> fitted = readings_of(study);
   for (const Observable& reading : good.front()->observables.all()) {
     ReadingEvidence one;
     one.name = reading.name;
@@ -48,13 +46,11 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
     for (std::size_t i = 0; i < good.size(); ++i)
       one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
     if (!one.simulated.allFinite()) continue;
-    for (std::size_t k = 0; k < study.lab.measurements.size(); ++k) {
-      const Measurement& measurement = study.lab.measurements[k];
-      if (measurement.observable != reading.name) continue;
-      one.measured = measurement.value;
-      one.deviation = measurement.standard_deviation;
-      one.repeats = measurement.repeats;
-      one.weight = study.weights[k].weight;
+    if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
+      one.measured = known->measurement.value;
+      one.deviation = known->measurement.standard_deviation;
+      one.repeats = known->measurement.repeats;
+      one.weight = known->weight;
     }
     evidence.readings.push_back(std::move(one));
   }
@@ -87,7 +83,11 @@ double ResponseModel::miss(const UnitPoint& point) const {
     if (!reading.fitted()) continue;
     squares += reading.weight * std::pow((models_[k].predict(point).mean - *reading.measured) / reading.deviation, 2);
   }
-  return std::sqrt(squares);
+  return std::sqrt(squares + distance_from_priors(evidence_, point));
+}
+
+double ResponseModel::log_posterior(const UnitPoint& point) const {
+  return log_likelihood(point) - 0.5 * distance_from_priors(evidence_, point);
 }
 
 double ResponseModel::log_likelihood(const UnitPoint& point) const {

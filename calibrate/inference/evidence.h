@@ -35,12 +35,7 @@ struct Evidence {
   std::vector<ReadingEvidence> readings;
 };
 
-/// The record of everything a search has asked, each simulation once, in the order of asking: the same whatever else
-/// the store holds and in whichever order it came in. What a stop cut off is not there.
-std::vector<StoredEvaluation> asked_of(const Study& study, const Store& store, std::span<const Response> history);
-
-/// Collects the evidence from the record. Readings that some simulation lacks
-/// are left out.
+/// Collects the evidence from a record (`search/record.h`). Readings that some simulation lacks are left out.
 Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations);
 
 /// What a simulation of any candidate is likely to read, learnt from the
@@ -57,10 +52,12 @@ class ResponseModel {
   GaussianProcess::Prediction predict(std::size_t reading, const UnitPoint& point) const;
   /// Standard deviation of the reading of one simulation about its mean.
   double noise(std::size_t reading) const;
-  /// Distance of the mean readings from the laboratory: root of the sum of squares, each in standard deviations of one
-  /// measurement.
+  /// Distance of the mean readings from the laboratory, and of the point from what was known beforehand: root of the
+  /// sum of squares, each in standard deviations, of one measurement or of the prior.
   double miss(const UnitPoint& point) const;
   double log_likelihood(const UnitPoint& point) const;
+  /// The same, and what was known beforehand.
+  double log_posterior(const UnitPoint& point) const;
 
  private:
   Evidence evidence_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "calibrate/search/record.h"
+
 namespace pastefit {
 
 namespace {
@@ -16,7 +18,7 @@ Inference examine(const Study& study, Objective& objective, const Store& store, 
   std::vector<Response> history = calibration.history;
   InferenceOptions options;
   options.seed = seed;
-  const auto evidence = [&] { return evidence_of(study, asked_of(study, store, history)); };
+  const auto evidence = [&] { return evidence_of(study, record_of(study, store, history)); };
   for (int round = 0; round < rounds; ++round) {
     const int count = std::min(simulations / rounds, objective.budget_left());
     if (count < 1 || objective.stop_requested()) break;

@@ -14,14 +14,36 @@ namespace pastefit {
 
 namespace {
 
-constexpr double difference_step = 0.05;             // of the response model, which is smooth
-constexpr double border = 0.05;                      // of a range: where the sample shows whether the data set an end
-constexpr double thin = 0.2;                         // density at a bound, over the mean one, below
-                                                     // which the data set the end
-constexpr double visible = 0.3;                      // part of a reading in a combination worth a word
-constexpr double neighbourhood = 0.2;                // of the cube: materials nearer than this are one to a person
-constexpr double two_sided = 1.959964;               // standard deviations of 95 %
-const double prior_deviation = 1 / std::sqrt(12.0);  // of a coordinate evenly spread over the unit cube
+constexpr double difference_step = 0.05;  // of the response model, which is smooth
+constexpr double border = 0.05;           // of a range: where the sample shows whether the data set an end
+constexpr double thin = 0.2;              // density at a bound, over the mean one, below
+                                          // which the data set the end
+constexpr double visible = 0.3;           // part of a reading in a combination worth a word
+constexpr double neighbourhood = 0.2;     // of the cube: materials nearer than this are one to a person
+constexpr double two_sided = 1.959964;    // standard deviations of 95 %
+
+/// Standard deviation of a coordinate before the test: evenly spread over the bounds, or of the prior between them.
+double deviation_before(const Parameter& parameter) {
+  if (!parameter.prior) return 1 / std::sqrt(12.0);
+  const UnitPrior prior = unit_prior(parameter);
+  constexpr int cells = 1000;
+  double sum = 0, mean = 0, square = 0;
+  for (int i = 0; i < cells; ++i) {
+    const double x = (i + 0.5) / cells;
+    const double weight = std::exp(-0.5 * std::pow((x - prior.mean) / prior.deviation, 2));
+    sum += weight;
+    mean += weight * x;
+    square += weight * x * x;
+  }
+  return std::sqrt(std::max(square / sum - mean * mean / sum / sum, 1e-12));
+}
+
+Eigen::VectorXd deviations_before(const Evidence& evidence) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(evidence.parameters.size()));
+  for (std::size_t j = 0; j < evidence.parameters.size(); ++j)
+    out[static_cast<Eigen::Index>(j)] = deviation_before(evidence.parameters[j]);
+  return out;
+}
 
 std::vector<std::size_t> fitted_of(const Evidence& evidence) {
   std::vector<std::size_t> fitted;
@@ -63,14 +85,14 @@ Ends ends_of(std::vector<double> coordinates) {
   return ends;
 }
 
-/// 95 % of the likelihood along one coordinate, the others held: the part
+/// 95 % of the posterior along one coordinate, the others held: the part
 /// between its tails.
 std::pair<double, double> held_ends(const ResponseModel& model, UnitPoint point, Eigen::Index coordinate) {
   constexpr int cells = 400;
   std::vector<double> logarithms;
   for (int i = 0; i < cells; ++i) {
     point[coordinate] = (i + 0.5) / cells;
-    logarithms.push_back(model.log_likelihood(point));
+    logarithms.push_back(model.log_posterior(point));
   }
   const double most = *std::ranges::max_element(logarithms);
   double sum = 0;
@@ -111,7 +133,8 @@ double width_of(const Parameter& parameter, double step) {
 std::vector<Combination> combinations_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                          const UnitPoint& at) {
   const Evidence& evidence = model.evidence();
-  Eigen::MatrixXd scaled = prior_deviation * jacobian_of(model, fitted, at);
+  const Eigen::VectorXd before = deviations_before(evidence);
+  Eigen::MatrixXd scaled = jacobian_of(model, fitted, at) * before.asDiagonal();
   for (std::size_t k = 0; k < fitted.size(); ++k)
     scaled.row(static_cast<Eigen::Index>(k)) /=
         std::sqrt(evidence.readings[fitted[k]].variance() + model.predict(fitted[k], at).variance);
@@ -128,7 +151,7 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
     one.direction.assign(direction.begin(), direction.end());
     one.lead = static_cast<std::size_t>(lead);
     one.lead_width =
-        width_of(evidence.parameters[one.lead], two_sided * prior_deviation * one.uncertainty / direction[lead]);
+        width_of(evidence.parameters[one.lead], two_sided * before[lead] * one.uncertainty / direction[lead]);
     if (i < svd.matrixU().cols() && i < svd.singularValues().size()) {
       const Eigen::VectorXd part = svd.matrixU().col(i).cwiseAbs();
       std::vector<std::size_t> order(fitted.size());
@@ -199,7 +222,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
 }
 
 std::vector<UnitPoint> sample_of(const ResponseModel& model, const InferenceOptions& options) {
-  return posterior_sample([&](const UnitPoint& point) { return model.log_likelihood(point); },
+  return posterior_sample([&](const UnitPoint& point) { return model.log_posterior(point); },
                           static_cast<int>(model.evidence().parameters.size()), options.sample, options.seed);
 }
 
@@ -218,10 +241,11 @@ Moments moments_of(const std::vector<UnitPoint>& sample) {
   return out;
 }
 
-/// The reading a laboratory may write down, by the name of the simulation's
-/// reading.
+/// The reading a laboratory may write down, by the name of the simulation's reading; with the name of its test before a
+/// slash where a study has several.
 bool measurable(const std::string& name) {
-  return std::ranges::any_of(reading_keys(), [&](const ReadingKey& key) { return key.observable == name; });
+  const std::string own = name.substr(name.find('/') + 1);
+  return std::ranges::any_of(reading_keys(), [&](const ReadingKey& key) { return key.observable == own; });
 }
 
 /// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.
@@ -272,12 +296,14 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
 void heed_sample(Combination& combination, const Evidence& evidence, const Moments& moments) {
   const auto size = static_cast<Eigen::Index>(combination.direction.size());
   const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(combination.direction.data(), size);
-  const double sampled = std::sqrt(direction.dot(moments.covariance * direction)) / prior_deviation;
+  const Eigen::VectorXd before = deviations_before(evidence);
+  const Eigen::VectorXd scaled = direction.cwiseQuotient(before);
+  const double sampled = std::sqrt(scaled.dot(moments.covariance * scaled));
   if (sampled <= combination.uncertainty) return;
   combination.uncertainty = std::min(1.0, sampled);
-  combination.lead_width =
-      width_of(evidence.parameters[combination.lead],
-               two_sided * prior_deviation * combination.uncertainty / combination.direction[combination.lead]);
+  combination.lead_width = width_of(evidence.parameters[combination.lead],
+                                    two_sided * before[static_cast<Eigen::Index>(combination.lead)] *
+                                        combination.uncertainty / combination.direction[combination.lead]);
 }
 
 }  // namespace
@@ -328,7 +354,9 @@ Inference infer(const Evidence& evidence, const UnitPoint& recommended, const In
     one.upper_known = ends.upper_known;
     one.held_lower = value_between(parameter, held_lower);
     one.held_upper = value_between(parameter, held_upper);
-    one.uncertainty = std::sqrt(moments.covariance(j, j)) / prior_deviation;
+    one.prior = parameter.prior;
+    one.deviation_before = deviation_before(parameter);
+    one.uncertainty = std::sqrt(moments.covariance(j, j)) / one.deviation_before;
     double linear = 0;
     for (const Combination& combination : out.combinations)
       linear += std::pow(combination.direction[static_cast<std::size_t>(j)] * combination.uncertainty, 2);

@@ -19,9 +19,10 @@ struct ParameterInterval {
   bool lower_known = false,
        upper_known = false;  ///< the end was set by the data, not by the study's bound
   double held_lower = 0,
-         held_upper = 0;   ///< 95 %, the other parameters held at the recommended values
-  double uncertainty = 1;  ///< standard deviation after the measurement over the
-                           ///< one of the bounds alone
+         held_upper = 0;        ///< 95 %, the other parameters held at the recommended values
+  std::optional<Prior> prior;   ///< what was known beforehand, contained in all of these
+  double deviation_before = 0;  ///< of its coordinate, by the bounds and the prior alone
+  double uncertainty = 1;       ///< standard deviation after the measurement over that one
 
   bool interval_exists() const { return lower_known && upper_known; }
   bool not_identified() const { return !lower_known && !upper_known; }
@@ -30,8 +31,8 @@ struct ParameterInterval {
 /// A combination of the parameters, as the readings see it near the recommended
 /// candidate.
 struct Combination {
-  std::vector<double> direction;      ///< over the free parameters in units of their
-                                      ///< bounds' range, of length 1
+  std::vector<double> direction;      ///< over the free parameters in units of what is open of each beforehand
+                                      ///< (`deviation_before`), of length 1
   double singular_value = 0;          ///< of the Jacobian in standard deviations, readings over parameters
   double uncertainty = 1;             ///< as above: 1/sqrt(1 + singular_value^2), or that of the sample if larger
   std::size_t lead = 0;               ///< the parameter with the largest part; its part is positive
@@ -92,8 +93,8 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
 
 /// What the evidence says about the parameters of a study, without further
 /// simulations. See `evidence.h` for the likelihood, `posterior.h` for the
-/// sample. Bounds count as prior knowledge, evenly spread on the parameter's
-/// scale. Limits: the law itself is taken as right, and so is its grain size;
+/// sample. Bounds count as prior knowledge, evenly spread on the parameter's scale, or by its prior if the study gives
+/// one. Limits: the law itself is taken as right, and so is its grain size;
 /// what both are off is in none of the intervals. Requirements: some simulation
 /// ended well, `recommended` lies in the unit cube, some reading is fitted.
 Inference infer(const Evidence& evidence, const UnitPoint& recommended, const InferenceOptions& options = {});

@@ -23,9 +23,10 @@ std::string exchange_of(const Inference& inference, const Combination& combinati
   const ParameterInterval& lead = inference.intervals[combination.lead];
   std::vector<std::string> rates;
   for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
-    const double ratio = combination.direction[j] / combination.direction[combination.lead];
-    if (j == combination.lead || std::abs(ratio) < worth_a_word) continue;
     const ParameterInterval& other = inference.intervals[j];
+    const double part = combination.direction[j] / combination.direction[combination.lead];
+    if (j == combination.lead || std::abs(part) < worth_a_word) continue;
+    const double ratio = part * lead.deviation_before / other.deviation_before;
     const auto change = [](const ParameterInterval& parameter, double coordinates) {
       if (parameter.scale == Scale::linear)
         return format("%+.2g", coordinates * (parameter.bound_upper - parameter.bound_lower));
@@ -69,11 +70,24 @@ std::string determined(const Inference& inference) {
   return out;
 }
 
+/// What of a parameter comes from knowledge, and what from the readings.
+std::string prior_line(const ParameterInterval& one) {
+  const std::string known =
+      format("  %s was known to be %.3g +- %.3g; ", one.name.c_str(), one.prior->value, one.prior->standard_deviation);
+  if (one.uncertainty > worth_measuring)
+    return known +
+           format("the readings add nothing: %.3g to %.3g (95 %%) comes from the prior.\n", one.lower, one.upper);
+  return known + format("with the readings %.3g to %.3g (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
+                        one.lower, one.upper, 100 * one.uncertainty);
+}
+
 std::string intervals(const Inference& inference) {
   std::string out;
   std::vector<std::string> unknown;
   for (const ParameterInterval& one : inference.intervals) {
-    if (one.not_identified()) {
+    if (one.prior) {
+      out += prior_line(one);
+    } else if (one.not_identified()) {
       unknown.push_back(one.name);
     } else if (one.interval_exists()) {
       out += format("  %s lies between %.3g and %.3g (95 %%), all parameters free.\n", one.name.c_str(), one.lower,
@@ -152,7 +166,7 @@ CardInference card_inference(const Inference& inference) {
   out.level = 0.95;
   for (std::size_t i = 0; i < inference.intervals.size(); ++i) {
     const ParameterInterval& one = inference.intervals[i];
-    if (one.not_identified())
+    if (one.not_identified() && !one.prior)
       out.not_identified.push_back({one.name, "any value within its bounds fits, with the others to match"});
     else
       out.intervals.push_back({one.name, rounded(one.lower, 4), rounded(one.upper, 4)});
@@ -164,13 +178,14 @@ CardInference card_inference(const Inference& inference) {
   return out;
 }
 
-std::string warning_before(int parameters, const std::vector<std::string>& fitted) {
-  if (parameters <= static_cast<int>(fitted.size())) return "";
+std::string warning_before(int parameters, int priors, const std::vector<std::string>& fitted) {
+  if (parameters <= static_cast<int>(fitted.size()) + priors) return "";
   const auto readings =
       fitted.size() == 1 ? "1 fitted reading fixes" : std::to_string(fitted.size()) + " fitted readings fix";
   return std::to_string(parameters) + " parameters are free, and " + readings + " at most " +
-         std::to_string(fitted.size()) + (fitted.size() == 1 ? " combination" : " combinations") +
-         " of them: many materials will fit. The summary will say which.\n";
+         std::to_string(fitted.size()) + (fitted.size() == 1 ? " combination" : " combinations") + " of them" +
+         (priors > 0 ? ", beside " + std::to_string(priors) + " that are known beforehand" : "") +
+         ": many materials will fit. The summary will say which.\n";
 }
 
 }  // namespace pastefit

@@ -17,9 +17,9 @@ std::string words_of(const Inference& inference);
 /// (from 0.2 on), and what is not identified. Rounded to the digits that the sample behind them is worth.
 CardInference card_inference(const Inference& inference);
 
-/// Said before a calibration: more free parameters than the readings could ever
-/// fix. Empty if there are not.
-std::string warning_before(int parameters, const std::vector<std::string>& fitted);
+/// Said before a calibration: more free parameters than the readings and what is known beforehand could ever fix. Empty
+/// if there are not.
+std::string warning_before(int parameters, int priors, const std::vector<std::string>& fitted);
 
 /// "a", "a and b", "a, b and c".
 std::string enumerated(const std::vector<std::string>& words);

@@ -27,17 +27,18 @@ std::string parameter_lines(const Card& card) {
   std::string out = "Scale-free, the same law for every grain size\n";
   for (const auto& parameter : card.parameters) {
     out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
-    out += parameter.free ? format("   fitted, %g to %g\n", parameter.lower, parameter.upper) : "   fixed\n";
+    out += parameter.free ? format("   fitted, %g to %g", parameter.lower, parameter.upper) : "   fixed";
+    if (const auto& prior = parameter.prior)
+      out += format(", known as %g +- %g", prior->value, prior->standard_deviation);
+    out += "\n";
   }
   return out;
 }
 
-std::string observable_lines(const Card& card) {
-  const auto packings = static_cast<double>(card.confirmation.packings.size());
-  std::string out =
-      format("%-26s %10s %10s %22s %12s\n", "Reading", "measured", "+- sd", "simulated +- std error", "difference");
-  for (const auto& observable : card.observables) {
-    const double error = observable.simulated_standard_deviation / std::sqrt(packings);
+std::string observable_lines(const std::vector<CardObservable>& observables, std::size_t packings) {
+  std::string out;
+  for (const auto& observable : observables) {
+    const double error = observable.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
     out += format("  %-24s ", observable.name.c_str());
     out += observable.measured ? format("%10.4g %10.3g ", *observable.measured, observable.standard_deviation)
                                : format("%10s %10s ", "-", "-");
@@ -45,8 +46,32 @@ std::string observable_lines(const Card& card) {
     if (observable.measured)
       out += format(" %+12.3g%s", observable.simulated - *observable.measured,
                     observable.weight > 0 ? "" : "   (not fitted)");
+    if (observable.band) out += format("   (noise explains +-%.3g)", *observable.band);
     out += "\n";
   }
+  return out;
+}
+
+std::string reading_lines(const Card& card) {
+  const auto packings = card.confirmation.packings.size();
+  std::string out =
+      format("%-26s %10s %10s %22s %12s\n", "Reading", "measured", "+- sd", "simulated +- std error", "difference");
+  if (!card.test_name.empty()) out += "Test " + card.test_name + ", the one that is exported and checked\n";
+  out += observable_lines(card.observables, packings);
+  for (const auto& test : card.further) {
+    out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
+    out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);
+  }
+  return out;
+}
+
+std::string hold_out_lines(const Card& card) {
+  std::string out;
+  for (const auto& test : card.further)
+    if (test.within_noise)
+      out += "Hold-out " + test.name +
+             (*test.within_noise ? ": predicted within the noise of both.\n"
+                                 : ": not predicted; the difference is more than the noise of both.\n");
   return out;
 }
 
@@ -65,13 +90,13 @@ std::string verdict_of(const Card& card) {
 
 std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = card.title + "\n\n" + bridge_lines(card.test) + "\n" + parameter_lines(card) + "\n" +
-                    observable_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
+                    reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
   if (card.provenance.lab.twin) out += "The laboratory's data were made by a simulation (a twin).\n";
-  return out + verdict_of(card) + "\n";
+  return out + hold_out_lines(card) + verdict_of(card) + "\n";
 }
 
 }  // namespace pastefit

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <ctime>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -17,6 +18,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so a stop is obeyed at once
+
+/// Processor time of the calling thread.
+double core_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -39,40 +47,33 @@ Failure stopped(std::string message) {
   return failure;
 }
 
-/// The reading that should be there and is not, or is no number.
-std::optional<Failure> missing_reading(const Study& study, const Outcome& outcome) {
-  for (const auto& measurement : study.lab.measurements) {
-    const auto value = outcome.observables.find(measurement.observable);
-    if (value && std::isfinite(*value)) continue;
-    Failure failure;
-    failure.reason = FailureReason::non_finite;
-    failure.phase = "reading";
-    failure.step = outcome.run.steps;
-    failure.time_s = outcome.run.simulated_s;
-    failure.value = value.value_or(std::numeric_limits<double>::quiet_NaN());
-    failure.message = "The run gave no reading of " + measurement.observable + "; look at its heap with --vtk.";
-    return failure;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 /// One simulation that a batch needs, once, however many of its points ask for it.
 struct SimulationObjective::Task {
+  std::size_t index = 0;  // of the test in the study
   SlumpTable test;
   StoredEvaluation evaluation;
 };
 
 SimulationObjective::SimulationObjective(const Study& study, Store& store, EvaluatorOptions options)
-    : study_(study), store_(store), options_(std::move(options)) {
+    : study_(study),
+      readings_(readings_of(study)),
+      fitted_(tests_of(study, false)),
+      store_(store),
+      options_(std::move(options)) {
   if (options_.threads <= 0) options_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (options_.budget <= 0) options_.budget = study.search.budget_simulations;
-  if (study.weights.size() != study.lab.measurements.size())
-    throw std::logic_error("a study needs one weight for each measurement");
-  for (const auto& measurement : study.lab.measurements)
-    if (!(measurement.standard_deviation > 0))
-      throw std::logic_error("the standard deviation of " + measurement.observable + " must be positive");
+  Eigen::Index coordinate = 0;
+  for (const auto& parameter : study.parameters) {
+    if (!parameter.free) continue;
+    if (parameter.prior) known_.push_back({coordinate, unit_prior(parameter)});
+    ++coordinate;
+  }
+  if (fitted_.empty()) throw std::logic_error("a study needs a test that is fitted");
+  for (const auto& reading : readings_)
+    if (!(reading.measurement.standard_deviation > 0))
+      throw std::logic_error("the standard deviation of " + reading.name + " must be positive");
 }
 
 int SimulationObjective::parameters() const {
@@ -80,18 +81,19 @@ int SimulationObjective::parameters() const {
 }
 
 int SimulationObjective::residuals() const {
-  return static_cast<int>(study_.lab.measurements.size());
+  return static_cast<int>(readings_.size() + known_.size());
 }
 
 int SimulationObjective::budget_left() const {
   const std::lock_guard lock(mutex_);
-  return std::max(0, options_.budget - static_cast<int>(asked_.size()));
+  return std::max(0, options_.budget - static_cast<int>(asked_.size())) / simulations_each();
 }
 
 bool SimulationObjective::stop_requested() const {
   if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
   if (options_.wall_budget_s > 0 && seconds_since(begin_) > options_.wall_budget_s) return true;
   const std::lock_guard lock(mutex_);
+  if (options_.core_budget_s > 0 && counts_.core_s > options_.core_budget_s) return true;
   return !store_faults_.empty();
 }
 
@@ -105,42 +107,53 @@ Faults SimulationObjective::store_faults() const {
   return store_faults_;
 }
 
-std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
-                                                    std::span<const std::uint64_t> packings) {
+std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
+                                                           std::span<const std::uint64_t> packings,
+                                                           std::span<const std::size_t> tests) {
   std::map<std::string, Task> tasks;
-  std::vector<std::string> keys;  // point by point, packing by packing
+  std::vector<std::string> keys;
   std::vector<Task*> unknown;
   for (const auto& point : points) {
     if (point.size() != parameters() || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1)
       throw std::logic_error("a candidate must lie in the unit cube over the free parameters");
     const auto values = values_at(study_, point);
     for (const auto seed : packings) {
-      keys.push_back(evaluation_key(store_.identity(), values, seed));
-      const auto [task, added] = tasks.try_emplace(keys.back());
-      if (!added) continue;
-      if (auto known = store_.find(keys.back())) {
-        task->second.evaluation = std::move(*known);
-        count(task->second.evaluation, true);
-        continue;
+      for (const auto test : tests) {
+        keys.push_back(key_of(study_, test, values, seed, store_.identity().program));
+        const auto [task, added] = tasks.try_emplace(keys.back());
+        if (!added) continue;
+        if (auto known = store_.find(keys.back())) {
+          task->second.evaluation = std::move(*known);
+          count(task->second.evaluation, test, true);
+          continue;
+        }
+        task->second.index = test;
+        task->second.test = test_with(study_.tests[test].lab.test, values, seed);
+        auto& evaluation = task->second.evaluation;
+        evaluation.key = keys.back();
+        evaluation.point.assign(point.begin(), point.end());
+        evaluation.values = values;
+        evaluation.packing = seed;
+        evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
+        unknown.push_back(&task->second);
       }
-      task->second.test = test_with(study_, values, seed);
-      auto& evaluation = task->second.evaluation;
-      evaluation.key = keys.back();
-      evaluation.point.assign(point.begin(), point.end());
-      evaluation.values = values;
-      evaluation.packing = seed;
-      evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
-      unknown.push_back(&task->second);
     }
   }
   run_all(unknown);
+  std::vector<StoredEvaluation> out;
+  for (const auto& key : keys) out.push_back(tasks.at(key).evaluation);
+  return out;
+}
 
+std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
+                                                    std::span<const std::uint64_t> packings) {
+  const auto answered = answers(points, packings, fitted_);
   std::vector<Response> responses;
-  auto key = keys.begin();
+  auto next = answered.begin();
   for (const auto& point : points) {
     std::vector<Evaluation> evaluations;
-    for (std::size_t i = 0; i < packings.size(); ++i)
-      evaluations.push_back(evaluation_of(point, tasks.at(*key++).evaluation));
+    for (std::size_t i = 0; i < packings.size(); ++i, next += simulations_each())
+      evaluations.push_back(evaluation_of(point, merged(study_, fitted_, {next, fitted_.size()})));
     responses.push_back(response_of(std::move(evaluations)));
   }
 
@@ -149,6 +162,21 @@ std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> p
     if (!response.failed && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
       counts_.best_misfit_mm = response.misfit_mm;
   if (options_.observer) options_.observer(counts_);
+  return responses;
+}
+
+std::vector<StoredEvaluation> SimulationObjective::predict(const UnitPoint& point,
+                                                           std::span<const std::uint64_t> packings, std::size_t test) {
+  return answers({&point, 1}, packings, {&test, 1});
+}
+
+std::vector<Response> SimulationObjective::earlier() const {
+  std::vector<Response> responses;
+  for (const auto& stored : earlier_of(study_, store_)) {
+    const UnitPoint point =
+        Eigen::Map<const Eigen::VectorXd>(stored.point.data(), static_cast<Eigen::Index>(stored.point.size()));
+    responses.push_back(response_of({evaluation_of(point, stored)}));
+  }
   return responses;
 }
 
@@ -177,11 +205,12 @@ void SimulationObjective::run_all(std::vector<Task*>& tasks) {
 
 void SimulationObjective::run(Task& task) {
   RunOptions options;
-  options.packing = packing(task.evaluation.packing);
+  options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
 
   bool by_user = false;
   const auto start = Clock::now();
+  const double core_start = core_seconds();
   options.watch_interval_s = kWatchInterval;
   options.watch = [&](const Moment&) {
     by_user = by_user || stop_requested();
@@ -193,48 +222,51 @@ void SimulationObjective::run(Task& task) {
   auto& evaluation = task.evaluation;
   if (outcome.failure && outcome.failure->reason == FailureReason::stopped)
     outcome.failure->message = "The simulation took longer than its limit; use coarser or softer grains.";
-  evaluation.failure = outcome.failure ? outcome.failure : missing_reading(study_, outcome);
+  evaluation.failure = outcome.failure;
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
   evaluation.wall_s = seconds_since(start);
 
   auto faults = store_.add(evaluation);
+  {
+    const std::lock_guard lock(mutex_);
+    counts_.core_s += core_seconds() - core_start;
+  }
   if (!faults.empty()) {
     const std::lock_guard lock(mutex_);
     store_faults_ = std::move(faults);
     return;
   }
-  count(evaluation, false);
+  count(evaluation, task.index, false);
 }
 
-void SimulationObjective::count(const StoredEvaluation& evaluation, bool from_store) {
+void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t test, bool from_store) {
   const std::lock_guard lock(mutex_);
   if (!asked_.insert(evaluation.key).second) return;
   ++(from_store ? counts_.answered : counts_.simulated);
-  if (evaluation.failure) ++counts_.failures[evaluation.failure->reason];
+  if (const auto failure = failure_of(study_.tests[test], evaluation)) ++counts_.failures[failure->reason];
   if (options_.observer) options_.observer(counts_);
 }
 
-std::shared_ptr<const Packing> SimulationObjective::packing(std::uint64_t seed) {
+std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t test, std::uint64_t seed) {
   std::promise<std::shared_ptr<const Packing>> promise;
   std::shared_future<std::shared_ptr<const Packing>> future;
   bool ours = false;
   {
     const std::lock_guard lock(mutex_);
-    const auto [entry, added] = packings_.try_emplace(seed);
+    const auto [entry, added] = packings_.try_emplace({test, seed});
     if (added) entry->second = promise.get_future().share();
     future = entry->second;
     ours = added;
   }
   if (ours) {
     try {
-      // The middle of the search space, not the candidate at hand: whoever asks first must not matter.
-      const UnitPoint middle = UnitPoint::Constant(parameters(), 0.5);
+      // Not filled as the candidate at hand would be: whoever asks first must not matter.
       const auto start = Clock::now();
       RunOptions options;
       options.watch_interval_s = kWatchInterval;
       options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
-      promise.set_value(options_.simulator.fill(test_with(study_, values_at(study_, middle), seed), options));
+      promise.set_value(options_.simulator.fill(filled_test(study_, test, seed), options));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }
@@ -248,14 +280,12 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
   out.packing = stored.packing;
   out.failure = stored.failure;
   if (!out.failure)
-    for (const auto& measurement : study_.lab.measurements)
-      out.observables.push_back(stored.observables.find(measurement.observable).value());
+    for (const auto& reading : readings_) out.observables.push_back(stored.observables.find(reading.name).value());
   return out;
 }
 
 Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) const {
-  const auto& measurements = study_.lab.measurements;
-  const auto count = static_cast<Eigen::Index>(measurements.size());
+  const auto count = static_cast<Eigen::Index>(readings_.size());
   const auto packings = static_cast<double>(evaluations.size());
   Response out;
   out.observables = Eigen::VectorXd::Zero(count);
@@ -274,14 +304,18 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
   if (!evaluations.empty()) out.point = evaluations.front().point;
   out.evaluations = std::move(evaluations);
 
-  out.residuals = Eigen::VectorXd::Zero(count);
+  out.residuals = Eigen::VectorXd::Zero(residuals());
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const auto& [coordinate, prior] = known_[i];
+    out.residuals[count + static_cast<Eigen::Index>(i)] = (out.point[coordinate] - prior.mean) / prior.deviation;
+  }
   double squares_mm = 0;
   int lengths = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& measurement = measurements[static_cast<std::size_t>(i)];
-    const double weight = study_.weights[static_cast<std::size_t>(i)].weight;
+    const auto& [test, name, measurement, weight] = readings_[static_cast<std::size_t>(i)];
     if (out.failed)
-      out.observables[i] = measurement.value + failure_factor * worst_miss(measurement, study_.lab.test.mould);
+      out.observables[i] =
+          measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test.mould);
     const double miss = out.observables[i] - measurement.value;
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
     if (weight > 0 && is_length(measurement.observable)) {

@@ -13,7 +13,8 @@
 
 #include "calibrate/search/objective.h"
 #include "calibrate/store/store.h"
-#include "calibrate/study/study.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 #include "core/simulate.h"
 
 namespace pastefit {
@@ -26,7 +27,8 @@ struct Simulator {
 
 /// Tally of the evaluations one objective was asked for; each is counted once, however often it was asked.
 struct EvaluationCounts {
-  int simulated = 0;                      ///< finished now
+  double core_s = 0;                      ///< processor time of those finished now
+  int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
   int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
   double best_misfit_mm = -1;             ///< of the candidates that did not fail; negative: none yet
@@ -37,19 +39,22 @@ struct EvaluatorOptions {
   int budget = 0;                           ///< evaluations in all, known ones included; 0: the study's budget
   double wall_limit_s = 600;                ///< a simulation that takes longer fails with `stopped`
   double wall_budget_s = 0;                 ///< from now on; then as if `stop` had become true; 0: no end
+  double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
   Simulator simulator;
 };
 
-/// The objective of a study: candidates are simulated in parallel, and every finished simulation is stored before its
-/// answer is used. Known ones are answered from the store, so that a search that runs again takes the same way.
+/// The objective of a study: candidates are simulated in parallel in every test that is fitted, and every finished
+/// simulation is stored before its answer is used. Known ones are answered from the store, so that a search that runs
+/// again takes the same way.
 ///
-/// The mould is filled once for each packing seed and shared by all candidates: the fill does not depend on what is
-/// fitted.
+/// The mould of a test is filled once for each packing seed and shared by all candidates: the fill does not depend on
+/// what is fitted.
 ///
-/// A candidate of which a packing failed answers as if every measurement had been missed by `factor` times the worst
-/// miss a heap can have (the mould's height for lengths, the measured value or ten standard deviations for others),
+/// A candidate that failed in some test on some packing answers as if every measurement had been missed by `factor`
+/// times the worst miss a heap can have (the mould's height for lengths, the measured value or ten standard deviations
+/// for others),
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
@@ -65,10 +70,17 @@ class SimulationObjective : public Objective {
   SimulationObjective(const Study& study, Store& store, EvaluatorOptions options);
 
   int parameters() const override;
-  int residuals() const override;  ///< one per measurement; zero where the weight is zero
+  int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
+  int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   int budget_left() const override;
+  int simulations_each() const override { return static_cast<int>(fitted_.size()); }
+  std::vector<Response> earlier() const override;
   bool stop_requested() const override;
+
+  /// A candidate in one test, fitted or not: one evaluation for each packing, in their order; part of the budget.
+  std::vector<StoredEvaluation> predict(const UnitPoint& point, std::span<const std::uint64_t> packings,
+                                        std::size_t test);
 
   EvaluationCounts counts() const;
   Faults store_faults() const;  ///< empty unless an evaluation could not be stored
@@ -76,20 +88,30 @@ class SimulationObjective : public Objective {
  private:
   struct Task;
 
+  /// Simulates, or finds, every point on every packing in every one of these tests; in that order.
+  std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                        std::span<const std::size_t> tests);
   void run(Task& task);
   void run_all(std::vector<Task*>& tasks);
-  void count(const StoredEvaluation& evaluation, bool from_store);
-  std::shared_ptr<const Packing> packing(std::uint64_t seed);
+  void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
+  std::shared_ptr<const Packing> packing(std::size_t test, std::uint64_t seed);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
   Response response_of(std::vector<Evaluation> evaluations) const;
 
   const Study& study_;
+  const std::vector<StudyReading> readings_;
+  const std::vector<std::size_t> fitted_;  // tests
+  struct Known {
+    Eigen::Index coordinate = 0;
+    UnitPrior prior;
+  };
+  std::vector<Known> known_;  // beforehand
   Store& store_;
   EvaluatorOptions options_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 
   mutable std::mutex mutex_;  // guards what follows
-  std::map<std::uint64_t, std::shared_future<std::shared_ptr<const Packing>>> packings_;
+  std::map<std::pair<std::size_t, std::uint64_t>, std::shared_future<std::shared_ptr<const Packing>>> packings_;
   std::unordered_set<std::string> asked_;
   EvaluationCounts counts_;
   Faults store_faults_;

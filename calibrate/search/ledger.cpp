@@ -11,11 +11,12 @@ Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::fu
       progress_(progress),
       at_start_(objective.budget_left()),
       common_packings_(options.packings) {
-  budget_ = std::min(options.budget_simulations, at_start_);
+  budget_ = std::min(options.budget_simulations / objective.simulations_each(), at_start_);
+  for (const Response& response : objective.earlier()) keep_single(response);
 }
 
 int Ledger::budget_left() const {
-  return std::max(0, budget_ - simulations() - held_back_);
+  return std::max(0, budget_ - (at_start_ - objective_.budget_left()) - held_back_);
 }
 
 std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
@@ -90,8 +91,8 @@ void Ledger::measure_noise() {
   }
 }
 
-void Ledger::report() const {
-  if (progress_) progress_({phase_, simulations(), budget_, best_misfit_mm_});
+void Ledger::report(const std::string& note) const {
+  if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_misfit_mm_, note});
 }
 
 void Ledger::keep_single(const Response& response) {

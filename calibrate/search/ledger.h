@@ -24,19 +24,23 @@ class Ledger : public Objective {
 
   int parameters() const override { return objective_.parameters(); }
   int residuals() const override { return objective_.residuals(); }
+  int readings() const override { return objective_.readings(); }
   bool stop_requested() const override { return objective_.stop_requested(); }
   int budget_left() const override;  ///< without what is held back
+  int simulations_each() const override { return objective_.simulations_each(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
 
-  void hold_back(int simulations) { held_back_ = simulations; }
+  void hold_back(int packings) { held_back_ = packings; }
   /// Begins a phase: weighs anew all that was answered.
   void enter(std::string_view phase);
+  /// Tells whoever waits.
+  void say(const std::string& note) const { report(note); }
 
   /// Best answer on exactly these packings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
   const std::vector<Response>& history() const { return history_; }
-  const std::vector<Response>& singles() const { return singles_; }  ///< one for each simulation
-  int simulations() const { return at_start_ - objective_.budget_left(); }
+  const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
+  int simulations() const { return (at_start_ - objective_.budget_left()) * simulations_each(); }
   int failures() const;
   bool any_feasible() const;
 
@@ -44,7 +48,7 @@ class Ledger : public Objective {
   void keep_single(const Response& response);
   void weigh(Response& response) const;
   void measure_noise();
-  void report() const;
+  void report(const std::string& note = {}) const;
 
   Objective& objective_;
   const std::function<void(const Progress&)>& progress_;

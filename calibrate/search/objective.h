@@ -26,11 +26,13 @@ struct Response {
   UnitPoint point;
   std::vector<std::uint64_t> packings;
   std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;          ///< mean over the packings
-  Eigen::VectorXd residuals;  ///< sqrt(weight) (mean - measured)/standard deviation; finite, graded if it failed
-  double misfit = 0;          ///< half the squared norm of the residuals: what is minimised; always finite
-  double misfit_mm = 0;       ///< root mean square difference of the fitted lengths [mm]
-  bool failed = false;        ///< some packing ended in a failure
+  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading
+  /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
+  /// their standard deviations. Finite; graded if it failed.
+  Eigen::VectorXd residuals;
+  double misfit = 0;     ///< half the squared norm of the residuals: what is minimised; always finite
+  double misfit_mm = 0;  ///< root mean square difference of the fitted lengths [mm]
+  bool failed = false;   ///< some packing ended in a failure
 };
 
 /// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
@@ -40,12 +42,18 @@ class Objective {
   virtual ~Objective() = default;
   virtual int parameters() const = 0;
   virtual int residuals() const = 0;
+  /// How many of them are readings: the first ones. The others stand for what is known beforehand (priors).
+  virtual int readings() const { return residuals(); }
   /// Answers all points on the same packings; the answers are in the order of the points.
   /// Points outside the unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
                                          std::span<const std::uint64_t> packings) = 0;
-  /// Simulations still allowed by the budget. A point on a packing counts once, however often it is asked.
+  /// Points on a packing still allowed by the budget, each counted once, however often it is asked.
   virtual int budget_left() const = 0;
+  /// Simulations behind a point on one packing: one for each test that is fitted.
+  virtual int simulations_each() const { return 1; }
+  /// What is known from the start, each point on one packing; free of charge.
+  virtual std::vector<Response> earlier() const { return {}; }
   /// True when the user or a limit asked to stop: a search then returns its best so far.
   virtual bool stop_requested() const = 0;
 };

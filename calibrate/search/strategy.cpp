@@ -10,6 +10,7 @@
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
+#include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
 #include "calibrate/search/surrogate.h"
 
@@ -17,6 +18,7 @@ namespace pastefit {
 namespace {
 
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
+constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
 constexpr double same_point = 0.01;     // proposals closer than this bring nothing new [unit cube]
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
 
@@ -37,13 +39,22 @@ std::string number(double value) {
 class Search {
  public:
   Search(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress,
-         std::span<const std::string> readings)
-      : objective_(objective), options_(options), ledger_(objective, options, progress), readings_(readings) {}
+         std::span<const std::string> readings, std::span<const std::string> parameters)
+      : objective_(objective),
+        options_(options),
+        ledger_(objective, options, progress),
+        readings_(readings),
+        parameters_(parameters) {}
 
   Calibration run() {
     common_ = fresh_packings(options_.packings);
     ledger_.hold_back(options_.confirmation_packings);
     screen();
+    if (is_out_of_reach()) {
+      ledger_.evaluate({&out_of_reach_->nearest, 1}, common_);
+      if (!ledger_.stop_requested() && ledger_.best_on(common_)) confirm();
+      return conclude();
+    }
     while (ledger_.any_feasible() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
@@ -66,15 +77,28 @@ class Search {
   void screen() {
     ledger_.enter("screening");
     const std::span<const std::uint64_t> first(common_.data(), 1);
+    const int known = static_cast<int>(ledger_.singles().size());
     int asked = 0;
     // If everything fails, further points of the same sequence look elsewhere, while half of the budget lasts.
-    while (!ledger_.any_feasible() && !ledger_.stop_requested()) {
-      const int count = std::min(options_.screening, ledger_.budget_left());
-      if (count < 1 || asked > options_.budget_simulations / 2) return;
+    while ((!ledger_.any_feasible() || known + asked < options_.screening) && !ledger_.stop_requested()) {
+      const int missing = options_.screening - (ledger_.any_feasible() ? known + asked : 0);
+      const int count = std::min(missing, ledger_.budget_left());
+      if (count < 1 || asked > options_.budget_simulations / objective_.simulations_each() / 2) return;
       const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
       ledger_.evaluate(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
     }
+  }
+
+  /// Says what the screening tells of the reach, and whether a search would be in vain.
+  bool is_out_of_reach() {
+    const int spare = ledger_.budget_left() - static_cast<int>(common_.size());
+    out_of_reach_ =
+        find_out_of_reach(ledger_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
+    if (!ledger_.any_feasible() || ledger_.stop_requested()) return false;
+    ledger_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
+                              : words_of_screening(ledger_.singles(), readings_));
+    return out_of_reach_.has_value();
   }
 
   /// The best starting point known, on whatever packings.
@@ -107,7 +131,17 @@ class Search {
 
   bool goal_is_met() const {
     const auto best = ledger_.best_on(common_);
-    return best && best->misfit_mm <= goal_share * options_.tolerance_mm;
+    return best && best->misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(*best);
+  }
+
+  bool agrees_with_priors(const Response& response) const {
+    const auto priors = objective_.residuals() - objective_.readings();
+    return (response.residuals.tail(priors).array().abs() <= far_from_prior).all();
+  }
+
+  /// The misfit at which an optimiser may end by itself; none where what is known beforehand has a say.
+  double optimisers_goal_mm() const {
+    return objective_.residuals() > objective_.readings() ? 0 : goal_share * options_.tolerance_mm;
   }
 
   /// Brings candidates on the common packings; false if not a single one could be had.
@@ -121,7 +155,7 @@ class Search {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
       nlopt.evaluations = std::max(1, ledger_.budget_left() / static_cast<int>(2 * common_.size()));
-      nlopt.goal_mm = goal_share * options_.tolerance_mm;
+      nlopt.goal_mm = optimisers_goal_mm();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
       search_nlopt(ledger_, common_, best_point(), nlopt);
@@ -133,7 +167,7 @@ class Search {
     int fruitless = 0;
     while (!goal_is_met() && may_go_on() && fruitless < fruitless_proposals) {
       Surrogate surrogate(ledger_.singles());
-      const UnitPoint proposal = propose(surrogate, best_point());
+      const UnitPoint proposal = least_point(surrogate, best_point());
       const bool known = std::any_of(ledger_.history().begin(), ledger_.history().end(), [&](const Response& seen) {
         return seen.packings == common_ && (seen.point - proposal).lpNorm<Eigen::Infinity>() < same_point;
       });
@@ -184,7 +218,7 @@ class Search {
     CeresOptions ceres;
     ceres.trust_region = trust_region;
     ceres.evaluations = evaluations;
-    ceres.goal_mm = goal_share * options_.tolerance_mm;
+    ceres.goal_mm = optimisers_goal_mm();
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
@@ -228,7 +262,7 @@ class Search {
     result_.history = ledger_.history();
     result_.simulations = ledger_.simulations();
     result_.failures = ledger_.failures();
-    result_.reach = reach_of(ledger_.singles(), objective_.residuals());
+    result_.reach = reach_of(ledger_.singles(), objective_.readings());
     explain();
     return std::move(result_);
   }
@@ -247,6 +281,10 @@ class Search {
     } else if (ledger_.stop_requested()) {
       result_.status = CalibrationStatus::stopped;
       result_.reason = "The search was stopped; the best so far is given" + spent;
+    } else if (out_of_reach_) {
+      result_.status = CalibrationStatus::out_of_reach;
+      result_.reason = words_of(*out_of_reach_, readings_, parameters_) +
+                       " The search was not begun; the material that comes nearest is given" + spent;
     } else if (!ledger_.any_feasible()) {
       result_.status = CalibrationStatus::failed;
       result_.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
@@ -271,7 +309,8 @@ class Search {
   Objective& objective_;
   const SearchOptions& options_;
   Ledger ledger_;
-  std::span<const std::string> readings_;
+  std::span<const std::string> readings_, parameters_;
+  std::optional<OutOfReach> out_of_reach_;
   std::vector<std::uint64_t> common_;  // every candidate is compared on these
   std::uint64_t packings_used_ = 0;
   bool confirmed_ = false;
@@ -302,7 +341,7 @@ std::vector<std::string_view> strategy_names() {
   return names;
 }
 
-Faults validate(const SearchOptions& options, int parameters) {
+Faults validate(const SearchOptions& options, int parameters, int tests) {
   Faults faults;
   const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
     if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
@@ -320,16 +359,18 @@ Faults validate(const SearchOptions& options, int parameters) {
   demand(options.confirmation_packings >= 1, "search.confirmation_packings",
          std::to_string(options.confirmation_packings), "at least 1");
   demand(options.tolerance_mm > 0, "search.tolerance_mm", number(options.tolerance_mm), "above 0");
-  const int least = options.screening + options.packings + options.confirmation_packings;
+  const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
   demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
          "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
   return faults;
 }
 
 Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings) {
-  if (!validate(options, objective.parameters()).empty()) throw std::logic_error("search: options that are not valid");
-  return Search(objective, options, progress, readings).run();
+                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
+                   std::span<const std::string> parameters) {
+  if (!validate(options, objective.parameters(), objective.simulations_each()).empty())
+    throw std::logic_error("search: options that are not valid");
+  return Search(objective, options, progress, readings, parameters).run();
 }
 
 }  // namespace pastefit

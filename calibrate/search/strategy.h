@@ -30,6 +30,7 @@ struct Progress {
   int simulations = 0;         ///< done
   int budget = 0;              ///< allowed in all
   double best_misfit_mm = -1;  ///< of the best candidate so far; negative: none yet
+  std::string note;            ///< something to be told once; mostly empty
 };
 
 /// What the model did with one reading in all simulations that ended well.
@@ -57,11 +58,13 @@ struct Calibration {
 /// Names of the strategies: "default", the two trust regions of Ceres, and every NLopt algorithm.
 std::vector<std::string_view> strategy_names();
 
-/// Everything wrong with the options of a search over so many parameters; empty: fit to run.
-Faults validate(const SearchOptions& options, int parameters);
+/// Everything wrong with the options of a search over so many parameters and fitted tests; empty: fit to run.
+Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 
 /// Calibrates: finds the candidate that meets the laboratory, and confirms it on packings the search has not used.
-///   1. Screening: space-filling points on one packing, all at once.
+///   1. Screening: space-filling points on one packing, all at once. If they leave the laboratory out of reach for
+///      certain (`reachability.h`), the nearest candidate is confirmed, and that is the end. What is known from
+///      earlier counts as screening.
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
 ///      point of least expected misfit, which is simulated on the common packings, until the goal is met or nothing
 ///      new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
@@ -70,13 +73,14 @@ Faults validate(const SearchOptions& options, int parameters);
 ///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
 ///      packings join the common set, and the search goes on from 2 with what they taught.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
-/// packings too. The budget for a confirmation is kept back all along.
-/// Requirements: `validate(options, objective.parameters())` is empty.
-/// `readings`: names for the reason, in the order of the observables; may be left empty.
-/// The way depends on the answers only: the same answers, the same calibration.
-/// Errors: in the status. Throws what the objective throws, and std::logic_error if a requirement is broken.
+/// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
+/// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),
+/// objective.simulations_each())` is empty. `readings`, `parameters`: names for the reason, in the order of the
+/// observables and of the free parameters; may be left empty. The way depends on the answers only: the same answers,
+/// the same calibration. Errors: in the status. Throws what the objective throws, and std::logic_error if a requirement
+/// is broken.
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress = {},
-                   std::span<const std::string> readings = {});
+                   std::span<const std::string> readings = {}, std::span<const std::string> parameters = {});
 
 }  // namespace pastefit

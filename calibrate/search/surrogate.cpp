@@ -63,14 +63,14 @@ double Surrogate::noise() const {
   return 0.5 * variance;
 }
 
-UnitPoint propose(Surrogate& surrogate, const UnitPoint& start) {
+UnitPoint least_point(Objective& model, const UnitPoint& start) {
   NloptOptions options;
   options.algorithm = "direct_l";
-  options.evaluations = 150 * surrogate.parameters();
-  const UnitPoint rough = search_nlopt(surrogate, no_packing, start, options).best.point;
+  options.evaluations = 150 * model.parameters();
+  const UnitPoint rough = search_nlopt(model, no_packing, start, options).best.point;
   options.algorithm = "bobyqa";
   options.initial_step = 0.1;
-  return search_nlopt(surrogate, no_packing, rough, options).best.point;
+  return search_nlopt(model, no_packing, rough, options).best.point;
 }
 
 }  // namespace pastefit

@@ -36,8 +36,8 @@ class Surrogate : public Objective {
   std::unique_ptr<GaussianProcess> failures_;
 };
 
-/// The point of least expected misfit of the surrogate: DIRECT_L over the cube,
-/// then a local search, both by NLopt.
-UnitPoint propose(Surrogate& surrogate, const UnitPoint& start);
+/// The point of least misfit of a model that answers at once: DIRECT_L over the cube, then a local search, both by
+/// NLopt.
+UnitPoint least_point(Objective& model, const UnitPoint& start);
 
 }  // namespace pastefit

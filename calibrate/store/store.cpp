@@ -2,7 +2,7 @@
 
 #include <sqlite3.h>
 
-#include <bit>
+#include <algorithm>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -10,12 +10,13 @@
 
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/content_hash.h"
+#include "calibrate/study/slump_table_json.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
 
 using Row = std::vector<std::string>;
@@ -108,11 +109,12 @@ void create(Database& database, const StoreIdentity& identity) {
   Transaction transaction(database);
   database.run("CREATE TABLE identity (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
   database.run(
-      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE, point TEXT NOT NULL,"
-      " parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL, failure TEXT NOT NULL,"
-      " run TEXT NOT NULL)");
-  database.run("INSERT INTO identity VALUES ('study', ?), ('lab', ?), ('program', ?)",
-               {identity.study, identity.lab, identity.program});
+      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE, epoch INTEGER NOT NULL,"
+      " point TEXT NOT NULL, parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL,"
+      " failure TEXT NOT NULL, run TEXT NOT NULL)");
+  database.run("CREATE TABLE inputs (epoch INTEGER PRIMARY KEY, content TEXT NOT NULL)");
+  database.run("INSERT INTO identity VALUES ('program', ?)", {identity.program});
+  database.run("INSERT INTO inputs VALUES (1, ?)", {identity.inputs});
   database.run("PRAGMA application_id = " + std::to_string(kApplicationId));
   database.run("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   transaction.commit();
@@ -131,29 +133,48 @@ Faults differences(Database& database, const std::string& file, const StoreIdent
              "resume with the program that wrote it; or " + kStartAnew}};
   if (const auto verdict = database.run("PRAGMA quick_check(1)").at(0).at(0); verdict != "ok")
     return {{file, "is damaged: " + verdict, "restore it from a copy; or " + kStartAnew}};
-  Faults faults;
-  const auto compare = [&](const std::string& name, const std::string& ours, const std::string& remedy) {
-    const auto rows = database.run("SELECT value FROM identity WHERE name = ?", {name});
-    const std::string theirs = rows.empty() ? "" : rows[0][0];
-    if (theirs != ours)
-      faults.push_back({file + ": " + name, "evaluations belong to '" + theirs + "', not to '" + ours + "'",
-                        remedy + "; or " + kStartAnew});
-  };
-  compare("study", identity.study, "resume with the study file as it was (--budget raises the number of simulations)");
-  compare("lab", identity.lab, "resume with the laboratory file as it was");
-  compare("program", identity.program, "resume with the program that wrote it");
-  return faults;
+  const auto rows = database.run("SELECT value FROM identity WHERE name = 'program'");
+  const std::string theirs = rows.empty() ? "" : rows[0][0];
+  if (theirs == identity.program) return {};
+  return {{file + ": program", "evaluations belong to '" + theirs + "', not to '" + identity.program + "'",
+           "resume with the program that wrote it; or " + kStartAnew}};
+}
+
+/// The place of a change in words: "/study/search/seed" -> "study.search.seed"; places in a list are the list's.
+std::string place_of(const std::string& pointer) {
+  std::string out;
+  for (std::size_t from = 1; from <= pointer.size();) {
+    const auto to = std::min(pointer.find('/', from), pointer.size());
+    const auto part = pointer.substr(from, to - from);
+    const bool in_list = part == "-" || (!part.empty() && part.find_first_not_of("0123456789") == std::string::npos);
+    out += in_list ? (to < pointer.size() ? "[" + part + "]" : "") : (out.empty() ? "" : ".") + part;
+    from = to + 1;
+  }
+  return out;
+}
+
+std::vector<std::string> changes_of(const std::string& before, const std::string& now) {
+  const auto parsed = [](const std::string& text) { return nlohmann::json::parse(text, nullptr, false); };
+  const auto old = parsed(before), young = parsed(now);
+  if (old.is_discarded() || young.is_discarded()) return {"everything"};
+  std::vector<std::string> places;
+  for (const auto& step : nlohmann::json::diff(old, young)) {
+    auto place = place_of(step.at("path").get<std::string>());
+    if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
+  }
+  return places;
 }
 
 StoredEvaluation evaluation_of(const Row& row) {
   StoredEvaluation out;
   out.key = row.at(0);
-  out.point = numbers_of(row.at(1));
-  out.values = numbers_of(row.at(2));
-  out.packing = std::stoull(row.at(3));
-  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(4)));
-  out.failure = failure_from_json(nlohmann::json::parse(row.at(5)));
-  const auto run = nlohmann::json::parse(row.at(6));
+  out.epoch = std::stoi(row.at(1));
+  out.point = numbers_of(row.at(2));
+  out.values = numbers_of(row.at(3));
+  out.packing = std::stoull(row.at(4));
+  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(5)));
+  out.failure = failure_from_json(nlohmann::json::parse(row.at(6)));
+  const auto run = nlohmann::json::parse(row.at(7));
   out.run = run_from_json(run);
   out.wall_s = number_from_json(run.at("wall_s"));
   return out;
@@ -161,18 +182,10 @@ StoredEvaluation evaluation_of(const Row& row) {
 
 }  // namespace
 
-std::string evaluation_key(const StoreIdentity& identity, std::span<const double> values, std::uint64_t packing) {
-  std::string text;
-  const auto add_word = [&](std::uint64_t word) {
-    for (int shift = 0; shift < 64; shift += 8) text += static_cast<char>(word >> shift);
-  };
-  for (const auto* part : {&identity.study, &identity.lab, &identity.program}) {
-    add_word(part->size());
-    text += *part;
-  }
-  for (const double value : values) add_word(std::bit_cast<std::uint64_t>(value));
-  add_word(packing);
-  return content_hash(text);
+std::string evaluation_key(std::string_view program, const SlumpTable& test, double filled_youngs_modulus_pa,
+                           double filled_poissons_ratio) {
+  const nlohmann::json key{program, to_json(test), filled_youngs_modulus_pa, filled_poissons_ratio};
+  return content_hash(key.dump());
 }
 
 /// Everything is held in memory too: a search asks for known points often, and a damaged row shows when the store is
@@ -184,6 +197,9 @@ struct Store::State {
   std::string file;
   StoreIdentity identity;
   Database database;
+  int epoch = 1;
+  bool begun = true;  // the epoch has its row
+  std::vector<std::string> changes;
   mutable std::mutex mutex;
   std::vector<StoredEvaluation> evaluations;
   std::unordered_map<std::string, std::size_t> index;
@@ -207,11 +223,18 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
     database.run("PRAGMA journal_mode = WAL");
     database.run("PRAGMA synchronous = FULL");
     if (fresh) create(database, identity);
-    for (const auto& row : database.run("SELECT key, point, parameter_values, packing, observables, failure, run"
-                                        " FROM evaluations ORDER BY sequence")) {
+    for (const auto& row : database.run("SELECT key, epoch, point, parameter_values, packing, observables, failure,"
+                                        " run FROM evaluations ORDER BY sequence")) {
       auto evaluation = evaluation_of(row);
       state->index.emplace(evaluation.key, state->evaluations.size());
       state->evaluations.push_back(std::move(evaluation));
+    }
+    const auto last = database.run("SELECT epoch, content FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
+    state->epoch = std::stoi(last.at(0));
+    if (last.at(1) != identity.inputs) {
+      state->changes = changes_of(last.at(1), identity.inputs);
+      ++state->epoch;
+      state->begun = false;
     }
     return Store(std::move(state));
   } catch (const std::exception& error) {
@@ -222,6 +245,14 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
 
 const StoreIdentity& Store::identity() const {
   return state_->identity;
+}
+
+int Store::epoch() const {
+  return state_->epoch;
+}
+
+const std::vector<std::string>& Store::changes() const {
+  return state_->changes;
 }
 
 std::optional<StoredEvaluation> Store::find(std::string_view key) const {
@@ -237,18 +268,23 @@ Faults Store::add(const StoredEvaluation& evaluation) {
   try {
     Transaction transaction(state_->database);
     state_->database.run(
-        "INSERT INTO evaluations (key, point, parameter_values, packing, observables, failure, run)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?)",
-        {evaluation.key, text_of(evaluation.point), text_of(evaluation.values), std::to_string(evaluation.packing),
-         to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
+        "INSERT INTO evaluations (key, epoch, point, parameter_values, packing, observables, failure, run)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        {evaluation.key, std::to_string(state_->epoch), text_of(evaluation.point), text_of(evaluation.values),
+         std::to_string(evaluation.packing), to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
          to_json(evaluation.run, evaluation.wall_s).dump()});
+    if (!state_->begun)
+      state_->database.run("INSERT INTO inputs VALUES (?, ?)",
+                           {std::to_string(state_->epoch), state_->identity.inputs});
     transaction.commit();
+    state_->begun = true;
   } catch (const std::exception& error) {
     return {{state_->file, std::string("the evaluation could not be stored: ") + error.what(),
              "free space on the disk and go on with --resume"}};
   }
   state_->index.emplace(evaluation.key, state_->evaluations.size());
   state_->evaluations.push_back(evaluation);
+  state_->evaluations.back().epoch = state_->epoch;
   return {};
 }
 

@@ -13,11 +13,10 @@
 
 namespace pastefit {
 
-/// What the evaluations of one store have in common. Stored evaluations answer for nothing else.
+/// What a store is opened for.
 struct StoreIdentity {
-  std::string study;    ///< hash of the study file
-  std::string lab;      ///< hash of the laboratory file
-  std::string program;  ///< version and engine fingerprint
+  std::string program;  ///< version and engine fingerprint; evaluations of another one answer for nothing
+  std::string inputs;   ///< all that decides the way of the search, as JSON text (`inputs_of` a study)
 };
 
 /// One finished simulation, as it is kept.
@@ -26,28 +25,36 @@ struct StoredEvaluation {
   std::vector<double> point;       ///< coordinates in the unit cube over the free parameters
   std::vector<double> values;      ///< of every parameter, in the order of `parameter_kinds`
   std::uint64_t packing = 0;       ///< packing seed
+  int epoch = 0;                   ///< number of the inputs it was made for; set by the store
   Observables observables;         ///< all readings, measured in the laboratory or not; empty after a failure
   std::optional<Failure> failure;  ///< why there are no readings
   RunSummary run;
   double wall_s = 0;  ///< time the simulation took
 };
 
-/// Name of an evaluation: 64-bit FNV-1a over the identity, the exact bits of the values and the packing seed, as 16
-/// hexadecimal digits. Two evaluations have the same key if and only if (up to a chance of 2^-64 a pair) the engine
-/// would answer both with the same bits.
-std::string evaluation_key(const StoreIdentity& identity, std::span<const double> values, std::uint64_t packing);
+/// Name of an evaluation: 64-bit FNV-1a over the program, the exact bits of the whole test (its packing seed included)
+/// and the stiffness with which its mould was filled, as 16 hexadecimal digits. Two evaluations with the same key are
+/// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured, the bounds
+/// and the budget are not in it: an evaluation outlives a change of these.
+std::string evaluation_key(std::string_view program, const SlumpTable& test, double filled_youngs_modulus_pa,
+                           double filled_poissons_ratio);
 
 /// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.
 /// Each evaluation is one transaction: after `add` has returned, it survives the death of the process and of the
 /// machine. Safe to use from several threads; for one process at a time.
 ///
-/// Table `evaluations`: sequence (order of arrival), key, point, parameter_values, packing, observables, failure, run;
-/// point to run as JSON text with doubles that read back bit for bit. Table `identity`: what the evaluations belong to.
+/// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
+/// failure, run; point to run as JSON text with doubles that read back bit for bit. Table `identity`: the program.
+/// Table `inputs`: epoch, content; one row for each change of the study or its laboratory files.
+///
+/// A search that goes on after such a change knows the evaluations of earlier epochs from the start; those of its own
+/// epoch only answer when it asks for them again, so that a run that was killed takes the same way.
 class Store {
  public:
   /// Opens the store in `file`, or creates it. Nothing that stands in the file is changed before it has passed.
-  /// Errors: not a database, damaged, not a store, other schema version, belongs to other inputs or to another
-  /// program, in use, not writable.
+  /// Other inputs than the last ones begin a new epoch, which is in the file with the first evaluation that is added.
+  /// Errors: not a database, damaged, not a store, other schema version, belongs to another program, in use, not
+  /// writable.
   static Result<Store> open(const std::filesystem::path& file, const StoreIdentity& identity);
 
   Store(Store&&) noexcept;
@@ -55,6 +62,10 @@ class Store {
   ~Store();
 
   const StoreIdentity& identity() const;
+  int epoch() const;  ///< of what is added now
+  /// What has changed in the inputs since the store was last opened, as places in them ("study.parameters.friction");
+  /// empty if nothing has.
+  const std::vector<std::string>& changes() const;
 
   /// The evaluation with this key, if it is known.
   std::optional<StoredEvaluation> find(std::string_view key) const;

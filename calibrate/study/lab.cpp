@@ -31,7 +31,9 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     lab.measurements = read_measurements(reader, lab.test);
   }
   if (!faults.empty()) return faults;
-  lab.hash = content_hash(document.dump() + (preset ? preset->content : ""));
+  const std::string rig = preset ? preset->content : "";
+  lab.content = nlohmann::json{{"laboratory", document}, {"preset", rig}}.dump();
+  lab.hash = content_hash(document.dump() + rig);
   return lab;
 }
 

@@ -80,6 +80,34 @@ void read_one(ObjectReader& reader, const ReadingKey& key, const Range& range, M
                  advice_on_deviation(key.kind));
 }
 
+/// Readings of one heap, or of one before and after the drop, whose order no heap turns round.
+struct Order {
+  std::string_view smaller, larger;
+  const char* why;
+};
+constexpr std::array<Order, 5> orders{{
+    {"step1.height_mm", "step1.height_max_mm", "the highest point of a heap is not below its height"},
+    {"step2.height_mm", "step2.height_max_mm", "the highest point of a heap is not below its height"},
+    {"step2.height_mm", "step1.height_mm", "a drop does not raise a heap"},
+    {"step2.height_max_mm", "step1.height_max_mm", "a drop does not raise a heap"},
+    {"step1.spread_mm", "step2.spread_mm", "a drop does not draw a heap together"},
+}};
+
+void check_orders(ObjectReader& document, const std::vector<Measurement>& measurements) {
+  constexpr double sure = 3;  // standard deviations of the difference of two means
+  const auto error = [](const Measurement& one) { return one.standard_deviation / std::sqrt(one.repeats); };
+  for (const Order& order : orders) {
+    const auto smaller = std::ranges::find(measurements, order.smaller, &Measurement::observable);
+    const auto larger = std::ranges::find(measurements, order.larger, &Measurement::observable);
+    if (smaller == measurements.end() || larger == measurements.end()) continue;
+    if (smaller->value - larger->value <= sure * std::hypot(error(*smaller), error(*larger))) continue;
+    document.fault("measurements",
+                   std::string(order.smaller) + " (" + shown(smaller->value) + ") contradicts " +
+                       std::string(order.larger) + " (" + shown(larger->value) + "): " + order.why,
+                   "look for swapped readings, or give standard deviations that allow for the difference");
+  }
+}
+
 }  // namespace
 
 std::span<const ReadingKey> reading_keys() {
@@ -107,6 +135,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, const SlumpTa
       if (key.kind == slump) measurement.value = 1000 * test.mould.height_m - measurement.value;
       measurements.push_back(std::move(measurement));
     }
+    check_orders(document, measurements);
     if (!any) document.fault("measurements", "holds no reading", "give at least one, e.g. \"step1.height_mm\"");
   });
   return measurements;

@@ -27,8 +27,9 @@ std::span<const ReadingKey> reading_keys();
 /// The object "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
 /// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound.
 /// A slump becomes the height that is left, mould height minus slump.
-/// Faults: a reading the apparatus cannot give, a value the test cannot have, the same reading twice, no spread of
-/// repeats and no standard deviation, no reading at all.
+/// Faults: readings that contradict each other beyond their deviations (a heap that is higher after the drop), a
+/// reading the apparatus cannot give, a value the test cannot have, the same reading twice, no spread of repeats and no
+/// standard deviation, no reading at all.
 std::vector<Measurement> read_measurements(ObjectReader& document, const SlumpTable& test);
 
 }  // namespace pastefit

@@ -73,6 +73,19 @@ double value_between(const Parameter& parameter, double unit) {
   return std::clamp(value, parameter.lower, parameter.upper);
 }
 
+double unit_of(const Parameter& parameter, double value) {
+  if (parameter.scale == Scale::linear) return (value - parameter.lower) / (parameter.upper - parameter.lower);
+  return std::log(value / parameter.lower) / std::log(parameter.upper / parameter.lower);
+}
+
+UnitPrior unit_prior(const Parameter& parameter) {
+  const Prior& prior = parameter.prior.value();
+  const double deviation = parameter.scale == Scale::linear
+                               ? prior.standard_deviation / (parameter.upper - parameter.lower)
+                               : prior.standard_deviation / prior.value / std::log(parameter.upper / parameter.lower);
+  return {unit_of(parameter, prior.value), deviation};
+}
+
 std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point) {
   assert(unit_point.size() == free_count(study));
   std::vector<double> values;
@@ -114,10 +127,10 @@ SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
   return test;
 }
 
-SlumpTable test_with(const Study& study, std::span<const double> values, std::uint64_t packing_seed) {
-  SlumpTable test = with_contact_of(study.lab.test, values);
-  test.packing_seed = packing_seed;
-  return test;
+SlumpTable test_with(const SlumpTable& test, std::span<const double> values, std::uint64_t packing_seed) {
+  SlumpTable out = with_contact_of(test, values);
+  out.packing_seed = packing_seed;
+  return out;
 }
 
 }  // namespace pastefit

@@ -41,6 +41,16 @@ int free_count(const Study& study);
 /// Value of a free parameter at a coordinate 0 .. 1 between its bounds, evenly spread on its scale.
 double value_between(const Parameter& parameter, double unit);
 
+/// Its inverse up to rounding: the coordinate of a value; beyond 0 .. 1 for a value beyond the bounds.
+double unit_of(const Parameter& parameter, double value);
+
+/// The prior as a normal distribution of the coordinate: mean and standard deviation.
+/// Requirement: the parameter has one.
+struct UnitPrior {
+  double mean = 0.5, deviation = 1;
+};
+UnitPrior unit_prior(const Parameter& parameter);
+
 /// Values of all parameters at a point of the unit cube over the free ones. Shapes: free_count -> parameters.size().
 std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point);
 
@@ -52,8 +62,7 @@ std::vector<double> usual_values();
 /// In touch formation the offset only bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
 SlumpTable with_contact_of(SlumpTable test, std::span<const double> values);
 
-/// The study's test with these parameter values (in SI: a, b, c, d_c, offset from the scale-free ones) and this
-/// packing.
-SlumpTable test_with(const Study& study, std::span<const double> values, std::uint64_t packing_seed);
+/// The test with these parameter values (in SI: a, b, c, d_c, offset from the scale-free ones) and this packing.
+SlumpTable test_with(const SlumpTable& test, std::span<const double> values, std::uint64_t packing_seed);
 
 }  // namespace pastefit

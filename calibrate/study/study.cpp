@@ -5,10 +5,10 @@
 
 #include "calibrate/study/content_hash.h"
 #include "calibrate/study/json_reader.h"
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/names.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 namespace {
@@ -20,12 +20,14 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   if (!reader.has("free")) {
     reader.number("value", parameter.value, range, Need::required);
     reader.refuse("scale", "a fixed parameter has no scale", "leave it out, or give \"free\": [lower, upper]");
+    reader.refuse("prior", "a fixed parameter is known already", "leave it out, or give \"free\": [lower, upper]");
     return;
   }
   parameter.free = true;
   reader.refuse("value", "stands beside \"free\"", "give one of them");
   reader.choice("scale", parameter.scale, scales, Need::optional);
   std::vector<double> bounds;
+  reader.known("prior");
   if (!reader.numbers("free", bounds, range, Need::required, 2, 2)) return;
   if (bounds[0] >= bounds[1]) {
     reader.fault("free", "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are not in order",
@@ -38,6 +40,17 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   parameter.lower = bounds[0];
   parameter.upper = bounds[1];
   parameter.value = kind.usual;
+  reader.object("prior", Need::optional, [&](ObjectReader& known) {
+    Prior prior;
+    const bool given = known.number("value", prior.value, range, Need::required);
+    const bool spread = known.number("standard_deviation", prior.standard_deviation, {0, 1e12, true}, Need::required);
+    if (given && (prior.value < bounds[0] || prior.value > bounds[1]))
+      known.fault("value",
+                  shown(prior.value) + " contradicts the bounds " + shown(bounds[0]) + " to " + shown(bounds[1]),
+                  "a value within them, or bounds that hold it");
+    else if (given && spread)
+      parameter.prior = prior;
+  });
 }
 
 std::vector<Parameter> read_parameters(ObjectReader& document) {
@@ -58,34 +71,23 @@ std::vector<Parameter> read_parameters(ObjectReader& document) {
   return parameters;
 }
 
-void read_contact(ObjectReader& document, ContactModel& contact) {
+/// The choice of laws, for every test.
+void read_contact(ObjectReader& document, std::vector<StudyTest>& tests) {
+  ContactModel chosen;
   document.object("contact", Need::optional, [&](ObjectReader& reader) {
-    reader.choice("formation", contact.bridge.formation, bridge_formations, Need::optional);
-    reader.choice("rolling_model", contact.rolling, rolling_models, Need::optional);
-    reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
+    reader.choice("formation", chosen.bridge.formation, bridge_formations, Need::optional);
+    reader.choice("rolling_model", chosen.rolling, rolling_models, Need::optional);
+    reader.choice("friction_basis", chosen.friction_basis, friction_bases, Need::optional);
   });
+  for (StudyTest& test : tests) {
+    ContactModel& contact = test.lab.test.contact;
+    contact.bridge.formation = chosen.bridge.formation;
+    contact.rolling = chosen.rolling;
+    contact.friction_basis = chosen.friction_basis;
+  }
 }
 
-/// `measurements` is empty if the laboratory file could not be read: any known reading may then have a weight.
-std::vector<Weight> read_weights(ObjectReader& document, const std::vector<Measurement>& measurements) {
-  std::vector<Weight> weights;
-  for (const Measurement& measurement : measurements) weights.push_back({measurement.observable, 1});
-  document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    for (const ReadingKey& key : reading_keys()) {
-      const auto weight = std::ranges::find(weights, key.observable, &Weight::observable);
-      double ignored = 0;
-      if (weight == weights.end() && !measurements.empty())
-        reader.refuse(key.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
-      else
-        reader.number(key.key, weight == weights.end() ? ignored : weight->weight, {0, 1e6}, Need::optional);
-    }
-    if (!weights.empty() && std::ranges::all_of(weights, [](const Weight& weight) { return weight.weight == 0; }))
-      document.fault("weights", "all are 0, so nothing is fitted", "give at least one measurement a weight above 0");
-  });
-  return weights;
-}
-
-void read_search(ObjectReader& document, SearchOptions& search) {
+void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search) {
   constexpr int most = 1'000'000;
   document.object("search", Need::optional, [&](ObjectReader& reader) {
     reader.text("strategy", search.strategy, Need::optional);
@@ -96,19 +98,20 @@ void read_search(ObjectReader& document, SearchOptions& search) {
     reader.integer("examination_simulations", search.examination_simulations, 0, most, Need::optional);
     reader.number("tolerance_mm", search.tolerance_mm, {0, 1000}, Need::optional);
     reader.integer("seed", search.seed, Need::optional);
-    const int least = search.packings + search.confirmation_packings;
+    const int least = (search.packings + search.confirmation_packings) * fitted_tests;
     if (search.budget_simulations < least)
       reader.fault("budget_simulations",
                    std::to_string(search.budget_simulations) + " simulations do not pay for one candidate (packings " +
                        std::to_string(search.packings) + ") and its confirmation (confirmation_packings " +
-                       std::to_string(search.confirmation_packings) + ")",
+                       std::to_string(search.confirmation_packings) + ")" +
+                       (fitted_tests > 1 ? " in " + std::to_string(fitted_tests) + " tests" : ""),
                    "at least " + std::to_string(least));
   });
 }
 
 /// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
 void check_touch(ObjectReader& document, const Study& study) {
-  if (study.lab.test.contact.bridge.formation != BridgeFormation::touch) return;
+  if (study.tests.empty() || study.tests[0].lab.test.contact.bridge.formation != BridgeFormation::touch) return;
   const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
   if ((offset->free ? offset->lower : offset->value) > 0) return;
   document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",
@@ -119,8 +122,8 @@ void check_touch(ObjectReader& document, const Study& study) {
 Faults validate_points(const Study& study) {
   for (const double unit : {0.5, 0.0, 1.0}) {
     const std::vector<double> values = values_at(study, Eigen::VectorXd::Constant(free_count(study), unit));
-    Faults faults = validate_in_file_words(test_with(study, values, 1));
-    if (!faults.empty()) return faults;
+    for (const StudyTest& test : study.tests)
+      if (Faults faults = validate_in_file_words(test_with(test.lab.test, values, 1)); !faults.empty()) return faults;
   }
   return {};
 }
@@ -132,31 +135,24 @@ Result<Study> read_study(const std::filesystem::path& file) {
   const std::optional<json> document = read_json(file, faults);
   if (!document) return faults;
   Faults found;
-  Faults in_lab;
+  Faults in_labs;
   Study study;
   if (has_format(*document, "pastefit-study-1", found)) {
     ObjectReader reader(*document, "", found);
     reader.known("format");
     reader.text("title", study.title, Need::required);
-    std::string lab_file;
-    if (reader.text("lab", lab_file, Need::required)) {
-      Result<Lab> lab = read_lab((file.parent_path() / lab_file).lexically_normal());
-      if (lab)
-        study.lab = std::move(lab).value();
-      else
-        in_lab = lab.faults();
-    }
+    study.tests = read_tests(reader, *document, file.parent_path(), in_labs);
     study.parameters = read_parameters(reader);
-    read_contact(reader, study.lab.test.contact);
-    study.weights = read_weights(reader, study.lab.measurements);
-    read_search(reader, study.search);
+    read_contact(reader, study.tests);
+    read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
     check_touch(reader, study);
   }
-  if (found.empty() && in_lab.empty()) found = validate_points(study);
+  if (found.empty() && in_labs.empty()) found = validate_points(study);
   for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
-  faults.insert(faults.end(), in_lab.begin(), in_lab.end());
+  faults.insert(faults.end(), in_labs.begin(), in_labs.end());
   if (!faults.empty()) return faults;
-  study.hash = content_hash(document->dump());
+  study.content = document->dump();
+  study.hash = content_hash(study.content);
   return study;
 }
 

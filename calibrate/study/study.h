@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,18 @@ struct Lab {
   Provenance provenance;
   SlumpTable test;
   std::vector<Measurement> measurements;
-  std::string hash;  ///< of the file's content, with the preset it names (64-bit, hexadecimal)
+  std::string content;  ///< what the file and the preset that it names say, as JSON text
+  std::string hash;     ///< of the file's content, with the preset it names (64-bit, hexadecimal)
 };
 
 /// How a free parameter is spaced between its bounds.
 enum class Scale { linear, logarithmic };
+
+/// What is known of a parameter before the test: a normal distribution of its value, or of its logarithm on a
+/// logarithmic scale, there with standard_deviation/value as its standard deviation; cut off at the bounds.
+struct Prior {
+  double value = 0, standard_deviation = 0;  ///< in the parameter's unit
+};
 
 /// One coordinate of the search, or a fixed value. Names and meaning: `calibrate/study/parameters.h`.
 struct Parameter {
@@ -44,6 +52,7 @@ struct Parameter {
   double value = 0;  ///< used when not free
   double lower = 0, upper = 0;
   Scale scale = Scale::linear;
+  std::optional<Prior> prior = std::nullopt;  ///< of a free parameter; without one every value is as good as any other
 };
 
 /// Weight of one measurement in the fit; 0: reported, not fitted.
@@ -64,18 +73,28 @@ struct SearchOptions {
   std::uint64_t seed = 1;
 };
 
-/// A study file: one laboratory file, its parameters free and fixed, weights, and the search.
-struct Study {
-  std::string title;
+/// One test of the material: a laboratory file, and what of it counts.
+struct StudyTest {
+  std::string name;      ///< unique; empty if the study has one test only
+  std::string lab_file;  ///< as the study names it
   Lab lab;
-  std::vector<Parameter> parameters;  ///< every known parameter, in the order of `parameters.h`
-  std::vector<Weight> weights;        ///< one per measurement, in the order of `lab.measurements`
-  SearchOptions search;
-  std::string hash;  ///< of the study file's content
+  std::vector<Weight> weights;  ///< one per measurement, in the order of `lab.measurements`
+  bool hold_out = false;        ///< predicted and judged, never fitted
 };
 
-/// Reads a study and the laboratory file it names (path relative to the study).
-/// Errors: every fault of both files at once, each with its place and what would be right.
+/// A study file: the laboratory's tests of one material, its parameters free and fixed, and the search.
+/// The parameters are scale-free, so that tests may differ in mould, lift, steps and grains.
+struct Study {
+  std::string title;
+  std::vector<StudyTest> tests;       ///< at least one that is fitted, and that one first
+  std::vector<Parameter> parameters;  ///< every known parameter, in the order of `parameters.h`
+  SearchOptions search;
+  std::string content;  ///< what the study file says, as JSON text
+  std::string hash;     ///< of the study file's content
+};
+
+/// Reads a study and the laboratory files it names (paths relative to the study).
+/// Errors: every fault of all files at once, each with its place and what would be right.
 Result<Study> read_study(const std::filesystem::path& file);
 
 /// Reads a laboratory file, with the rig preset it names.

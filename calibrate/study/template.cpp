@@ -55,6 +55,9 @@ constexpr std::string_view study_text =
   "format": "pastefit-study-1",
   "title": "calibration of my paste",
   "lab": "lab.json",  // path as seen from this file
+  // Several tests of one material, in place of "lab" and "weights"; one that is held out is predicted, not fitted:
+  // "tests": [{"name": "slow", "lab": "slow.json", "weights": {"step1.spread_mm": 0}},
+  //           {"name": "fast", "lab": "fast.json", "hold_out": true}],
 
   // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (the offset then bounds the gap).
   // rolling_model: spring_dashpot, constant_torque or none.
@@ -62,6 +65,7 @@ constexpr std::string_view study_text =
   "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
 
   // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.
+  // Known, but not for sure: {"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0.05}}.
   // Parameters that are not named have their usual value. R is the mean grain radius.
   "parameters": {
     "strength_pa": {"free": [300, 40000], "scale": "log"},  // attraction at touch over R^2

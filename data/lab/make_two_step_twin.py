@@ -66,9 +66,9 @@ def study(lab_name):
     }
 
 
-def simulate(program, study_file, seed):
+def simulate(program, study_file, seed, radius_mm=GRAIN_RADIUS_MM):
     command = [program, "simulate", str(study_file), "--json", "--seed", str(seed),
-               "--set", f"grains.radius_mm={GRAIN_RADIUS_MM}",
+               "--set", f"grains.radius_mm={radius_mm}",
                "--set", f"parameters.strength_pa={TRUTH['strength_pa']}"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   const pastefit::Study& study = read.value();
   if (!pastefit::validate(study.search, pastefit::free_count(study)).empty()) return 1;
 
-  pastefit::SlumpTable test = study.lab.test;
+  pastefit::SlumpTable test = study.tests.at(0).lab.test;
   test.grains.radius_m = 0.018;
   test = pastefit::with_contact_of(test, pastefit::usual_values());
   const pastefit::Outcome outcome = pastefit::simulate(test);

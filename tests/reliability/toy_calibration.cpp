@@ -14,6 +14,7 @@
 #include "calibrate/inference/words.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/strategy.h"
+#include "calibrate/study/tests.h"
 #include "core/random.h"
 
 using namespace pastefit;
@@ -55,7 +56,7 @@ int main(int argc, char** argv) {
   if (!read.ok()) return fail(read.faults());
   const Study& study = read.value();
   const std::string folder = argv[2];
-  auto store = Store::open(folder + "/evaluations.sqlite", {study.hash, study.lab.hash, "toy"});
+  auto store = Store::open(folder + "/evaluations.sqlite", {"toy", inputs_of(study)});
   if (!store.ok()) return fail(store.faults());
 
   EvaluatorOptions options;
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
   const Inference inference =
       examine(study, objective, store.value(), calibration, study.search.examination_simulations, study.search.seed);
   if (const Faults faults = objective.store_faults(); !faults.empty()) return fail(faults);
-  Card card = card_of(study, calibration, study.search, store.value(), objective.counts(), "study.json", "lab.json");
+  Card card = card_of(study, calibration, study.search, store.value(), objective.counts(), "study.json");
   card.inference = card_inference(inference);
   const Faults faults = write_atomically(folder + "/card.json", to_json(card).dump(2) + words_of(inference));
   if (!faults.empty()) return fail(faults);

@@ -7,6 +7,7 @@
 #include "calibrate/search/screening.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 #include "core/random.h"
 
 namespace pastefit {
@@ -33,8 +34,8 @@ double lead_error_of(const Twin& twin, const Store& store, const UnitPoint& reco
     double squares = 0;
     for (std::size_t k = 0; k < readings.size(); ++k) {
       if (!readings[k].fitted()) continue;
-      for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m)
-        if (twin.study.lab.measurements[m].observable == readings[k].name)
+      for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m)
+        if (twin.study.tests[0].lab.measurements[m].observable == readings[k].name)
           squares += std::pow((model.predict(k, point).mean - twin.true_readings[m]) / readings[k].deviation, 2);
     }
     if (squares >= least) continue;
@@ -61,15 +62,15 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   std::vector<Observables> runs;
   for (int k = 0; k < recipe.repeats; ++k) {
     Study made = study;
-    if (recipe.truth_radius_m > 0) made.lab.test.grains.radius_m = recipe.truth_radius_m;
+    if (recipe.truth_radius_m > 0) made.tests[0].lab.test.grains.radius_m = recipe.truth_radius_m;
     const auto packing = first_packing + static_cast<std::uint64_t>(1000 * number + k);
-    const Outcome outcome = options.simulator.run(test_with(made, values, packing), {});
+    const Outcome outcome = options.simulator.run(test_with(made.tests[0].lab.test, values, packing), {});
     if (outcome.failure) return Fault{"twin " + std::to_string(number), outcome.failure->message, "another truth"};
     runs.push_back(outcome.observables);
   }
   const RandomStream ruler(recipe.seed, "ruler");
-  for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m) {
-    Measurement& measurement = twin.study.lab.measurements[m];
+  for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
+    Measurement& measurement = twin.study.tests[0].lab.measurements[m];
     std::vector<double> read;
     double truth = 0, mean = 0, squares = 0;
     for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -87,7 +88,8 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
     measurement.repeats = recipe.repeats;
     twin.true_readings.push_back(truth);
   }
-  twin.study.lab.hash = "twin " + std::to_string(number) + " of seed " + std::to_string(recipe.seed);
+  twin.study.tests[0].lab.content =
+      "\"twin " + std::to_string(number) + " of seed " + std::to_string(recipe.seed) + "\"";
   return twin;
 }
 
@@ -95,7 +97,7 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   TwinResult result;
   result.number = twin.number;
   const auto start = std::chrono::steady_clock::now();
-  auto store = Store::open(store_file, {twin.study.hash, twin.study.lab.hash, program_identity()});
+  auto store = Store::open(store_file, {program_identity(), inputs_of(twin.study)});
   if (!store.ok()) {
     result.status = "no store: " + store.faults().front().what;
     return result;
@@ -114,9 +116,9 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   const bool fresh = calibration.confirmation.point.size() > 0 && is_feasible(calibration.confirmation);
   const Response& shown = fresh ? calibration.confirmation : calibration.best;
   const auto packings = static_cast<double>(shown.evaluations.size());
-  for (std::size_t m = 0; m < twin.study.lab.measurements.size(); ++m) {
-    if (twin.study.weights[m].weight == 0) continue;
-    const Measurement& measurement = twin.study.lab.measurements[m];
+  for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
+    if (twin.study.tests[0].weights[m].weight == 0) continue;
+    const Measurement& measurement = twin.study.tests[0].lab.measurements[m];
     const double mean = shown.observables[static_cast<Eigen::Index>(m)];
     double squares = 0;
     for (const Evaluation& one : shown.evaluations) squares += std::pow(one.observables[m] - mean, 2);

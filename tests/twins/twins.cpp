@@ -40,7 +40,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   Study study = std::move(read).value();
-  if (radius_mm > 0) study.lab.test.grains.radius_m = radius_mm / 1000;
+  if (study.tests.size() > 1) {
+    std::cerr << study_file << ": has several tests; a twin is made of a study of one\n";
+    return 2;
+  }
+  if (radius_mm > 0) study.tests[0].lab.test.grains.radius_m = radius_mm / 1000;
   if (budget > 0) study.search.budget_simulations = budget;
   recipe.truth_radius_m = truth_radius_mm / 1000;
 

@@ -195,6 +195,41 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
     CHECK_THAT(text, Catch::Contains(words));
 }
 
+TEST_CASE("the other tests of a study, its hold-outs and what was known beforehand are kept and shown") {
+  auto written = card();
+  written.test_name = "cone";
+  written.parameters[0].prior = Prior{400, 100};
+  CardTest fitted;
+  fitted.name = "plate";
+  fitted.lab_file = "plate.json";
+  fitted.lab_hash = "00000000000000aa";
+  fitted.test = written.test;
+  fitted.test.mould.height_m = 0.2;
+  fitted.observables = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1}};
+  CardTest held = fitted;
+  held.name = "fast";
+  held.hold_out = true;
+  held.observables[0].band = 1.5;
+  held.within_noise = false;
+  written.further = {fitted, held};
+  const auto document = to_json(written);
+  const auto read = card_from_json(text_and_back(document));
+  INFO((read.ok() ? "" : read.faults()[0].where + ": " + read.faults()[0].what));
+  REQUIRE(read.ok());
+  CHECK(to_json(read.value()).dump() == document.dump());
+  const auto summary = summary_of(read.value());
+  for (const auto* words : {"Test cone", "Test plate\n", "Test fast, held out", "noise explains +-1.5",
+                            "Hold-out fast: not predicted", "known as 400 +- 100"})
+    CHECK_THAT(summary, Catch::Contains(words));
+  auto spoiled = text_and_back(document);
+  spoiled["further_tests"][1]["test"].erase("mould");
+  spoiled["further_tests"][0]["observables"]["step1.height_mm"]["band"] = -1;
+  const auto refused = card_from_json(spoiled);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.faults().size() == 2);
+  CHECK(refused.faults()[0].where.find("further_tests[") == 0);
+}
+
 TEST_CASE("faults in the later parts of a card are named with their place") {
   auto document = text_and_back(to_json(card()));
   document["baseline"]["readings"]["step1.height_mm"] = {1};

@@ -37,10 +37,10 @@ class CommandLine(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.out = self.folder / "out"
 
-    def study(self, budget=4, screening=2, **changes):
+    def study(self, budget=4, screening=2, radius_mm=12, **changes):
         """A study of coarse grains with few simulations, beside its laboratory file."""
         lab = json.loads(LAB.read_text())
-        lab["grains"] = {"distribution": "mono", "radius_mm": 12}
+        lab["grains"] = {"distribution": "mono", "radius_mm": radius_mm}
         (self.folder / "lab.json").write_text(json.dumps(lab))
         study = json.loads(STUDY.read_text())
         study["lab"] = "lab.json"
@@ -178,8 +178,10 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(height, card["observables"]["step1.height_mm"]["simulated"])
 
         self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
-        other = self.study(title="another")
-        self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "study", "--force")
+        kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "summary.txt")}
+        other = self.study(radius_mm=13)
+        self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "none of its", "grains", "--force")
+        self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)
         start = time.monotonic()
         resumed = run("calibrate", self.study(), "--out", self.out, "--resume")
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
@@ -204,6 +206,65 @@ class CommandLine(unittest.TestCase):
         undisturbed = self.folder / "undisturbed"
         self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", "2").returncode, 0)
         self.assertEqual((self.out / "card.json").read_text(), (undisturbed / "card.json").read_text())
+
+    def test_a_changed_study_goes_on_with_what_still_holds_and_names_what_changed(self):
+        self.assertEqual(run("calibrate", self.study(budget=12, screening=8), "--out", self.out).returncode, 0)
+        file = self.study(budget=12, screening=8)
+        study = json.loads(file.read_text())
+        study["parameters"]["strength_pa"]["free"] = [400, 30000]
+        file.write_text(json.dumps(study))
+        lab = json.loads((self.folder / "lab.json").read_text())
+        lab["measurements"]["step1.height_mm"] = {"repeats": [148, 151, 158]}
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        result = run("calibrate", file, "--out", self.out, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("study.parameters.strength_pa.free", result.stdout)
+        self.assertIn("measurements.step1.height_mm", result.stdout)
+        self.assertRegex(result.stdout, r"[1-9][0-9]* candidates are known from before")
+        card = json.loads((self.out / "card.json").read_text())
+        self.assertEqual(card["free"]["strength_pa"]["lower"], 400)
+        self.assertEqual(card["observables"]["step1.height_mm"]["repeats"], 3)
+        again = run("calibrate", file, "--out", self.out, "--resume")
+        self.assertNotIn("Changed since", again.stdout)
+        self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
+
+    def test_several_tests_are_fitted_together_and_a_hold_out_is_predicted(self):
+        file = self.study(budget=30, screening=4)
+        lab = json.loads((self.folder / "lab.json").read_text())
+        lab["apparatus"]["lift_velocity_mm_s"] = 300
+        (self.folder / "fast.json").write_text(json.dumps(lab))
+        study = json.loads(file.read_text())
+        weights = study.pop("weights")
+        del study["lab"]
+        study["tests"] = [{"name": "later", "lab": "fast.json", "hold_out": True, "weights": weights},
+                          {"name": "slow", "lab": "lab.json", "weights": weights},
+                          {"name": "fast", "lab": "fast.json", "weights": weights}]
+        study["search"]["confirmation_packings"] = 2
+        study["parameters"]["offset_ratio"]["prior"] = {"value": 0.3, "standard_deviation": 0.05}
+        file.write_text(json.dumps(study))
+        result = run("calibrate", file, "--out", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for words in ("slow/step1.height_mm", "Test fast", "Test later, held out", "Hold-out later",
+                      "offset_ratio was known to be 0.3 +- 0.05"):
+            self.assertIn(words, result.stdout)
+        card = json.loads((self.out / "card.json").read_text())
+        jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
+        self.assertEqual([test["name"] for test in card["further_tests"]], ["fast", "later"])
+        self.assertEqual(card["test_name"], "slow")
+        fast, later = card["further_tests"]
+        self.assertIn("within_noise", later)
+        self.assertNotIn("within_noise", fast)
+        self.assertEqual(fast["observables"]["step1.height_mm"]["simulated"],
+                         later["observables"]["step1.height_mm"]["simulated"])  # the same test, fitted and predicted
+        self.assertLessEqual(card["search"]["simulations"], 30)
+        self.assertEqual(run("check", self.out / "card.json").returncode, 0)
+        self.assertEqual(run("export", self.out / "card.json", "--to", "csv", "--out", self.folder / "csv").returncode, 0)
+        self.assertEqual(run("simulate", file, *COARSE).returncode, 0)
+
+    def test_core_seconds_end_a_run_with_the_best_so_far(self):
+        result = run("calibrate", self.study(budget=500, screening=400), "--out", self.out, "--core-budget", "1.5")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertIn("stopped", result.stdout + result.stderr)
 
     def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
         result = run("calibrate", self.study(budget=16, screening=6), "--out", self.out)

@@ -114,6 +114,30 @@ TEST_CASE("repeats narrow an interval as their number does") {
   CHECK(infer(evidence, middle).intervals[0].uncertainty == Approx(once / 2).epsilon(0.12));
 }
 
+TEST_CASE("a prior and a reading of the same parameter are weighed by their variances") {
+  Evidence evidence = evidence_for({first_alone});  // tells 0.5 +- 0.05
+  evidence.parameters[0].prior = Prior{0.6, 0.05};
+  const Inference inference = infer(evidence, middle);
+  const ParameterInterval& one = inference.intervals[0];
+  CHECK(one.lower == Approx(0.55 - 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
+  CHECK(one.upper == Approx(0.55 + 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
+  CHECK(one.deviation_before == Approx(0.05).epsilon(0.01));
+  CHECK(one.uncertainty == Approx(1 / std::sqrt(2.0)).margin(0.06));
+  CHECK_THAT(words_of(inference), Catch::Contains("first was known to be 0.6 +- 0.05; with the readings"));
+}
+
+TEST_CASE("a prior tells apart what the reading alone cannot, and what came from it is said") {
+  Evidence evidence = evidence_for({sum_of_both});
+  evidence.parameters[1].prior = Prior{0.3, 0.03};
+  const Inference inference = infer(evidence, Eigen::Vector2d(0.7, 0.3));
+  CHECK(inference.intervals[0].interval_exists());
+  CHECK(inference.intervals[0].lower == Approx(0.7 - 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
+  CHECK(inference.intervals[0].upper == Approx(0.7 + 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
+  CHECK(inference.intervals[1].uncertainty > 0.9);
+  CHECK_THAT(words_of(inference), Catch::Contains("second was known to be 0.3 +- 0.03; the readings add nothing"));
+  for (const EquivalentMaterial& member : inference.family) CHECK(member.values[1] == Approx(0.3).margin(0.12));
+}
+
 TEST_CASE("two parameters that only their sum shows are each wide, narrow if the other is held, and correlated") {
   const Inference inference = infer(evidence_for({sum_of_both}), middle);
   for (const ParameterInterval& one : inference.intervals) {
@@ -158,8 +182,10 @@ TEST_CASE("the words name what is fixed, what is not, and what to measure") {
   CHECK(words.find("step1.height_mm fixes first to") != std::string::npos);
   CHECK(words.find("second is not told by this test") != std::string::npos);
   CHECK(words.find("measurements of step1.spread_mm") != std::string::npos);
-  CHECK(warning_before(5, {"a"}).find("1 fitted reading fixes at most 1 combination") != std::string::npos);
-  CHECK(warning_before(1, {"a", "b"}).empty());
+  CHECK(warning_before(5, 0, {"a"}).find("1 fitted reading fixes at most 1 combination") != std::string::npos);
+  CHECK(warning_before(1, 0, {"a", "b"}).empty());
+  CHECK(warning_before(3, 2, {"a"}).empty());
+  CHECK(warning_before(4, 2, {"a"}).find("2 that are known beforehand") != std::string::npos);
 }
 
 TEST_CASE("a card keeps the ends that the data set, and names what they do not see") {

@@ -145,6 +145,20 @@ TEST_CASE("readings that contradict each other end unconfirmed, not out of reach
   CHECK(calibration.best.misfit_mm < 20);
 }
 
+TEST_CASE("of the materials that meet the laboratory the search finds one that agrees with what is known") {
+  int agree = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Synthetic objective = fake_slump(150, seed);
+    objective.known = [](const UnitPoint& x) { return std::vector<double>{(x[4] - 0.3) / 0.05, (x[3] - 0.7) / 0.05}; };
+    const Calibration calibration = search(objective, options_with(seed));
+    if (calibration.status != CalibrationStatus::confirmed) continue;
+    CHECK(calibration.reach.size() == 1);
+    const UnitPoint& x = calibration.best.point;
+    if (std::abs(x[4] - 0.3) <= 0.11 && std::abs(x[3] - 0.7) <= 0.11) ++agree;
+  }
+  CHECK(agree >= 16);
+}
+
 TEST_CASE("if everything fails the calibration says so and keeps half of its budget") {
   for (const FailureKind kind :
        {FailureKind::graded, FailureKind::huge, FailureKind::infinite, FailureKind::not_a_number}) {

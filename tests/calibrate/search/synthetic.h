@@ -45,6 +45,8 @@ class Synthetic : public Objective {
   std::function<bool(const UnitPoint&, std::uint64_t packing)> fails = [](const UnitPoint&, std::uint64_t) {
     return false;
   };
+  /// Residuals of what is known beforehand.
+  std::function<std::vector<double>(const UnitPoint&)> known = [](const UnitPoint&) { return std::vector<double>{}; };
   FailureKind failure_kind = FailureKind::graded;
   int budget = std::numeric_limits<int>::max();
   std::function<bool()> stop = [] { return false; };
@@ -53,7 +55,10 @@ class Synthetic : public Objective {
   int simulations = 0;
 
   int parameters() const override { return dimension; }
-  int residuals() const override { return static_cast<int>(measured.size()); }
+  int residuals() const override {
+    return readings() + static_cast<int>(known(UnitPoint::Constant(dimension, 0.5)).size());
+  }
+  int readings() const override { return static_cast<int>(measured.size()); }
   int budget_left() const override { return budget - simulations; }
   bool stop_requested() const override { return stop(); }
 
@@ -69,7 +74,7 @@ class Synthetic : public Objective {
     if (point.size() != dimension || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1) {
       throw std::logic_error("a point outside the unit cube was asked");
     }
-    const int count = residuals();
+    const int count = readings();
     Response response;
     response.point = point;
     response.packings.assign(packings.begin(), packings.end());
@@ -87,7 +92,9 @@ class Synthetic : public Objective {
       response.evaluations.push_back(std::move(evaluation));
     }
     response.observables /= static_cast<double>(packings.size());
-    response.residuals.resize(count);
+    response.residuals.resize(residuals());
+    const auto priors = known(point);
+    for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
     double squares = 0;
     for (int k = 0; k < count; ++k) {
       response.residuals[k] = (response.observables[k] - measured[k]) / standard_deviations[k];

@@ -1,85 +1,15 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <ctime>
 #include <limits>
 #include <thread>
 
-#include "calibrate/search/evaluator.h"
-#include "calibrate/study/parameters.h"
-#include "core/rigs/packing.h"
+#include "tests/calibrate/search/laboratory.h"
 
 using namespace pastefit;
-
-namespace {
-
-/// A study of two free parameters and three readings, of which the spread is not fitted, with an engine that answers
-/// at once: height = 100 mm + 1 mm per packing seed + 50 mm (friction - 0.5).
-struct Laboratory {
-  std::filesystem::path folder;
-  Study study;
-  std::atomic<int> fills = 0;
-  std::atomic<int> runs = 0;
-  std::function<void(const SlumpTable&, const RunOptions&, Outcome&)> twist = [](auto&&...) {};
-  EvaluatorOptions options;
-
-  Laboratory() {
-    std::string name = (std::filesystem::temp_directory_path() / "pastefit-evaluator-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    folder = name;
-    for (const auto& kind : parameter_kinds())
-      study.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
-    for (auto& parameter : study.parameters) {
-      if (parameter.name == "strength_pa") parameter = {"strength_pa", true, 0, 100, 10000, Scale::logarithmic};
-      if (parameter.name == "friction") parameter = {"friction", true, 0, 0, 1, Scale::linear};
-    }
-    study.lab.measurements = {
-        {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
-    study.weights = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
-    study.search.budget_simulations = 20;
-    options.threads = 4;
-    options.simulator.fill = [this](const SlumpTable&, const RunOptions&) {
-      ++fills;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      return std::make_shared<const Packing>();
-    };
-    options.simulator.run = [this](const SlumpTable& test, const RunOptions& run) {
-      ++runs;
-      Outcome outcome;
-      outcome.observables.set("step1.height_mm",
-                              100.0 + static_cast<double>(test.packing_seed) + 50 * (test.contact.friction - 0.5));
-      outcome.observables.set("step1.spread_mm", 350);
-      outcome.observables.set("fill.mass_kg", 9.1);
-      outcome.run.simulated_s = 2;
-      twist(test, run, outcome);
-      return outcome;
-    };
-  }
-  ~Laboratory() { std::filesystem::remove_all(folder); }
-
-  Store store() const {
-    auto opened = Store::open(folder / "evaluations.sqlite", {"study", "lab", "program"});
-    REQUIRE(opened.ok());
-    return std::move(opened).value();
-  }
-};
-
-UnitPoint at(double strength, double friction) {
-  return Eigen::Vector2d(strength, friction);
-}
-
-Outcome& fail(Outcome& outcome, FailureReason reason, double time_s) {
-  outcome.observables = {};
-  outcome.failure = Failure{reason, "step1.lift", 1, time_s, -1, 0, 0, "no good"};
-  return outcome;
-}
-
-const std::vector<std::uint64_t> kPackings{1, 3};
-
-}  // namespace
+using namespace pastefit::test;
 
 TEST_CASE("a candidate answers with the mean over its packings against the laboratory") {
   Laboratory laboratory;
@@ -167,7 +97,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
     else if (friction > 0.95)
       outcome.observables.set("step1.height_mm", 300);  // the worst a heap can do
   };
-  laboratory.study.lab.test.mould.height_m = 0.3;
+  laboratory.study.tests[0].lab.test.mould.height_m = 0.3;
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const std::vector<UnitPoint> points{at(0.5, 0), at(0.5, 0.1), at(0.5, 0.2), at(0.5, 1)};
   const auto responses = objective.evaluate(points, kPackings);
@@ -245,6 +175,44 @@ TEST_CASE("a simulation beyond the wall limit is a stored failure, and the next 
   CHECK_FALSE(responses[0].evaluations[1].failure);
   CHECK(store.size() == 2);
   CHECK_FALSE(objective.stop_requested());
+}
+
+TEST_CASE("core-seconds are counted over all simulations, and spent they are a stop request") {
+  Laboratory laboratory;
+  auto store = laboratory.store();
+  laboratory.options.core_budget_s = 0.05;
+  laboratory.twist = [](auto&&...) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));  // a core that waits is not counted
+    const auto now = [] {
+      timespec time{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    for (const double start = now(); now() - start < 0.02;) continue;
+  };
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, std::vector<std::uint64_t>{1});
+  CHECK_FALSE(objective.stop_requested());
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.1, 0.5), at(0.2, 0.5)}, kPackings);
+  CHECK(objective.stop_requested());
+  CHECK(objective.counts().core_s > 0.05);
+}
+
+TEST_CASE("what is known of a parameter beforehand is a residual of its own, in its own deviations") {
+  Laboratory laboratory;
+  auto& strength = laboratory.study.parameters[0];
+  strength.prior = Prior{1000, 230.2585092994046};  // a hundredth of two decades: 0.05 of ln(10000/100)
+  laboratory.study.parameters[5].prior = Prior{0.4, 0.1};
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  CHECK(objective.residuals() == 5);
+  CHECK(objective.readings() == 3);
+  const auto response = objective.evaluate(std::vector<UnitPoint>{at(0.6, 0.5)}, kPackings)[0];
+  CHECK(response.observables.size() == 3);
+  CHECK(response.residuals[3] == Approx(2));
+  CHECK(response.residuals[4] == Approx(1));
+  CHECK(response.misfit_mm == Approx(2));
+  CHECK(response.misfit == Approx(0.5 * response.residuals.squaredNorm()));
 }
 
 TEST_CASE("points outside the unit cube are refused as a programming error") {

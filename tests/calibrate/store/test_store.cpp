@@ -2,12 +2,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -28,14 +30,19 @@ struct Folder {
   ~Folder() { std::filesystem::remove_all(path); }
 };
 
-const StoreIdentity kIdentity{"5eed", "1ab", "pastefit 0.1.0 engine abc"};
+const StoreIdentity kIdentity{"pastefit 0.1.0 engine abc",
+                              R"({"study": {"parameters": {"friction": {"free": [0, 1]}}, "search": {"seed": 1}},
+                                  "laboratories": [{"laboratory": {"measurements": {"step1.height_mm": {"value": 1}}}}]})"};
 
 StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   StoredEvaluation out;
   out.point = {value, 0.1 + 0.2};
   out.values = {value * 3000, 1.0 / 3};
   out.packing = packing;
-  out.key = evaluation_key(kIdentity, out.values, packing);
+  SlumpTable test;
+  test.contact.friction = value;
+  test.packing_seed = packing;
+  out.key = evaluation_key(kIdentity.program, test, 2e6, 0.3);
   out.observables.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
   out.observables.set("fill.mass_kg", 9.9999999999999982);
   out.run = {.particles = 1250,
@@ -155,14 +162,22 @@ TEST_CASE("an evaluation is kept once and found by its key only") {
   CHECK_FALSE(store.find(evaluation(std::nextafter(0.5, 1)).key));
 }
 
-TEST_CASE("the key tells values, packing, study, laboratory and program apart") {
-  const std::vector<double> values{1, 2};
-  const auto key = evaluation_key(kIdentity, values, 1);
-  CHECK(key == evaluation_key(kIdentity, values, 1));
-  CHECK(key != evaluation_key(kIdentity, values, 2));
-  CHECK(key != evaluation_key(kIdentity, std::vector<double>{2, 1}, 1));
-  CHECK(key != evaluation_key({"5eed1", "ab", kIdentity.program}, values, 1));
-  CHECK(key != evaluation_key({"5eed", "1ab", "pastefit 0.1.1"}, values, 1));
+TEST_CASE("the key tells tests, fillings and programs apart") {
+  SlumpTable test;
+  const auto key = evaluation_key("p", test, 2e6, 0.3);
+  CHECK(key == evaluation_key("p", test, 2e6, 0.3));
+  CHECK(key != evaluation_key("q", test, 2e6, 0.3));
+  CHECK(key != evaluation_key("p", test, 2e6 + 1e-9, 0.3));
+  CHECK(key != evaluation_key("p", test, 2e6, 0.31));
+  const auto with = [&](auto change) {
+    SlumpTable other = test;
+    change(other);
+    return evaluation_key("p", other, 2e6, 0.3);
+  };
+  CHECK(key != with([](SlumpTable& other) { other.packing_seed += 1; }));
+  CHECK(key != with([](SlumpTable& other) { other.lift_velocity_m_s *= 2; }));
+  CHECK(key != with([](SlumpTable& other) { other.grains.radius_m = std::nextafter(other.grains.radius_m, 1); }));
+  CHECK(key != with([](SlumpTable& other) { other.contact.bridge.c_n += 1e-12; }));
 }
 
 TEST_CASE("threads may add to one store at the same time") {
@@ -180,23 +195,49 @@ TEST_CASE("threads may add to one store at the same time") {
   CHECK(opened(file).size() == 40);
 }
 
-TEST_CASE("a store of other inputs is refused, names what differs and is left as it was") {
+TEST_CASE("a store of another program is refused, named and left as it was") {
   const Folder folder;
   const auto file = folder.path / "evaluations.sqlite";
   CHECK(opened(file).add(evaluation(0.5)).empty());
   const auto before = content(file);
-
-  const auto study = Store::open(file, {"other", kIdentity.lab, kIdentity.program});
-  REQUIRE_FALSE(study.ok());
-  REQUIRE(study.faults().size() == 1);
-  CHECK_THAT(study.faults()[0].where, Catch::EndsWith("study"));
-  CHECK_THAT(study.faults()[0].what, Catch::Contains("5eed") && Catch::Contains("other"));
-  CHECK_THAT(study.faults()[0].remedy, Catch::Contains("--force"));
-
-  const auto all = Store::open(file, {"x", "y", "z"});
-  REQUIRE_FALSE(all.ok());
-  CHECK(all.faults().size() == 3);
+  const auto other = Store::open(file, {"pastefit 0.2.0", kIdentity.inputs});
+  REQUIRE_FALSE(other.ok());
+  REQUIRE(other.faults().size() == 1);
+  CHECK_THAT(other.faults()[0].where, Catch::EndsWith("program"));
+  CHECK_THAT(other.faults()[0].what, Catch::Contains(kIdentity.program) && Catch::Contains("pastefit 0.2.0"));
+  CHECK_THAT(other.faults()[0].remedy, Catch::Contains("--force"));
   CHECK(content(file) == before);
+}
+
+TEST_CASE("changed inputs are named, and begin an epoch that keeps what is known") {
+  const Folder folder;
+  const auto file = folder.path / "evaluations.sqlite";
+  CHECK(opened(file).changes().empty());
+  CHECK(opened(file).add(evaluation(0.5)).empty());
+  auto inputs = nlohmann::json::parse(kIdentity.inputs);
+  inputs["study"]["parameters"]["friction"]["free"][0] = 0.2;
+  inputs["study"]["search"]["packings"] = 3;
+  inputs["laboratories"][0]["laboratory"]["measurements"]["step1.height_mm"] = {{"repeats", {1, 2}}};
+  const StoreIdentity changed{kIdentity.program, inputs.dump()};
+  {
+    auto store = opened(file, changed);
+    const auto& places = store.changes();
+    INFO(nlohmann::json(places).dump());
+    CHECK(std::ranges::count(places, "study.parameters.friction.free") == 1);
+    CHECK(std::ranges::count(places, "study.search.packings") == 1);
+    CHECK(std::ranges::any_of(places, [](const std::string& place) {
+      return place.starts_with("laboratories[0].laboratory.measurements.step1.height_mm");
+    }));
+    CHECK(store.epoch() == 2);
+    REQUIRE(store.find(evaluation(0.5).key));
+    CHECK(store.find(evaluation(0.5).key)->epoch == 1);
+    CHECK(store.add(evaluation(0.6)).empty());
+    CHECK(store.find(evaluation(0.6).key)->epoch == 2);
+  }
+  const auto again = opened(file, changed);
+  CHECK(again.changes().empty());
+  CHECK(again.epoch() == 2);
+  CHECK(again.all().at(1).epoch == 2);
 }
 
 TEST_CASE("a file that is not a store is refused and left as it was") {

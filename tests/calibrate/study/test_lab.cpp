@@ -190,6 +190,22 @@ TEST_CASE("step 2 without a drop plate is a fault") {
   CHECK(says(faults[0], "no drop plate"));
 }
 
+TEST_CASE("readings that contradict each other beyond their deviations are a fault") {
+  json document = lab();
+  const auto with = [&](const char* key, double value) {
+    document["measurements"]["step1.height_mm"] = {{"value", 70}, {"standard_deviation", 2}};
+    document["measurements"][key] = {{"value", value}, {"standard_deviation", 2}};
+    return faults_of(document);
+  };
+  CHECK(with("step2.height_mm", 77).empty());
+  CHECK(says(at(with("step2.height_mm", 79), "measurements"), "a drop does not raise a heap"));
+  document = lab();
+  CHECK(says(at(with("step1.height_max_mm", 60), "measurements"), "not below its height"));
+  document = lab();
+  document["measurements"]["step1.spread_mm"] = {{"repeats", {400, 402}}};
+  CHECK(says(at(with("step2.spread_mm", 350), "measurements"), "draw a heap together"));
+}
+
 TEST_CASE("slump and height of the same heap, or no measurement at all, are faults") {
   json document = lab();
   document["measurements"]["step1.slump_mm"] = {{"value", 130}, {"standard_deviation", 5}};

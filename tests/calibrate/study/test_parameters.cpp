@@ -23,12 +23,13 @@ double force(const Bridge& bridge, double d) {
 TEST_CASE("every point of the unit cube is an admissible bridge that is fit to run") {
   for (const BridgeFormation formation : {BridgeFormation::film, BridgeFormation::touch}) {
     Study study = bridge_study();
-    study.lab.test.contact.bridge.formation = formation;
+    SlumpTable own;
+    own.contact.bridge.formation = formation;
     if (formation == BridgeFormation::touch) study.parameters[4].lower = 0.01;
     Eigen::VectorXd point(5);
     for (int corner = 0; corner < 243; ++corner) {
       for (int axis = 0, rest = corner; axis < 5; ++axis, rest /= 3) point[axis] = std::array{0.0, 0.37, 1.0}[rest % 3];
-      const SlumpTable test = test_with(study, values_at(study, point), 1);
+      const SlumpTable test = test_with(own, values_at(study, point), 1);
       const Bridge& bridge = test.contact.bridge;
       const double little = 1e-12 * bridge.c_n;
       INFO("corner " << corner);
@@ -117,8 +118,7 @@ TEST_CASE("usual values lie in their admissible range, and names are unique") {
 }
 
 TEST_CASE("the packing seed is the one that was asked for") {
-  const Study study = bridge_study();
-  CHECK(test_with(study, usual_values(), 77).packing_seed == 77);
+  CHECK(test_with(SlumpTable{}, usual_values(), 77).packing_seed == 77);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/template.h"
+#include "calibrate/study/tests.h"
 #include "tests/calibrate/study/files.h"
 
 namespace pastefit {
@@ -41,7 +42,7 @@ TEST_CASE("the templates are read as they are") {
   INFO((study.ok() ? "" : message_of(study.faults())));
   REQUIRE(study.ok());
   CHECK(free_count(study.value()) == 5);
-  CHECK(study.value().lab.measurements.size() == 2);
+  CHECK(study.value().tests[0].lab.measurements.size() == 2);
   CHECK(template_names().size() == 2);
   CHECK_FALSE(template_text("card"));
 }
@@ -54,12 +55,12 @@ TEST_CASE("the shipped studies are read, with the height to fit and the spread t
     INFO((study.ok() ? "" : message_of(study.faults())));
     REQUIRE(study.ok());
     ++studies;
-    REQUIRE(study.value().weights.size() == 2);
-    CHECK(study.value().weights[0].observable == "step1.height_mm");
-    CHECK(study.value().weights[0].weight == 1);
-    CHECK(study.value().weights[1].weight == 0);
+    REQUIRE(study.value().tests[0].weights.size() == 2);
+    CHECK(study.value().tests[0].weights[0].observable == "step1.height_mm");
+    CHECK(study.value().tests[0].weights[0].weight == 1);
+    CHECK(study.value().tests[0].weights[1].weight == 0);
     CHECK(free_count(study.value()) == 5);
-    CHECK(study.value().lab.provenance.licence == "CC BY 4.0");
+    CHECK(study.value().tests[0].lab.provenance.licence == "CC BY 4.0");
   }
   CHECK(studies == 6);
 }
@@ -74,7 +75,7 @@ TEST_CASE("what a study does not name has its usual value") {
   CHECK(study.parameters[5].value == 0.4);
   CHECK(study.parameters[7].value == parameter_kinds()[7].usual);
   CHECK(study.search.budget_simulations == SearchOptions{}.budget_simulations);
-  for (const Weight& weight : study.weights) CHECK(weight.weight == 1);
+  for (const Weight& weight : study.tests[0].weights) CHECK(weight.weight == 1);
 }
 
 TEST_CASE("contact choices of the study reach the test") {
@@ -82,7 +83,8 @@ TEST_CASE("contact choices of the study reach the test") {
   document["contact"] = {{"formation", "touch"}, {"rolling_model", "none"}, {"friction_basis", "total"}};
   const Result<Study> read = Desk().read(document);
   REQUIRE(read.ok());
-  const SlumpTable test = test_with(read.value(), values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
+  const SlumpTable test =
+      test_with(read.value().tests[0].lab.test, values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
   CHECK(test.contact.bridge.formation == BridgeFormation::touch);
   CHECK(test.contact.rolling == RollingModel::none);
   CHECK(test.contact.friction_basis == FrictionBasis::total);
@@ -128,8 +130,120 @@ TEST_CASE("a weight of what was not measured is a fault, and a slump's weight is
   document["weights"] = {{"step1.slump_mm", 0.25}};
   const Result<Study> study = Desk().read(document);
   REQUIRE(study.ok());
-  CHECK(study.value().weights[0].observable == "step1.height_mm");
-  CHECK(study.value().weights[0].weight == 0.25);
+  CHECK(study.value().tests[0].weights[0].observable == "step1.height_mm");
+  CHECK(study.value().tests[0].weights[0].weight == 0.25);
+}
+
+TEST_CASE("a study may name several laboratory files, fitted ones first, hold-outs kept apart") {
+  const Desk desk;
+  desk.folder().write("mini.json", test::with(template_text("lab").value(), "\"abrams\"", "\"abrams-en\""));
+  json document = Desk::study();
+  document.erase("lab");
+  document["contact"] = {{"friction_basis", "elastic"}};
+  document["tests"] = json::parse(R"([
+    {"name": "later", "lab": "mini.json", "hold_out": true},
+    {"name": "cone", "lab": "lab.json", "weights": {"step1.spread_mm": 0}},
+    {"name": "other", "lab": "mini.json"}])");
+  const Result<Study> read = desk.read(document);
+  INFO((read.ok() ? "" : message_of(read.faults())));
+  REQUIRE(read.ok());
+  const Study& study = read.value();
+  REQUIRE(study.tests.size() == 3);
+  CHECK(study.tests[0].name == "cone");
+  CHECK(study.tests[2].hold_out);
+  for (const StudyTest& test : study.tests) CHECK(test.lab.test.contact.friction_basis == FrictionBasis::elastic);
+  const auto readings = readings_of(study);
+  REQUIRE(readings.size() == 4);
+  CHECK(readings[0].name == "cone/step1.height_mm");
+  CHECK(readings[1].weight == 0);
+  CHECK(readings[3].name == "other/step1.spread_mm");
+  CHECK(readings[3].weight == 1);
+  CHECK(tests_of(study, true) == std::vector<std::size_t>{2});
+}
+
+TEST_CASE("a study of one test says the same in either form") {
+  const Desk desk;
+  json document = Desk::study();
+  const Study before = desk.read(document).value();
+  document.erase("lab");
+  document["tests"] = {{{"name", "only"}, {"lab", "lab.json"}}};
+  const Study after = desk.read(document).value();
+  CHECK(before.tests[0].lab.content == after.tests[0].lab.content);
+  CHECK(readings_of(before)[0].name == "step1.height_mm");
+  CHECK(readings_of(after)[0].name == "only/step1.height_mm");
+}
+
+TEST_CASE("what is wrong with a list of tests is said with its place, all at once") {
+  const Desk desk;
+  json document = Desk::study();
+  document["weights"] = {{"step1.height_mm", 1}};
+  document["tests"] = json::parse(R"([
+    {"name": "a/b", "lab": "lab.json"},
+    {"name": "twice", "lab": "lab.json", "weights": {"step2.height_mm": 1}},
+    {"name": "twice", "lab": "nowhere.json"},
+    {"lab": "lab.json", "holdout": true},
+    7])");
+  const Faults faults = desk.faults(document);
+  INFO(message_of(faults));
+  CHECK(says(at(faults, "json: lab"), "beside"));
+  CHECK(says(at(faults, "json: weights"), "beside"));
+  CHECK(says(at(faults, "tests[0].name"), "letters"));
+  CHECK(says(at(faults, "tests[1].weights.step2.height_mm"), "no such measurement"));
+  CHECK(says(at(faults, "tests[2].name"), "two tests"));
+  CHECK(says(at(faults, "nowhere.json"), "no such file"));
+  CHECK(says(at(faults, "tests[3].name"), "missing"));
+  CHECK(says(at(faults, "tests[3].holdout"), "hold_out"));
+  CHECK(says(at(faults, "tests[4]"), "no object"));
+  CHECK(faults.size() == 9);
+}
+
+TEST_CASE("a study of hold-outs alone has nothing to fit") {
+  json document = Desk::study();
+  document.erase("lab");
+  document["tests"] = {{{"name", "a"}, {"lab", "lab.json"}, {"hold_out", true}}};
+  CHECK(says(at(Desk().faults(document), "tests"), "all are held out"));
+  document["tests"] = json::array();
+  CHECK(says(at(Desk().faults(document), "tests"), "no list of 1 to 20"));
+}
+
+TEST_CASE("what is known of a parameter beforehand is read, and must agree with its bounds") {
+  const Desk desk;
+  json document = Desk::study();
+  document["parameters"]["strength_pa"]["prior"] = {{"value", 2000}, {"standard_deviation", 500}};
+  const Result<Study> read = desk.read(document);
+  REQUIRE(read.ok());
+  REQUIRE(read.value().parameters[0].prior);
+  const UnitPrior prior = unit_prior(read.value().parameters[0]);
+  CHECK(value_between(read.value().parameters[0], prior.mean) == Approx(2000));
+  CHECK(value_between(read.value().parameters[0], prior.mean + prior.deviation) == Approx(2000 * std::exp(0.25)));
+  const auto fault = [&](const char* name, const char* content) {
+    json other = Desk::study();
+    other["parameters"][name] = json::parse(content);
+    const Faults faults = desk.faults(other);
+    INFO(message_of(faults));
+    REQUIRE(faults.size() == 1);
+    return faults[0];
+  };
+  CHECK(says(fault("friction", R"({"value": 0.3, "prior": {"value": 0.3, "standard_deviation": 0.1}})"),
+             "known already"));
+  CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.6, "standard_deviation": 0.1}})"),
+             "contradicts the bounds"));
+  CHECK(
+      says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0}})"), "above 0"));
+  CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3}})"), "is missing"));
+}
+
+TEST_CASE("the inputs of a study change with what decides the search, not with its budget or title") {
+  const Desk desk;
+  json document = Desk::study();
+  const std::string first = inputs_of(desk.read(document).value());
+  document["title"] = "another";
+  document["search"] = {{"budget_simulations", 333}};
+  CHECK(inputs_of(desk.read(document).value()) == first);
+  document["search"]["seed"] = 2;
+  CHECK(inputs_of(desk.read(document).value()) != first);
+  desk.folder().write("lab.json", test::with(template_text("lab").value(), "148", "149"));
+  CHECK(inputs_of(desk.read(Desk::study()).value()) != first);
 }
 
 TEST_CASE("a budget that pays for no answer is a fault") {

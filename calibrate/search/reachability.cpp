@@ -1,0 +1,191 @@
+#include "calibrate/search/reachability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calibrate/report/format.h"
+#include "calibrate/search/gaussian_process.h"
+#include "calibrate/search/surrogate.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double sure = 3;            // standard deviations of doubt and noise that a candidate is given
+constexpr double laboratory = 2;      // standard deviations of the laboratory within which a reading is met
+constexpr double on_the_bound = 0.1;  // of a range: nearer than that a flat end of the model does not tell
+constexpr double step_back = 0.2;     // of a range
+
+/// One reading of all simulations that ended well, turned so that the laboratory lies below.
+class Approach {
+ public:
+  Approach(std::span<const Response> singles, std::size_t reading, double tolerance)
+      : reading_(static_cast<Eigen::Index>(reading)) {
+    const Response* low = nullptr;
+    const Response* high = nullptr;
+    int above = 0;
+    for (const Response& single : singles) {
+      if (!is_feasible(single)) continue;
+      points_.push_back(single.point);
+      if (!low || value_of(single) < value_of(*low)) low = &single;
+      if (!high || value_of(single) > value_of(*high)) high = &single;
+      above += single.residuals[reading_] > 0 ? 1 : -1;
+    }
+    one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
+    if (!one_side_) return;
+    // A residual is a multiple of the difference to the laboratory.
+    deviation_ = (value_of(*high) - value_of(*low)) / (high->residuals[reading_] - low->residuals[reading_]);
+    measured_ = value_of(*low) - deviation_ * low->residuals[reading_];
+    side_ = above > 0 ? 1 : -1;
+    met_ = std::max(laboratory * deviation_, tolerance);
+    misses_.resize(static_cast<Eigen::Index>(points_.size()));
+    Eigen::Index i = 0;
+    for (const Response& single : singles)
+      if (is_feasible(single)) misses_[i++] = side_ * (value_of(single) - measured_);
+  }
+
+  bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
+  double met() const { return met_; }
+  double measured() const { return measured_; }
+  double side() const { return side_; }
+  double least() const { return misses_.minCoeff(); }
+  GaussianProcess model() const { return {points_, misses_}; }
+
+ private:
+  double value_of(const Response& single) const { return single.observables[reading_]; }
+
+  Eigen::Index reading_;
+  bool one_side_ = false;
+  double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
+  std::vector<UnitPoint> points_;
+  Eigen::VectorXd misses_;
+};
+
+/// The miss that the model gives a candidate, `deviations` of its doubt and noise taken off; as a thing to minimise.
+class Miss : public Objective {
+ public:
+  /// `scale`: a miss that counts as large.
+  Miss(const GaussianProcess& model, int parameters, double deviations, double scale)
+      : model_(model), parameters_(parameters), deviations_(deviations), scale_(scale) {}
+
+  double at(const UnitPoint& point) const {
+    const auto prediction = model_.predict(point);
+    return prediction.mean - deviations_ * std::sqrt(prediction.variance + model_.noise_variance());
+  }
+  int parameters() const override { return parameters_; }
+  int residuals() const override { return 1; }
+  int budget_left() const override { return std::numeric_limits<int>::max(); }
+  bool stop_requested() const override { return false; }
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
+    std::vector<Response> responses;
+    for (const UnitPoint& point : points) {
+      Response response;
+      response.point = point;
+      response.residuals = Eigen::VectorXd::Constant(1, at(point));
+      response.misfit = std::exp(response.residuals[0] / scale_);  // positive, in the order of the miss
+      responses.push_back(std::move(response));
+    }
+    return responses;
+  }
+
+ private:
+  const GaussianProcess& model_;
+  int parameters_;
+  double deviations_;
+  double scale_;
+};
+
+/// The bounds that the nearest candidate lies on, where a step back costs more than the model's doubt there.
+std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const UnitPoint& nearest) {
+  std::vector<OutOfReach::Bound> bounds;
+  const auto here = model.predict(nearest);
+  for (Eigen::Index j = 0; j < nearest.size(); ++j) {
+    const bool upper = nearest[j] > 1 - on_the_bound;
+    if (!upper && nearest[j] > on_the_bound) continue;
+    UnitPoint back = nearest;
+    back[j] += upper ? -step_back : step_back;
+    if (model.predict(back).mean - here.mean > std::sqrt(here.variance)) bounds.push_back({static_cast<int>(j), upper});
+  }
+  return bounds;
+}
+
+std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const ReachOptions& options, int& probes) {
+  const int parameters = ledger.parameters();
+  const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
+  while (!ledger.stop_requested()) {
+    const Approach approach(ledger.singles(), reading, tolerance);
+    if (!approach.suspect()) return std::nullopt;
+    const GaussianProcess model = approach.model();
+    const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
+    Miss at_best(model, parameters, sure, approach.least()), likely(model, parameters, 0, approach.least());
+    const UnitPoint hopeful = least_point(at_best, middle);
+    if (at_best.at(hopeful) > approach.met()) {
+      OutOfReach found;
+      found.reading = reading;
+      found.above = approach.side() > 0;
+      found.measured = approach.measured();
+      found.nearest = least_point(likely, hopeful);
+      found.likely = approach.measured() + approach.side() * likely.at(found.nearest);
+      found.at_best = approach.measured() + approach.side() * at_best.at(hopeful);
+      found.bounds = bounds_of(model, found.nearest);
+      return found;
+    }
+    if (probes < 1 || ledger.budget_left() < 1) return std::nullopt;
+    --probes;
+    const std::size_t before = ledger.singles().size();
+    ledger.evaluate({&hopeful, 1}, {&options.packing, 1});
+    if (ledger.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
+  }
+  return std::nullopt;
+}
+
+std::string name_of(std::span<const std::string> names, std::size_t index, const char* kind) {
+  return index < names.size() ? names[index] : kind + std::to_string(index + 1);
+}
+
+}  // namespace
+
+std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options) {
+  int probes = options.probes;
+  for (std::size_t k = 0; ledger.any_feasible() && k < static_cast<std::size_t>(ledger.readings()); ++k)
+    if (auto found = examine(ledger, k, options, probes)) return found;
+  return std::nullopt;
+}
+
+std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
+                     std::span<const std::string> parameters) {
+  std::string out =
+      name_of(readings, found.reading, "reading ") + " is out of reach: the model stays " +
+      format("%s the laboratory's %.3g. The %s it is likely to give within these bounds is %.3g",
+             found.above ? "above" : "below", found.measured, found.above ? "least" : "most", found.likely) +
+      format(", %s %.3g with all doubt and noise", found.above ? "no less than" : "no more than", found.at_best);
+  if (found.bounds.empty()) return out + ". No bound stands in the way: it is the model, or its grains.";
+  out += ". In the way ";
+  out += found.bounds.size() == 1 ? "stands" : "stand";
+  for (std::size_t i = 0; i < found.bounds.size(); ++i)
+    out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
+           name_of(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
+  return out + ".";
+}
+
+std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings) {
+  std::string out;
+  const auto count = singles.empty() ? 0 : static_cast<int>(singles.front().observables.size());
+  const std::vector<Reach> reach = reach_of(singles, count);
+  for (std::size_t k = 0; k < reach.size(); ++k) {
+    const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
+    if (std::ranges::none_of(singles, fitted)) continue;
+    const Reach& one = reach[k];
+    out += (out.empty() ? "" : " ") + name_of(readings, k, "reading ") +
+           format(" went from %.3g to %.3g, ", one.lowest, one.highest);
+    if (one.all_above || one.all_below)
+      out += std::string("always ") + (one.all_above ? "above" : "below") +
+             " the laboratory, which may still be in reach.";
+    else
+      out += "the laboratory among them.";
+  }
+  return out;
+}
+
+}  // namespace pastefit

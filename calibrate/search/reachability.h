@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/search/ledger.h"
+
+namespace pastefit {
+
+/// A reading of the laboratory that no material within the bounds comes near.
+struct OutOfReach {
+  std::size_t reading = 0;  ///< in the order of the observables
+  bool above = true;        ///< the model stays above the laboratory; else below
+  double measured = 0;      ///< by the laboratory, in the reading's unit
+  double likely = 0;        ///< mean reading of the candidate that comes nearest, as the simulations tell it
+  double at_best = 0;       ///< what no candidate is likely to pass, doubt and noise of one simulation counted
+  UnitPoint nearest;        ///< that candidate
+  struct Bound {
+    int parameter = 0;   ///< free parameter, in their order
+    bool upper = false;  ///< the nearest candidate lies on its upper bound; else on the lower one
+  };
+  std::vector<Bound> bounds;  ///< that stand in the way: a step back from them moves the reading off; may be empty
+};
+
+struct ReachOptions {
+  std::uint64_t packing = 1;  ///< of the probes
+  int probes = 12;            ///< simulations that may be spent
+  double tolerance_mm = 5;    ///< a reading nearer than this is met
+};
+
+/// Asks whether the laboratory's readings lie within what the model can do, before a search is paid for.
+///
+/// Suspect is a fitted reading that all simulations so far miss on the same side, by more than two standard deviations
+/// of the laboratory and by more than the tolerance. A Gaussian process of the reading then says how far any candidate
+/// may get at best: its mean less three standard deviations of its doubt and of one simulation's noise together. The
+/// candidate that may get farthest is simulated, and so on (a lower confidence bound; Cox & John 1992), until the
+/// reading is met (it is within reach), nothing is left that might meet it (it is out of reach, which is the answer),
+/// or the probes are spent (nothing is said). Probes stay in the ledger and serve the search. Limit: three standard
+/// deviations of a model learnt from a dozen simulations; a narrow region of the cube that answers unlike all the rest
+/// can be overlooked.
+std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options);
+
+/// The answer in words. Names may be missing: "reading 1", "parameter 2".
+std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
+                     std::span<const std::string> parameters);
+
+/// What the simulations so far did with the fitted readings, where nothing is out of reach for certain.
+std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings);
+
+}  // namespace pastefit

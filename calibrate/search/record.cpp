@@ -1,0 +1,136 @@
+#include "calibrate/search/record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double rounding = 1e-12;  // of a coordinate that was a value in between
+
+/// The candidate on one packing in all these tests, if the store has it; `before`: only from epochs before this one.
+std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std::size_t> tests, const Store& store,
+                                        std::span<const double> values, std::uint64_t packing, int before) {
+  std::vector<StoredEvaluation> found;
+  for (const std::size_t test : tests) {
+    auto evaluation = store.find(key_of(study, test, values, packing, store.identity().program));
+    if (!evaluation || evaluation->epoch >= before) return std::nullopt;
+    found.push_back(std::move(*evaluation));
+  }
+  return merged(study, tests, found);
+}
+
+/// The point of these values in the study's cube; nothing if a fixed one differs or a free one lies beyond its bounds.
+std::optional<std::vector<double>> point_of(const Study& study, std::span<const double> values) {
+  if (values.size() != study.parameters.size()) return std::nullopt;
+  std::vector<double> point;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& parameter = study.parameters[i];
+    if (!parameter.free && parameter.value != values[i]) return std::nullopt;
+    if (!parameter.free) continue;
+    const double unit = unit_of(parameter, values[i]);
+    if (!(unit >= -rounding && unit <= 1 + rounding)) return std::nullopt;
+    point.push_back(std::clamp(unit, 0.0, 1.0));
+  }
+  return point;
+}
+
+}  // namespace
+
+SlumpTable filled_test(const Study& study, std::size_t test, std::uint64_t packing) {
+  const UnitPoint middle = UnitPoint::Constant(free_count(study), 0.5);
+  return test_with(study.tests.at(test).lab.test, values_at(study, middle), packing);
+}
+
+std::string key_of(const Study& study, std::size_t test, std::span<const double> values, std::uint64_t packing,
+                   std::string_view program) {
+  const ContactModel fill = filled_test(study, test, packing).contact;
+  return evaluation_key(program, test_with(study.tests.at(test).lab.test, values, packing), fill.youngs_modulus_pa,
+                        fill.poissons_ratio);
+}
+
+std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation) {
+  if (evaluation.failure) return evaluation.failure;
+  for (const Measurement& measurement : test.lab.measurements) {
+    const auto value = evaluation.observables.find(measurement.observable);
+    if (value && std::isfinite(*value)) continue;
+    Failure failure;
+    failure.reason = FailureReason::non_finite;
+    failure.phase = "reading";
+    failure.step = evaluation.run.steps;
+    failure.time_s = evaluation.run.simulated_s;
+    failure.value = value.value_or(std::numeric_limits<double>::quiet_NaN());
+    failure.message =
+        "The run gave no reading of " + reading_name(test, measurement.observable) + "; look at its heap with --vtk.";
+    return failure;
+  }
+  return std::nullopt;
+}
+
+StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
+                        std::span<const StoredEvaluation> evaluations) {
+  StoredEvaluation out = evaluations.front();
+  out.observables = {};
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    const StudyTest& test = study.tests.at(tests[i]);
+    if (!out.failure) out.failure = failure_of(test, evaluations[i]);
+    for (const auto& [name, value] : evaluations[i].observables.all())
+      out.observables.set(reading_name(test, name), value);
+  }
+  if (out.failure) out.observables = {};
+  return out;
+}
+
+std::size_t holding(const Study& study, const Store& store) {
+  const auto all = store.all();
+  return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {
+    for (std::size_t test = 0; test < study.tests.size(); ++test)
+      if (key_of(study, test, one.values, one.packing, store.identity().program) == one.key) return true;
+    return false;
+  }));
+}
+
+std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store) {
+  std::vector<StoredEvaluation> out;
+  const auto tests = tests_of(study, false);
+  std::unordered_set<std::string> known;
+  for (const StoredEvaluation& evaluation : store.all()) {
+    if (evaluation.epoch >= store.epoch()) continue;
+    const auto point = point_of(study, evaluation.values);
+    if (!point) continue;
+    auto found = find_in(study, tests, store, evaluation.values, evaluation.packing, store.epoch());
+    if (!found || !known.insert(found->key).second) continue;
+    found->point = *point;
+    out.push_back(std::move(*found));
+  }
+  // The order of arrival depends on the machine.
+  std::ranges::sort(out, [](const StoredEvaluation& a, const StoredEvaluation& b) {
+    return a.values != b.values ? a.values < b.values : a.packing < b.packing;
+  });
+  return out;
+}
+
+std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, std::span<const Response> history) {
+  std::vector<StoredEvaluation> record = earlier_of(study, store);
+  const auto tests = tests_of(study, false);
+  std::unordered_set<std::string> known;
+  for (const StoredEvaluation& evaluation : record) known.insert(evaluation.key);
+  for (const Response& response : history) {
+    const std::vector<double> values = values_at(study, response.point);
+    for (const std::uint64_t packing : response.packings) {
+      auto found = find_in(study, tests, store, values, packing, std::numeric_limits<int>::max());
+      if (!found || !known.insert(found->key).second) continue;
+      found->point.assign(response.point.begin(), response.point.end());
+      record.push_back(std::move(*found));
+    }
+  }
+  return record;
+}
+
+}  // namespace pastefit

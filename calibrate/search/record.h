@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+#include "calibrate/store/store.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+// Between a study's candidates and the store's evaluations: one evaluation is a candidate in one test on one packing.
+
+/// How the mould of a test is filled: with the stiffness in the middle of the bounds, whatever candidate runs in it.
+SlumpTable filled_test(const Study& study, std::size_t test, std::uint64_t packing);
+
+/// The store's name of a candidate (values of all parameters) in one test on one packing.
+std::string key_of(const Study& study, std::size_t test, std::span<const double> values, std::uint64_t packing,
+                   std::string_view program);
+
+/// Why an evaluation cannot be used by the study: its own failure, or a measured reading that is missing or no number.
+std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation);
+
+/// A candidate on one packing in several tests as one evaluation: the readings under their names in the study, and the
+/// first failure. Shape: one evaluation for each of `tests`.
+StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
+                        std::span<const StoredEvaluation> evaluations);
+
+/// How many of the store's evaluations are of a test of the study, whatever the candidate.
+std::size_t holding(const Study& study, const Store& store);
+
+/// Candidates of earlier epochs of the store that hold for the study as it is now: same tests, same fixed values, free
+/// ones within the bounds, and known in all fitted tests. Their points are those of the present bounds; they are
+/// ordered by values and packing.
+std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store);
+
+/// Everything a search knows in the end: what earlier epochs left, and the record of what it has asked, each candidate
+/// on each packing once, in the order of asking: the same whatever else the store holds and in whichever order it came
+/// in. What a stop cut off is not there.
+std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, std::span<const Response> history);
+
+}  // namespace pastefit

@@ -1,0 +1,136 @@
+#include "calibrate/study/tests.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "calibrate/study/measurements.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_tests = 20;
+
+/// `measurements` is empty if the laboratory file could not be read: any known reading may then have a weight.
+std::vector<Weight> read_weights(ObjectReader& document, const std::vector<Measurement>& measurements, bool hold_out) {
+  std::vector<Weight> weights;
+  for (const Measurement& measurement : measurements) weights.push_back({measurement.observable, 1});
+  document.object("weights", Need::optional, [&](ObjectReader& reader) {
+    for (const ReadingKey& key : reading_keys()) {
+      const auto weight = std::ranges::find(weights, key.observable, &Weight::observable);
+      double ignored = 0;
+      if (weight == weights.end() && !measurements.empty())
+        reader.refuse(key.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
+      else
+        reader.number(key.key, weight == weights.end() ? ignored : weight->weight, {0, 1e6}, Need::optional);
+    }
+    if (!weights.empty() && std::ranges::all_of(weights, [](const Weight& weight) { return weight.weight == 0; }))
+      document.fault("weights", hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
+                     "give at least one measurement a weight above 0");
+  });
+  return weights;
+}
+
+void read_lab_of(ObjectReader& reader, const std::filesystem::path& folder, StudyTest& test, Faults& in_labs) {
+  if (!reader.text("lab", test.lab_file, Need::required)) return;
+  Result<Lab> lab = read_lab((folder / test.lab_file).lexically_normal());
+  if (lab.ok())
+    test.lab = std::move(lab).value();
+  else
+    in_labs.insert(in_labs.end(), lab.faults().begin(), lab.faults().end());
+}
+
+/// A name goes before a slash in the names of readings, and into one line of a table.
+bool is_name(const std::string& name) {
+  return !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](unsigned char letter) {
+    return std::isalnum(letter) || letter == '-' || letter == '_' || letter == '.';
+  });
+}
+
+void read_one_of_many(ObjectReader& reader, const std::filesystem::path& folder, std::vector<StudyTest>& tests,
+                      Faults& in_labs) {
+  StudyTest test;
+  if (reader.text("name", test.name, Need::required)) {
+    if (!is_name(test.name)) reader.fault("name", in_quotes(test.name), "up to 40 letters, digits, '-', '_' and '.'");
+    if (std::ranges::find(tests, test.name, &StudyTest::name) != tests.end())
+      reader.fault("name", in_quotes(test.name) + " is the name of two tests", "a name of its own for each");
+  }
+  reader.flag("hold_out", test.hold_out, Need::optional);
+  read_lab_of(reader, folder, test, in_labs);
+  test.weights = read_weights(reader, test.lab.measurements, test.hold_out);
+  tests.push_back(std::move(test));
+}
+
+}  // namespace
+
+std::string reading_name(const StudyTest& test, std::string_view observable) {
+  return (test.name.empty() ? "" : test.name + "/") + std::string(observable);
+}
+
+std::vector<std::size_t> tests_of(const Study& study, bool hold_out) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < study.tests.size(); ++i)
+    if (study.tests[i].hold_out == hold_out) out.push_back(i);
+  return out;
+}
+
+std::vector<StudyReading> readings_of(const Study& study) {
+  std::vector<StudyReading> out;
+  for (const std::size_t i : tests_of(study, false)) {
+    const StudyTest& test = study.tests[i];
+    for (std::size_t k = 0; k < test.lab.measurements.size(); ++k)
+      out.push_back({i, reading_name(test, test.lab.measurements[k].observable), test.lab.measurements[k],
+                     test.weights.at(k).weight});
+  }
+  return out;
+}
+
+std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, const std::filesystem::path& folder,
+                                  Faults& in_labs) {
+  std::vector<StudyTest> tests;
+  if (!document.has("tests")) {
+    StudyTest& only = tests.emplace_back();
+    read_lab_of(document, folder, only, in_labs);
+    only.weights = read_weights(document, only.lab.measurements, false);
+    return tests;
+  }
+  document.known("tests");
+  document.refuse("lab", "stands beside \"tests\"", "name the laboratory file in the tests");
+  document.refuse("weights", "stand beside \"tests\"", "give each test weights of its own");
+  const json& list = study["tests"];
+  if (!list.is_array() || list.empty() || list.size() > most_tests) {
+    document.fault("tests", "is no list of 1 to " + std::to_string(most_tests) + " tests",
+                   "[ {\"name\": \"slow\", \"lab\": \"slow.json\"}, ... ]");
+    return tests;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string place = "tests[" + std::to_string(i) + "]";
+    if (!list[i].is_object()) {
+      document.fault(place, "is no object", "{\"name\": \"slow\", \"lab\": \"slow.json\"}");
+      continue;
+    }
+    ObjectReader reader(list[i], place, document.faults());
+    read_one_of_many(reader, folder, tests, in_labs);
+  }
+  std::stable_partition(tests.begin(), tests.end(), [](const StudyTest& test) { return !test.hold_out; });
+  if (!tests.empty() && tests.front().hold_out)
+    document.fault("tests", "all are held out, so nothing is fitted", "leave \"hold_out\" out in at least one");
+  return tests;
+}
+
+std::string inputs_of(const Study& study) {
+  json inputs;
+  inputs["study"] = json::parse(study.content.empty() ? "{}" : study.content);
+  inputs["study"].erase("title");
+  if (const auto search = inputs["study"].find("search"); search != inputs["study"].end()) {
+    search->erase("budget_simulations");
+    if (search->empty()) inputs["study"].erase(search);
+  }
+  for (const StudyTest& test : study.tests)
+    inputs["laboratories"].push_back(json::parse(test.lab.content.empty() ? "{}" : test.lab.content));
+  return inputs.dump();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/study/json_reader.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// A measurement that a search answers for: one residual.
+struct StudyReading {
+  std::size_t test = 0;  ///< of `Study::tests`
+  std::string name;      ///< unique in the study
+  Measurement measurement;
+  double weight = 1;  ///< 0: reported, not fitted
+};
+
+/// The name of a test's reading beside those of other tests: "slow/step1.height_mm"; without the test's name if it has
+/// none.
+std::string reading_name(const StudyTest& test, std::string_view observable);
+
+/// Every measurement of the tests that are fitted, in their order.
+std::vector<StudyReading> readings_of(const Study& study);
+
+/// The tests that are fitted, or those held out, as indices.
+std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
+
+/// Reads "lab" and "weights" of a study of one test, or "tests", a list of {"name", "lab", "weights", "hold_out"}.
+/// The first fitted test is moved to the front: it is the one a card is exported and checked with.
+/// Faults of the laboratory files go to `in_labs`, their places beginning with the file.
+std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study,
+                                  const std::filesystem::path& folder, Faults& in_labs);
+
+/// All that decides the way of a study's search, as JSON text: the study without its title and budget, and the content
+/// of its laboratory files.
+std::string inputs_of(const Study& study);
+
+}  // namespace pastefit

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "calibrate/search/evaluator.h"
+#include "calibrate/study/parameters.h"
+#include "core/rigs/packing.h"
+
+namespace pastefit::test {
+
+/// A study of two free parameters and three readings, of which the spread is not fitted, with an engine that answers
+/// at once: height = 100 mm + 1 mm per packing seed + 50 mm (friction - 0.5).
+struct Laboratory {
+  std::filesystem::path folder;
+  Study study;
+  std::atomic<int> fills = 0;
+  std::atomic<int> runs = 0;
+  std::function<void(const SlumpTable&, const RunOptions&, Outcome&)> twist = [](auto&&...) {};
+  EvaluatorOptions options;
+
+  Laboratory() {
+    std::string name = (std::filesystem::temp_directory_path() / "pastefit-evaluator-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    folder = name;
+    for (const auto& kind : parameter_kinds())
+      study.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+    for (auto& parameter : study.parameters) {
+      if (parameter.name == "strength_pa") parameter = {"strength_pa", true, 0, 100, 10000, Scale::logarithmic};
+      if (parameter.name == "friction") parameter = {"friction", true, 0, 0, 1, Scale::linear};
+    }
+    study.tests.emplace_back();
+    study.tests[0].lab.measurements = {
+        {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
+    study.tests[0].weights = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
+    study.search.budget_simulations = 20;
+    options.threads = 4;
+    options.simulator.fill = [this](const SlumpTable&, const RunOptions&) {
+      ++fills;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      return std::make_shared<const Packing>();
+    };
+    options.simulator.run = [this](const SlumpTable& test, const RunOptions& run) {
+      ++runs;
+      Outcome outcome;
+      outcome.observables.set("step1.height_mm",
+                              100.0 + static_cast<double>(test.packing_seed) + 50 * (test.contact.friction - 0.5));
+      outcome.observables.set("step1.spread_mm", 350);
+      outcome.observables.set("fill.mass_kg", 9.1);
+      outcome.run.simulated_s = 2;
+      twist(test, run, outcome);
+      return outcome;
+    };
+  }
+  ~Laboratory() { std::filesystem::remove_all(folder); }
+
+  Store store() const {
+    auto opened = Store::open(folder / "evaluations.sqlite", {"program", "inputs"});
+    REQUIRE(opened.ok());
+    return std::move(opened).value();
+  }
+};
+
+inline UnitPoint at(double strength, double friction) {
+  return Eigen::Vector2d(strength, friction);
+}
+
+inline Outcome& fail(Outcome& outcome, FailureReason reason, double time_s) {
+  outcome.observables = {};
+  outcome.failure = Failure{reason, "step1.lift", 1, time_s, -1, 0, 0, "no good"};
+  return outcome;
+}
+
+inline const std::vector<std::uint64_t> kPackings{1, 3};
+
+}  // namespace pastefit::test

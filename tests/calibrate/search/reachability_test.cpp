@@ -1,0 +1,114 @@
+#include "calibrate/search/reachability.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/calibrate/search/fake_slump.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+struct Screened {
+  Synthetic objective;
+  SearchOptions options;
+  std::function<void(const Progress&)> progress;
+  Ledger ledger;
+  explicit Screened(Synthetic made, std::uint64_t seed)
+      : objective(std::move(made)), ledger(objective, options, progress) {
+    const std::uint64_t packing = 1;
+    ledger.evaluate(screening_points(5, 12, seed), {&packing, 1});
+  }
+};
+
+/// As concrete mix 103: the laboratory has 10 mm, the model does no less than some 64.
+Synthetic too_stiff(std::uint64_t seed) {
+  Synthetic objective = fake_slump(10, seed);
+  const auto before = objective.observe;
+  objective.observe = [before](const UnitPoint& x, std::uint64_t packing) {
+    return std::vector<double>{before(x, packing)[0] + 30};
+  };
+  return objective;
+}
+
+const std::vector<std::string> reading{"step1.height_mm"};
+const std::vector<std::string> parameters{"strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio",
+                                          "offset_ratio"};
+
+}  // namespace
+
+TEST_CASE("a height below all that the model can do is called out of reach before the search, with the bound") {
+  int called = 0, named = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Screened screened(too_stiff(seed), seed);
+    const auto found = find_out_of_reach(screened.ledger, {});
+    CHECK(screened.objective.simulations <= 24);
+    if (!found) continue;
+    ++called;
+    CHECK(found->above);
+    CHECK(found->measured == Approx(10));
+    CHECK(found->likely == Approx(mean_height(found->nearest) + 30).margin(15));
+    CHECK(found->at_best > 15);
+    for (const OutOfReach::Bound& bound : found->bounds) named += bound.parameter == 0 && !bound.upper ? 1 : 0;
+    CHECK_THAT(words_of(*found, reading, parameters),
+               Catch::Contains("step1.height_mm is out of reach") && Catch::Contains("10"));
+  }
+  CAPTURE(called, named);
+  CHECK(called >= 38);
+  CHECK(named >= 36);
+}
+
+TEST_CASE("what some material does is never called out of reach") {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    const double height = seed % 2 == 0 ? 38 + 30 * uniform(seed, 7) : 299 - 15 * uniform(seed, 7);  // near the ends
+    Screened screened(fake_slump(height, seed), seed);
+    CHECK_FALSE(find_out_of_reach(screened.ledger, {}));
+  }
+}
+
+TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound is named") {
+  int called = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Synthetic weak = fake_slump(290, seed);
+    const auto wide = weak.observe;
+    weak.fails = [](const UnitPoint&, std::uint64_t) { return false; };
+    weak.observe = [wide](const UnitPoint& x, std::uint64_t packing) {
+      UnitPoint inside = x;
+      inside[0] *= 0.5;  // strengths up to the middle of the range
+      return wide(inside, packing);
+    };
+    Screened screened(weak, seed);
+    const auto found = find_out_of_reach(screened.ledger, {});
+    if (!found) continue;
+    ++called;
+    CHECK_FALSE(found->above);
+    CHECK_THAT(words_of(*found, reading, parameters), Catch::Contains("the upper bound of strength_pa"));
+  }
+  CHECK(called >= 15);
+}
+
+TEST_CASE("a tolerance wider than the miss leaves nothing out of reach") {
+  Screened screened(fake_slump(10, 3), 3);
+  CHECK_FALSE(find_out_of_reach(screened.ledger, {1, 12, 60}));
+}
+
+TEST_CASE("a search that would be in vain ends after the screening, and says so") {
+  int ended = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Synthetic objective = too_stiff(seed);
+    SearchOptions options;
+    options.seed = seed;
+    std::string told;
+    const Calibration calibration = search(
+        objective, options, [&](const Progress& progress) { told += progress.note; }, reading, parameters);
+    CHECK(calibration.status == CalibrationStatus::out_of_reach);
+    CHECK_FALSE(told.empty());
+    if (calibration.reason.find("not begun") == std::string::npos) continue;
+    ++ended;
+    CHECK(objective.simulations <= 30);
+    CHECK(calibration.confirmation.packings.size() == 4);
+    CHECK(calibration.best.misfit_mm < 70);
+  }
+  CHECK(ended >= 15);
+}
