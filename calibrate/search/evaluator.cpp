@@ -176,8 +176,8 @@ void SimulationObjective::run_all(std::vector<Task*>& tasks) {
 }
 
 void SimulationObjective::run(Task& task) {
-  RunOptions options;
-  options.packing = packing(task.evaluation.packing);
+  RunOptions options = options_.run;
+  if (!options.own_fill) options.packing = packing(task.evaluation.packing);
   if (stop_requested()) return;
 
   bool by_user = false;
@@ -231,7 +231,7 @@ std::shared_ptr<const Packing> SimulationObjective::packing(std::uint64_t seed) 
       // The middle of the search space, not the candidate at hand: whoever asks first must not matter.
       const UnitPoint middle = UnitPoint::Constant(parameters(), 0.5);
       const auto start = Clock::now();
-      RunOptions options;
+      RunOptions options = options_.run;
       options.watch_interval_s = kWatchInterval;
       options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
       promise.set_value(options_.simulator.fill(test_with(study_, values_at(study_, middle), seed), options));
