@@ -29,6 +29,11 @@ double largest_radius(const GrainSizes& sizes) {
   return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
 }
 
+/// Solid volume that is poured.
+double poured_volume(const Mould& mould) {
+  return kOverfill * kSolidFraction * volume_m3(mould);
+}
+
 /// Inner radius at height z of the mould with a straight hopper on top of it.
 double inner_radius(const Mould& mould, double z) {
   const double share = std::min(z / mould.height_m, 1.0);
@@ -40,7 +45,7 @@ void pour(const SlumpTable& test, Packing& packing) {
   const double largest = largest_radius(test.grains);
   const double spacing = kLoosest * largest;
   const double jitter = 0.5 * spacing - largest;
-  const double enough = kOverfill * kSolidFraction * volume_m3(test.mould);
+  const double enough = poured_volume(test.mould);
   const RandomStream place(test.packing_seed, "pour-position");
   const int across = static_cast<int>(test.mould.base_radius_m / spacing) + 1;
   std::uint64_t n = 0;
@@ -179,6 +184,14 @@ void strike_off(const SlumpTable& test, const RunOptions& options, Packing& pack
 }
 
 }  // namespace
+
+double poured_grains(const SlumpTable& test) {
+  constexpr int kDraws = 1000;
+  double volume = 0;
+  for (int n = 0; n < kDraws; ++n)
+    volume += sphere_volume(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
+  return poured_volume(test.mould) / volume;
+}
 
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
   switch (sizes.distribution) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/study/fault_text.h"
 #include "core/observe/heap.h"
@@ -45,7 +46,8 @@ class WatchedEngine {
     double below_since = -1;
     options.watch = [&](const Moment& moment) {
       const bool filling = moment.phase.starts_with("fill");
-      if (below_since < 0 && !filling && moment.world && highest_point(moment.world->particles) < target_m_ - kBelow)
+      if (below_since < 0 && !filling && moment.world &&
+          highest_point(moment.world->particles) < target_m_ - kBelow - test.grains.radius_m)
         below_since = thread_seconds();
       return !asked.watch || asked.watch(moment);
     };
@@ -86,11 +88,14 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   const std::clock_t start = std::clock();
   const auto begin = std::chrono::steady_clock::now();
   SimulationObjective objective(study, store.value(), evaluator);
-  const Calibration calibration = search(objective, options);
+  const Study coarse_study = with_coarse_grains(study);
+  SimulationObjective coarse(coarse_study, store.value(), evaluator);
+  const Calibration calibration = search(objective, options, {}, {}, options.coarse_first ? &coarse : nullptr);
   CalibrationCost cost;
   cost.core_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   cost.simulations = calibration.simulations;
+  cost.coarse_simulations = calibration.coarse_simulations;
   cost.simulation_s = cost.core_s / std::max(1, calibration.simulations);
   cost.status = calibration.status;
   if (calibration.confirmation.point.size() > 0) cost.confirmed_mm = calibration.confirmation.misfit_mm;
@@ -104,10 +109,12 @@ std::vector<std::string> mixes() {
   return {"02", "04", "20", "66", "89"};
 }
 
-CalibrationCost calibrate_ours(const std::string& mix, std::uint64_t seed, const std::filesystem::path& store) {
+CalibrationCost calibrate_ours(const std::string& mix, std::uint64_t seed, bool coarse_first,
+                               const std::filesystem::path& store) {
   const Study study = study_of(mix);
   SearchOptions options = study.search;
   options.seed = seed;
+  options.coarse_first = coarse_first;
   return calibrate(study, options, {}, store);
 }
 

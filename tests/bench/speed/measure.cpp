@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "calibrate/search/machine.h"
 #include "tests/bench/speed/calibration.h"
 #include "tests/bench/speed/ours.h"
 #include "tests/bench/speed/peer_files.h"
@@ -22,7 +22,8 @@ using Json = nlohmann::json;
 
 constexpr unsigned kLimit = 1800;  // [s] for one run of one engine
 constexpr unsigned kCalibrationLimit = 4 * 3600;
-constexpr double kBytesPerGrain = 4000;  // enough for LAMMPS, LIGGGHTS and us
+constexpr std::string_view kCoarseFirst = "-coarse-first";  // ending of a scene of calibration
+constexpr double kBytesPerGrain = 4000;                     // enough for LAMMPS, LIGGGHTS and us
 constexpr double kBytesPerGrainOfYade = 20'000;
 
 class ScratchFolder {
@@ -48,18 +49,6 @@ struct Contender {
   Engine result;
   std::function<void(Engine&)> run;
 };
-
-double memory_available_bytes() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  while (file >> word)
-    if (word == "MemAvailable:") {
-      double kilobytes = 0;
-      file >> kilobytes;
-      return 1024 * kilobytes;
-    }
-  return 1e300;
-}
 
 /// The end of what a failed run said, on one line.
 std::string last_lines(std::string text) {
@@ -224,7 +213,8 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
 }
 
 /// The mix of a scene of calibration: "calibration" is that of mix 20, "calibration-66" that of mix 66.
-std::optional<std::string> mix_of(const std::string& scene) {
+std::optional<std::string> mix_of(std::string_view scene) {
+  if (scene.ends_with(kCoarseFirst)) scene.remove_suffix(kCoarseFirst.size());
   if (scene == "calibration") return "20";
   for (const std::string& mix : mixes())
     if (scene == "calibration-" + mix) return mix;
@@ -263,6 +253,7 @@ Json json_of(const CalibrationCost& cost) {
   return {{"seconds", cost.core_s},
           {"wall_s", cost.wall_s},
           {"simulations", cost.simulations},
+          {"coarse_simulations", cost.coarse_simulations},
           {"seconds_a_simulation", cost.simulation_s},
           {"confirmed", cost.status == CalibrationStatus::confirmed ? 1 : 0},
           {"confirmed_mm", cost.confirmed_mm},
@@ -271,13 +262,14 @@ Json json_of(const CalibrationCost& cost) {
           {"share_below_target", cost.share_below_target}};
 }
 
-/// A calibration by the program's search, and by a plain one. Every turn has a search seed of its own.
+/// A calibration by the program's search, and by a plain one; with coarse grains first by ours alone. Every turn has a
+/// search seed of its own.
 SceneResult measure_calibration(const std::string& scene, const MeasureOptions& options, const ScratchFolder& folder) {
   const std::string mix = mix_of(scene).value();
-  std::vector<Contender> contenders(2);
+  const bool coarse_first = scene.ends_with(kCoarseFirst);
+  std::vector<Contender> contenders(coarse_first ? 1 : 2);
   contenders[0].result.name = "ours";
-  contenders[1].result.name = "plain search";
-  contenders[1].result.laws = "a script around a DEM program";
+  if (!coarse_first) contenders[1].result.name = "plain search";
   double smallest_step = 0;
   for (Contender& contender : contenders) {
     const bool ours = &contender == &contenders[0];
@@ -287,7 +279,7 @@ SceneResult measure_calibration(const std::string& scene, const MeasureOptions& 
       run_ours_in_child(
           engine,
           [&] {
-            return json_of(ours ? calibrate_ours(mix, seed, store)
+            return json_of(ours ? calibrate_ours(mix, seed, coarse_first, store)
                                 : calibrate_plainly(mix, seed, store, smallest_step));
           },
           kCalibrationLimit);
@@ -323,6 +315,7 @@ std::vector<std::string> measurable_scenes() {
   for (const std::string_view name : scene_names()) names.emplace_back(name);
   names.insert(names.end(), {"test", "calibration"});
   for (const std::string& mix : mixes()) names.push_back("calibration-" + mix);
+  for (const std::string& mix : mixes()) names.push_back("calibration-" + mix + std::string(kCoarseFirst));
   return names;
 }
 

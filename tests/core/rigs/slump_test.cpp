@@ -4,6 +4,7 @@
 
 #include "core/rigs/packing.h"
 #include "core/simulate.h"
+#include "core/world/world.h"
 
 using namespace pastefit;
 
@@ -43,6 +44,21 @@ TEST_CASE("the mould is filled level with its rim") {
   const double fraction = packing->solid_volume_m3 / volume_m3(Mould{});
   CHECK(fraction > 0.54);
   CHECK(fraction < 0.64);
+}
+
+TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
+  SlumpTable wide = small_test(0);
+  wide.grains = {SizeDistribution::uniform, 0.010, 0, 0.007, 0.013};
+  for (const SlumpTable& test : {small_test(0), wide}) {
+    std::int64_t poured = 0;
+    RunOptions options;
+    options.watch = [&](const Moment& moment) {
+      poured = moment.world->particles.count();
+      return false;
+    };
+    (void)fill_mould(test, options);
+    CHECK(poured_grains(test) == Approx(static_cast<double>(poured)).epsilon(0.05));
+  }
 }
 
 TEST_CASE("a fill of its own feels the test's own laws; the shared one does not") {
