@@ -16,9 +16,9 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kFixedWait = 0.5;  // [s], as the peers of `test`
-constexpr int kPlainBudget = 4;     // of the study's
-constexpr double kBelow = 0.005;    // [m]
+constexpr double kFixedWait = 0.5;                   // [s], as the peers of `test`
+constexpr int kPlainBudget = 4;                      // of the study's
+constexpr double kBelow = 0.005, kFarBelow = 0.040;  // [m]
 
 double thread_seconds() {
   timespec now{};
@@ -43,12 +43,13 @@ class WatchedEngine {
 
   Outcome run(const SlumpTable& test, const RunOptions& asked) {
     RunOptions options = asked;
-    double below_since = -1;
+    double below_since = -1, far_below_since = -1;
     options.watch = [&](const Moment& moment) {
-      const bool filling = moment.phase.starts_with("fill");
-      if (below_since < 0 && !filling && moment.world &&
-          highest_point(moment.world->particles) < target_m_ - kBelow - test.grains.radius_m)
-        below_since = thread_seconds();
+      if (moment.world && !moment.phase.starts_with("fill")) {
+        const double depth = target_m_ - highest_point(moment.world->particles);
+        if (below_since < 0 && depth > kBelow + test.grains.radius_m) below_since = thread_seconds();
+        if (far_below_since < 0 && depth > kFarBelow) far_below_since = thread_seconds();
+      }
       return !asked.watch || asked.watch(moment);
     };
     const double start = thread_seconds();
@@ -57,12 +58,16 @@ class WatchedEngine {
     const std::lock_guard lock(mutex_);
     seconds_ += end - start;
     if (below_since >= 0) seconds_below_ += end - below_since;
+    if (far_below_since >= 0) seconds_far_below_ += end - far_below_since;
     if (!outcome.failure) advised_.push_back(outcome.run.advised_step_s);
     return outcome;
   }
 
   void tell(CalibrationCost& cost) {
-    cost.share_below_target = seconds_ > 0 ? seconds_below_ / seconds_ : 0;
+    if (seconds_ > 0) {
+      cost.share_below_target = seconds_below_ / seconds_;
+      cost.share_far_below_target = seconds_far_below_ / seconds_;
+    }
     if (advised_.empty()) return;
     std::ranges::sort(advised_);
     cost.smallest_advised_s = advised_.front();
@@ -72,7 +77,7 @@ class WatchedEngine {
  private:
   double target_m_ = 0;
   std::mutex mutex_;
-  double seconds_ = 0, seconds_below_ = 0;
+  double seconds_ = 0, seconds_below_ = 0, seconds_far_below_ = 0;
   std::vector<double> advised_;
 };
 

@@ -19,8 +19,9 @@ struct CalibrationCost {
   double confirmed_mm = -1;       ///< misfit on fresh packings; negative: never asked
   double smallest_advised_s = 0;  ///< step that the most demanding candidate asked for
   double median_advised_s = 0;    ///< the candidate in the middle
-  /// Of the processor time, spent on heaps after their highest point was 5 mm and a grain's radius below the target.
-  double share_below_target = 0;
+  /// Of the processor time, spent on heaps after their highest point was 5 mm and a grain's radius, or 40 mm, below the
+  /// target.
+  double share_below_target = 0, share_far_below_target = 0;
 };
 
 /// The files of the mixes that can be calibrated here: "02" is data/studies/concrete-mix-02.json.

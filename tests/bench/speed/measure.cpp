@@ -259,7 +259,8 @@ Json json_of(const CalibrationCost& cost) {
           {"confirmed_mm", cost.confirmed_mm},
           {"smallest_advised_step_s", cost.smallest_advised_s},
           {"median_advised_step_s", cost.median_advised_s},
-          {"share_below_target", cost.share_below_target}};
+          {"share_below_target", cost.share_below_target},
+          {"share_far_below_target", cost.share_far_below_target}};
 }
 
 /// A calibration by the program's search, and by a plain one; with coarse grains first by ours alone. Every turn has a
