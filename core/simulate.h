@@ -30,8 +30,10 @@ struct Moment {
 struct RunOptions {
   StepOptions steps;  ///< with a fixed step, if wanted, instead of the one the scene asks for
   RestCriterion rest;
-  std::int64_t step_limit = 20'000'000;      ///< a run beyond it fails with `step_limit`
-  double watch_interval_s = 0.01;            ///< simulated time between two calls of `watch`
+  std::optional<double> fixed_wait_s;    ///< every wait for rest lasts so long; nobody looks whether rest is reached
+  bool own_fill = false;                 ///< fill under the laws of the test, not under those all fills share
+  std::int64_t step_limit = 20'000'000;  ///< a run beyond it fails with `step_limit`
+  double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
   std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
 };
@@ -55,7 +57,9 @@ struct Outcome {
   std::optional<Failure> failure;
 };
 
-/// Fills and strikes off the mould of `test`. The packing may serve every run with the same mould, sizes and seed.
+/// Fills and strikes off the mould of `test`: frictional grains without cohesion, so that the packing may serve every
+/// run with the same mould, sizes, stiffness and seed; with `own_fill` under the laws and walls of `test`, for it
+/// alone.
 std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
 
 /// Runs the slump test. Same test, options and program: same bits.

@@ -7,17 +7,20 @@
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
+#include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -111,6 +114,15 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty())
     return report(in_file(faults, options.study));
 
+  if (const auto faults = validate_memory(study, options.threads); !faults.empty())
+    return report(in_file(faults, options.study));
+  const Study coarse_study = with_coarse_grains(study);
+  if (search_options.coarse_first)
+    for (const StudyTest& test : coarse_study.tests)
+      if (const auto faults = validate_in_file_words(test.lab.test); !faults.empty())
+        return report({{options.study + ": search.coarse_first", "with coarse grains: " + faults.front().what,
+                        "leave it out, or take smaller grains"}});
+
   const auto budget = search_options.budget_simulations;
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
@@ -137,9 +149,11 @@ int calibrate(const CalibrateOptions& options) {
   evaluator.stop = &listen_for_stop();
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
   SimulationObjective objective(study, store.value(), evaluator);
+  evaluator.observer = {};
+  SimulationObjective coarse(coarse_study, store.value(), evaluator);
   const auto calibration = search(
       objective, for_the_search, [&](const Progress& progress) { line.show(progress); },
-      names_of(readings_of(study), false), free_names(study));
+      names_of(readings_of(study), false), free_names(study), search_options.coarse_first ? &coarse : nullptr);
   const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
   std::optional<Inference> inference;
   if (found) predict_hold_outs(study, calibration, objective);
@@ -173,9 +187,7 @@ Command add_calibrate(CLI::App& verb) {
       ->type_name("DIR");
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
-  verb.add_option("--threads", options->threads, "simulations at the same time; default: one for each core")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
+  add_threads(verb, options->threads);
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));

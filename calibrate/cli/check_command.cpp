@@ -8,6 +8,7 @@
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/machine_options.h"
 #include "calibrate/study/fault_text.h"
 
 namespace pastefit {
@@ -96,8 +97,7 @@ Command add_check(CLI::App& verb) {
                   "probability to call a card wrong although nothing changed")
       ->check(CLI::Range(1e-9, 0.5))
       ->capture_default_str();
-  verb.add_option("--threads", options->check.threads, "simulations at the same time; without it one for each core")
-      ->check(CLI::Range(1, 1024));
+  add_threads(verb, options->check.threads);
   auto* against = verb.add_option("--against", options->against,
                                   "judge the cards by this laboratory file instead of by their own baseline")
                       ->type_name("LAB");

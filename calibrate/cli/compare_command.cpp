@@ -5,6 +5,7 @@
 #include "calibrate/card/atomic_file.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/report/format.h"
 #include "calibrate/report/misfit_figure.h"
@@ -99,6 +100,8 @@ int compare(const CompareOptions& options) {
   const auto read = read_study(options.study);
   if (!read.ok()) return report(read.faults());
   const auto& study = read.value();
+  if (const auto faults = validate_memory(study, options.threads); !faults.empty())
+    return report(in_file(faults, options.study));
   ComparisonOptions comparison;
   comparison.search = study.search;
   if (options.budget > 0) comparison.search.budget_simulations = options.budget;
@@ -174,9 +177,7 @@ Command add_compare_optimisers(CLI::App& verb) {
   verb.add_option("--judge-packings", options->judge_packings, "on which every result is judged; default: 8")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  verb.add_option("--threads", options->threads, "simulations at the same time; default: one for each core")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
+  add_threads(verb, options->threads);
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
   return [options] { return compare(*options); };

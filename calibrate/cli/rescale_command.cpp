@@ -8,6 +8,7 @@
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/machine_options.h"
 
 namespace pastefit {
 
@@ -32,6 +33,8 @@ int rescale(const RescaleOptions& options) {
   auto result = rescaled(card.value(), radius);
   if (!result.ok()) return report(result.faults());
   if (options.packings > 0) {
+    if (const auto faults = validate_memory(result.value().test, options.check.threads); !faults.empty())
+      return report(faults);
     std::fprintf(stderr, "measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
                  options.packings, work_ratio(old_radius, radius));
     result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
@@ -59,8 +62,7 @@ Command add_rescale(CLI::App& verb) {
                   "simulations with either size that measure the bias; 0: carry over without measuring")
       ->check(CLI::IsMember({0}) | CLI::Range(2, 1000))
       ->capture_default_str();
-  verb.add_option("--threads", options->check.threads, "simulations at the same time; without it one for each core")
-      ->check(CLI::Range(1, 1024));
+  add_threads(verb, options->check.threads);
   return [options] { return rescale(*options); };
 }
 

@@ -11,7 +11,9 @@
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/scene.h"
 #include "calibrate/report/vtk.h"
+#include "calibrate/search/machine.h"
 #include "calibrate/store/outcome_json.h"
+#include "calibrate/study/fault_text.h"
 #include "core/simulate.h"
 #include "core/world/world.h"
 
@@ -95,6 +97,8 @@ int simulate_file(const SimulateOptions& options) {
     if (!slump) return report({{"--seed", "an impact has no random packing", "leave it out"}});
     slump->packing_seed = *options.seed;
   }
+  if (const auto* slump = std::get_if<SlumpTable>(&test))
+    if (const auto faults = validate_memory(*slump, 1); !faults.empty()) return report(in_file(faults, options.file));
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
 

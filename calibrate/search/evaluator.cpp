@@ -204,8 +204,8 @@ void SimulationObjective::run_all(std::vector<Task*>& tasks) {
 }
 
 void SimulationObjective::run(Task& task) {
-  RunOptions options;
-  options.packing = packing(task.index, task.evaluation.packing);
+  RunOptions options = options_.run;
+  if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
 
   bool by_user = false;
@@ -263,7 +263,7 @@ std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t test, st
     try {
       // Not filled as the candidate at hand would be: whoever asks first must not matter.
       const auto start = Clock::now();
-      RunOptions options;
+      RunOptions options = options_.run;
       options.watch_interval_s = kWatchInterval;
       options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
       promise.set_value(options_.simulator.fill(filled_test(study_, test, seed), options));

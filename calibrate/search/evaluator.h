@@ -43,6 +43,9 @@ struct EvaluatorOptions {
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
   Simulator simulator;
+  /// How every simulation and fill is run; packing and watch are set here. With `own_fill` every simulation fills its
+  /// own mould. Other than the default it belongs into the identity of the store.
+  RunOptions run;
 };
 
 /// The objective of a study: candidates are simulated in parallel in every test that is fitted, and every finished

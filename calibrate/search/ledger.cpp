@@ -25,12 +25,12 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
   if (objective_.stop_requested()) return responses;
   for (Response& response : responses) weigh(response);
   if (packings.size() == 1) {
-    for (const Response& response : responses) keep_single(response);
+    for (const Response& response : responses) keep_single(response, singles_);
   } else {
     for (const std::uint64_t packing : packings) {
       for (Response& response : objective_.evaluate(points, {&packing, 1})) {
         weigh(response);
-        keep_single(response);
+        keep_single(response, singles_);
       }
     }
   }
@@ -44,6 +44,20 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
   }
   report();
   return responses;
+}
+
+void Ledger::evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points,
+                             std::span<const std::uint64_t> packings) {
+  (void)coarse.evaluate(points, packings);  // all at once; then each is known
+  for (const std::uint64_t packing : packings) {
+    std::vector<Response> responses = coarse.evaluate(points, {&packing, 1});
+    if (objective_.stop_requested()) return;
+    for (Response& response : responses) {
+      weigh(response);
+      keep_single(response, coarse_singles_);
+    }
+  }
+  report();
 }
 
 void Ledger::enter(std::string_view phase) {
@@ -82,7 +96,7 @@ void Ledger::measure_noise() {
   const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
   const Eigen::VectorXd change = factors / factors_.array();
   factors_ = factors;
-  for (std::vector<Response>* kept : {&history_, &singles_}) {
+  for (std::vector<Response>* kept : {&history_, &singles_, &coarse_singles_}) {
     for (Response& response : *kept) {
       if (!is_feasible(response)) continue;
       response.residuals.array() *= change.array();
@@ -95,11 +109,11 @@ void Ledger::report(const std::string& note) const {
   if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_misfit_mm_, note});
 }
 
-void Ledger::keep_single(const Response& response) {
-  const bool known = std::any_of(singles_.begin(), singles_.end(), [&](const Response& single) {
+void Ledger::keep_single(const Response& response, std::vector<Response>& singles) {
+  const bool known = std::any_of(singles.begin(), singles.end(), [&](const Response& single) {
     return single.packings == response.packings && single.point == response.point;
   });
-  if (!known) singles_.push_back(response);
+  if (!known) singles.push_back(response);
 }
 
 std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings) const {

@@ -30,6 +30,9 @@ class Ledger : public Objective {
   int simulations_each() const override { return objective_.simulations_each(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
 
+  /// Simulates points on a coarse objective and keeps the answers in `coarse_singles`, weighed as all others.
+  void evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+
   void hold_back(int packings) { held_back_ = packings; }
   /// Begins a phase: weighs anew all that was answered.
   void enter(std::string_view phase);
@@ -40,12 +43,13 @@ class Ledger : public Objective {
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
   const std::vector<Response>& history() const { return history_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
+  const std::vector<Response>& coarse_singles() const { return coarse_singles_; }
   int simulations() const { return (at_start_ - objective_.budget_left()) * simulations_each(); }
   int failures() const;
   bool any_feasible() const;
 
  private:
-  void keep_single(const Response& response);
+  static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
   void measure_noise();
   void report(const std::string& note = {}) const;
@@ -62,6 +66,7 @@ class Ledger : public Objective {
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1
   std::vector<Response> history_;
   std::vector<Response> singles_;
+  std::vector<Response> coarse_singles_;
 };
 
 /// What the simulations did with each reading.

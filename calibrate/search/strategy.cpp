@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "calibrate/search/ceres_search.h"
+#include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
 #include "calibrate/search/reachability.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
 constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
 constexpr double same_point = 0.01;     // proposals closer than this bring nothing new [unit cube]
+constexpr int coarse_tries = 4;         // proposals tried with coarse grains before one is with fine ones
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
 
 /// The strategies that Ceres carries out, by name.
@@ -39,9 +41,10 @@ std::string number(double value) {
 class Search {
  public:
   Search(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress,
-         std::span<const std::string> readings, std::span<const std::string> parameters)
+         std::span<const std::string> readings, std::span<const std::string> parameters, Objective* coarse)
       : objective_(objective),
         options_(options),
+        coarse_(coarse),
         ledger_(objective, options, progress),
         readings_(readings),
         parameters_(parameters) {}
@@ -49,13 +52,14 @@ class Search {
   Calibration run() {
     common_ = fresh_packings(options_.packings);
     ledger_.hold_back(options_.confirmation_packings);
-    screen();
-    if (is_out_of_reach()) {
+    if (coarse_) screen_coarsely();
+    if (evidence().empty()) screen();
+    if (!ledger_.singles().empty() && is_out_of_reach()) {
       ledger_.evaluate({&out_of_reach_->nearest, 1}, common_);
       if (!ledger_.stop_requested() && ledger_.best_on(common_)) confirm();
       return conclude();
     }
-    while (ledger_.any_feasible() && may_go_on()) {
+    while (any_evidence() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
       if (ledger_.stop_requested() || confirm()) break;
@@ -73,6 +77,28 @@ class Search {
 
   bool affordable(std::size_t packings) const { return ledger_.budget_left() >= static_cast<int>(packings); }
   bool may_go_on() const { return !ledger_.stop_requested() && affordable(common_.size()); }
+
+  std::vector<std::uint64_t> packings_of_coarse(int count) const {
+    std::vector<std::uint64_t> packings;
+    for (int k = 0; k < count; ++k)
+      packings.push_back(coarse_packings + options_.seed * 1000 + static_cast<std::uint64_t>(k));
+    return packings;
+  }
+
+  void screen_coarsely() {
+    ledger_.enter("screening");
+    const auto points = screening_points(objective_.parameters(), options_.screening, options_.seed);
+    ledger_.evaluate_coarse(*coarse_, points, packings_of_coarse(1));
+  }
+
+  /// What the surrogate learns from: the simulations, and the coarse ones as far as they tell of them.
+  std::vector<Response> evidence() const {
+    std::vector<Response> all = corrected(ledger_.coarse_singles(), ledger_.singles());
+    all.insert(all.end(), ledger_.singles().begin(), ledger_.singles().end());
+    return all;
+  }
+
+  bool any_evidence() const { return std::ranges::any_of(evidence(), is_feasible); }
 
   void screen() {
     ledger_.enter("screening");
@@ -105,7 +131,7 @@ class Search {
   UnitPoint best_point() const {
     if (const auto best = ledger_.best_on(common_)) return best->point;
     Response best;
-    for (const Response& single : ledger_.singles()) {
+    for (const Response& single : evidence()) {
       if (is_feasible(single) && is_better(single, best)) best = single;
     }
     return best.point;
@@ -116,7 +142,7 @@ class Search {
   Response likely_best() const {
     Response reads_best = ledger_.best_on(common_).value();
     if (noise() == 0) return reads_best;
-    Surrogate surrogate(ledger_.singles());
+    Surrogate surrogate(evidence());
     Response best;
     double least = std::numeric_limits<double>::infinity();
     for (const Response& seen : ledger_.history()) {
@@ -163,11 +189,28 @@ class Search {
     return ledger_.best_on(common_).has_value();
   }
 
+  /// The point of least expected misfit; with a coarse rung the first such point that has been tried there and is
+  /// still as good as any, as far as the noise lets tell.
+  UnitPoint next_candidate() {
+    Surrogate before(evidence());
+    UnitPoint proposal = least_point(before, best_point());
+    for (int tries = 0; coarse_ && tries < coarse_tries && !ledger_.stop_requested(); ++tries) {
+      const std::size_t known = ledger_.coarse_singles().size();
+      ledger_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.packings));
+      if (ledger_.coarse_singles().size() == known) break;
+      Surrogate surrogate(evidence());
+      const UnitPoint better = least_point(surrogate, best_point());
+      const auto misfit = [&](const UnitPoint& point) { return surrogate.evaluate({&point, 1}, common_).at(0).misfit; };
+      if (misfit(proposal) <= misfit(better) + surrogate.noise() / static_cast<double>(common_.size())) break;
+      if (tries + 1 < coarse_tries) proposal = better;
+    }
+    return proposal;
+  }
+
   void propose_and_try() {
     int fruitless = 0;
     while (!goal_is_met() && may_go_on() && fruitless < fruitless_proposals) {
-      Surrogate surrogate(ledger_.singles());
-      const UnitPoint proposal = least_point(surrogate, best_point());
+      const UnitPoint proposal = next_candidate();
       const bool known = std::any_of(ledger_.history().begin(), ledger_.history().end(), [&](const Response& seen) {
         return seen.packings == common_ && (seen.point - proposal).lpNorm<Eigen::Infinity>() < same_point;
       });
@@ -199,7 +242,7 @@ class Search {
   double probe_length() const {
     const double infinity = std::numeric_limits<double>::infinity();
     Eigen::ArrayXd least = Eigen::ArrayXd::Constant(objective_.residuals(), infinity), most = -least;
-    for (const Response& single : ledger_.singles()) {
+    for (const Response& single : evidence()) {
       if (!is_feasible(single)) continue;
       least = least.min(single.residuals.array());
       most = most.max(single.residuals.array());
@@ -261,8 +304,17 @@ class Search {
     }
     result_.history = ledger_.history();
     result_.simulations = ledger_.simulations();
+    result_.coarse_simulations = static_cast<int>(ledger_.coarse_singles().size());
     result_.failures = ledger_.failures();
     result_.reach = reach_of(ledger_.singles(), objective_.readings());
+    for (const Response& coarse : corrected(ledger_.coarse_singles(), ledger_.singles())) {
+      for (std::size_t k = 0; k < result_.reach.size(); ++k) {
+        Reach& reach = result_.reach[k];
+        const double residual = coarse.residuals[static_cast<Eigen::Index>(k)];
+        reach.all_above = reach.all_above && residual > 0;
+        reach.all_below = reach.all_below && residual < 0;
+      }
+    }
     explain();
     return std::move(result_);
   }
@@ -272,7 +324,9 @@ class Search {
   }
 
   void explain() {
-    const std::string spent = " (" + std::to_string(result_.simulations) + " simulations).";
+    const std::string coarse =
+        coarse_ ? " and " + std::to_string(result_.coarse_simulations) + " with coarse grains" : "";
+    const std::string spent = " (" + std::to_string(result_.simulations) + " simulations" + coarse + ").";
     const std::string packings = std::to_string(options_.confirmation_packings) + " fresh packings";
     if (confirmed_) {
       result_.status = CalibrationStatus::confirmed;
@@ -308,6 +362,7 @@ class Search {
 
   Objective& objective_;
   const SearchOptions& options_;
+  Objective* coarse_;
   Ledger ledger_;
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
@@ -367,10 +422,11 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
 
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
-                   std::span<const std::string> parameters) {
+                   std::span<const std::string> parameters, Objective* coarse) {
   if (!validate(options, objective.parameters(), objective.simulations_each()).empty())
     throw std::logic_error("search: options that are not valid");
-  return Search(objective, options, progress, readings, parameters).run();
+  if (options.strategy != "default") coarse = nullptr;
+  return Search(objective, options, progress, readings, parameters, coarse).run();
 }
 
 }  // namespace pastefit

@@ -36,8 +36,8 @@ struct Progress {
 /// What the model did with one reading in all simulations that ended well.
 struct Reach {
   double lowest = 0, highest = 0;  ///< of one simulation, in the reading's unit
-  bool all_above = false;          ///< every simulation read more than the laboratory
-  bool all_below = false;          ///< every simulation read less
+  bool all_above = false;          ///< every simulation, coarse ones corrected, read more than the laboratory
+  bool all_below = false;          ///< every simulation, coarse ones corrected, read less
   double packing_noise = 0;        ///< standard deviation from packing to packing, same parameters; 0: not seen
 };
 
@@ -51,6 +51,7 @@ struct Calibration {
   std::vector<Response> history;  ///< every answer, in the order of asking, each point with its set of packings
   std::vector<Reach> reach;       ///< one for each reading
   int simulations = 0;            ///< spent
+  int coarse_simulations = 0;     ///< with coarse grains, besides
   int failures = 0;               ///< of them failed
   int rounds = 0;                 ///< confirmations
 };
@@ -64,7 +65,10 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 /// Calibrates: finds the candidate that meets the laboratory, and confirms it on packings the search has not used.
 ///   1. Screening: space-filling points on one packing, all at once. If they leave the laboratory out of reach for
 ///      certain (`reachability.h`), the nearest candidate is confirmed, and that is the end. What is known from
-///      earlier counts as screening.
+///      earlier counts as screening. With `coarse` on that instead, and then every candidate of the default strategy is
+///      tried there first. What the coarse simulations say is corrected by the bias between the rungs (`coarse_rung.h`)
+///      and counts in the surrogate as a simulation; nothing else does. They are outside of the budget, and `history`
+///      does not hold them.
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
 ///      point of least expected misfit, which is simulated on the common packings, until the goal is met or nothing
 ///      new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
@@ -76,11 +80,13 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),
 /// objective.simulations_each())` is empty. `readings`, `parameters`: names for the reason, in the order of the
-/// observables and of the free parameters; may be left empty. The way depends on the answers only: the same answers,
-/// the same calibration. Errors: in the status. Throws what the objective throws, and std::logic_error if a requirement
-/// is broken.
+/// observables and of the free parameters; may be left empty. `coarse`: answers as `objective` would with coarser
+/// grains, to packings from `coarse_packings` on; default strategy only. The way depends on the answers only: the same
+/// answers, the same calibration. Errors: in the status. Throws what the objective throws, and std::logic_error if a
+/// requirement is broken.
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress = {},
-                   std::span<const std::string> readings = {}, std::span<const std::string> parameters = {});
+                   std::span<const std::string> readings = {}, std::span<const std::string> parameters = {},
+                   Objective* coarse = nullptr);
 
 }  // namespace pastefit

@@ -70,6 +70,7 @@ struct SearchOptions {
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< a confirmed misfit below it ends the search
+  bool coarse_first = false;         ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
   std::uint64_t seed = 1;
 };
 

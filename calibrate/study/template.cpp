@@ -88,6 +88,7 @@ constexpr std::string_view study_text =
     "confirmation_packings": 8,  // fresh fillings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     "tolerance_mm": 5,           // good enough
+    "coarse_first": false,       // true: look with grains 1.5 times as large first; fewer simulations, confirmed as ever
     "seed": 1
   }
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/random.h"
-#include "core/step/runner.h"
+#include "core/rigs/waiting.h"
 
 namespace pastefit {
 
@@ -29,6 +29,11 @@ double largest_radius(const GrainSizes& sizes) {
   return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
 }
 
+/// Solid volume that is poured.
+double poured_volume(const Mould& mould) {
+  return kOverfill * kSolidFraction * volume_m3(mould);
+}
+
 /// Inner radius at height z of the mould with a straight hopper on top of it.
 double inner_radius(const Mould& mould, double z) {
   const double share = std::min(z / mould.height_m, 1.0);
@@ -40,7 +45,7 @@ void pour(const SlumpTable& test, Packing& packing) {
   const double largest = largest_radius(test.grains);
   const double spacing = kLoosest * largest;
   const double jitter = 0.5 * spacing - largest;
-  const double enough = kOverfill * kSolidFraction * volume_m3(test.mould);
+  const double enough = poured_volume(test.mould);
   const RandomStream place(test.packing_seed, "pour-position");
   const int across = static_cast<int>(test.mould.base_radius_m / spacing) + 1;
   std::uint64_t n = 0;
@@ -65,8 +70,9 @@ void pour(const SlumpTable& test, Packing& packing) {
   }
 }
 
-/// Frictional grains without cohesion: the fill does not depend on what is calibrated.
-ContactModel filling_model(const SlumpTable& test) {
+/// Frictional grains without cohesion: the fill does not depend on what is calibrated. Or the test's own.
+ContactModel filling_model(const SlumpTable& test, const RunOptions& options) {
+  if (options.own_fill) return test.contact;
   ContactModel model;
   model.youngs_modulus_pa = test.contact.youngs_modulus_pa;
   model.poissons_ratio = test.contact.poissons_ratio;
@@ -76,11 +82,13 @@ ContactModel filling_model(const SlumpTable& test) {
   return model;
 }
 
-Wall make_wall(std::string name, Shape shape, const ContactModel& model, const SlumpTable& test) {
+Wall make_wall(std::string name, Shape shape, const SlumpTable& test, const RunOptions& options) {
+  const WallContact shared{1e9, 0.3, 0.2, kPackingFriction, 0, 0};
+  const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
   Wall wall;
   wall.name = std::move(name);
   wall.shape = shape;
-  wall.pair = wall_pair(model, {1e9, 0.3, 0.2, kPackingFriction, 0, 0}, test.grains.radius_m);
+  wall.pair = wall_pair(filling_model(test, options), options.own_fill ? own : shared, test.grains.radius_m);
   return wall;
 }
 
@@ -98,17 +106,16 @@ void take_grains(const World& world, Packing& packing) {
 }
 
 /// Mould, floor and a hopper of the mould's upper width that reaches to `top`.
-World filling_world(const SlumpTable& test, const Packing& packing, double top) {
+World filling_world(const SlumpTable& test, const RunOptions& options, const Packing& packing, double top) {
   const Mould& mould = test.mould;
-  const ContactModel model = filling_model(test);
   World world;
   world.particles = make_particles(packing.centres, packing.radii, test.bulk_density_kg_m3 / kSolidFraction);
-  set_contact_model(world, model, test.grains.radius_m);
+  set_contact_model(world, filling_model(test, options), test.grains.radius_m);
   const double hopper = std::max(top - mould.height_m, 0.0) + 2 * test.grains.radius_m;
-  world.walls = {
-      make_wall("floor", Plane{}, model, test),
-      make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, model, test),
-      make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper}, model, test)};
+  world.walls = {make_wall("floor", Plane{}, test, options),
+                 make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test, options),
+                 make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper},
+                           test, options)};
   return world;
 }
 
@@ -139,11 +146,11 @@ double pouring_speed(const World& world) {
 /// 0.59: a weak paste then stands 20 mm lower (see README).
 void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packing) {
   const double top = top_of(packing);
-  World world = filling_world(test, packing, top);
+  World world = filling_world(test, options, packing, top);
   const double speed = pouring_speed(world);
   world.drag = kGravity / speed;
   Runner runner(world, options);
-  packing.failure = runner.settle("fill.pour", kFillCap + top / speed);
+  packing.failure = wait(runner, options, "fill.pour", kFillCap, top / speed);
   add_work(packing, runner.summary());
   take_grains(world, packing);
 }
@@ -162,21 +169,29 @@ void strike_off(const SlumpTable& test, const RunOptions& options, Packing& pack
   packing.radii.resize(kept);
 
   const double top = std::max(top_of(packing), rim);
-  World world = filling_world(test, packing, top);
-  world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, filling_model(test), test));
+  World world = filling_world(test, options, packing, top);
+  world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
   Runner runner(world, options);
   world.walls.back().velocity = {0, 0, -kLidSpeed};
   packing.failure = runner.run("fill.strike", (top - rim) / kLidSpeed);
   if (!packing.failure) {
     world.walls.back().velocity = {};
     std::get<Plane>(world.walls.back().shape).point.z = rim;
-    packing.failure = runner.settle("fill.rest", kFillCap);
+    packing.failure = wait(runner, options, "fill.rest", kFillCap);
   }
   add_work(packing, runner.summary());
   take_grains(world, packing);
 }
 
 }  // namespace
+
+double poured_grains(const SlumpTable& test) {
+  constexpr int kDraws = 1000;
+  double volume = 0;
+  for (int n = 0; n < kDraws; ++n)
+    volume += sphere_volume(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
+  return poured_volume(test.mould) / volume;
+}
 
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
   switch (sizes.distribution) {

@@ -20,6 +20,10 @@ struct Packing {
   std::optional<Failure> failure;
 };
 
+/// Number of grains that are poured to fill the mould: its volume times the share of it that is poured as solid, over
+/// the mean volume of a grain. Some of them are struck off.
+double poured_grains(const SlumpTable& test);
+
 /// Radius of grain n of a scene, from the stream "grain-radius". Pure function of its arguments.
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n);
 

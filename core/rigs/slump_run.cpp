@@ -4,8 +4,8 @@
 #include "core/observe/heap.h"
 #include "core/rigs/packing.h"
 #include "core/rigs/rotor.h"
+#include "core/rigs/waiting.h"
 #include "core/simulate.h"
-#include "core/step/runner.h"
 
 namespace pastefit {
 
@@ -23,14 +23,16 @@ constexpr double kGroundDepth = 0.1;  // [m] below the table
 class SlumpRun {
  public:
   SlumpRun(const SlumpTable& test, const Packing& packing, const RunOptions& options)
-      : test_(test), world_(make_world(test, packing)), runner_(world_, options) {}
+      : test_(test), options_(options), world_(make_world(test, packing)), runner_(world_, options) {}
 
   /// The struck-off surface is level with the rim by definition: the ruler is set to zero slump there. Between the tops
   /// of coarse grains the surface lies a little below it, here as in every later reading, and soft grains settle by a
   /// millimetre or two under their own weight and cohesion.
   std::optional<Failure> relax_in_mould() {
     world_.drag = kRelaxDrag;
-    if (auto problem = runner_.relax("step1.relax", kRelaxCap)) return problem;
+    auto problem = options_.fixed_wait_s ? runner_.run("step1.relax", *options_.fixed_wait_s)
+                                         : runner_.relax("step1.relax", kRelaxCap);
+    if (problem) return problem;
     world_.drag = 0;
     axis_zero_ =
         test_.mould.height_m - height_at_axis(world_.particles, test_.grains.radius_m, test_.reading.probe_diameter_m);
@@ -39,7 +41,7 @@ class SlumpRun {
   }
 
   /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because
-  /// then nothing can move any more however much farther it rises.
+  /// then nothing can move any more however much farther it rises. With fixed waits: when it has risen by its height.
   std::optional<Failure> lift_mould() {
     Wall& mould = world_.walls[kMould];
     mould.velocity = {0, 0, test_.lift_velocity_m_s};
@@ -47,14 +49,16 @@ class SlumpRun {
       return world.step % 64 == 0 && std::get<Shell>(mould.shape).base.z > highest_point(world.particles);
     };
     const auto untouched = [&](const World&) { return norm(mould.force) == 0; };
-    const double longest = 1.5 * test_.mould.height_m / test_.lift_velocity_m_s;
-    if (auto problem = runner_.run_until_rest("step1.lift", longest, untouched, clear)) return problem;
+    const double own_height = test_.mould.height_m / test_.lift_velocity_m_s;
+    auto problem = options_.fixed_wait_s ? runner_.run("step1.lift", own_height)
+                                         : runner_.run_until_rest("step1.lift", 1.5 * own_height, untouched, clear);
+    if (problem) return problem;
     world_.walls.pop_back();
     runner_.changed();
     return {};
   }
 
-  std::optional<Failure> rest(std::string_view phase) { return runner_.settle(phase, kRestCap); }
+  std::optional<Failure> rest(std::string_view phase) { return wait(runner_, options_, phase, kRestCap); }
 
   /// Turns the plate up about its hinge with a smooth start and stop.
   std::optional<Failure> turn_plate_up() {
@@ -70,7 +74,7 @@ class SlumpRun {
     world_.walls[kTable].pivot = {-0.5 * drop.length_m, 0, 0};
     if (auto problem = runner_.run("step2.raise", duration, turn)) return problem;
     world_.walls[kTable].angular_velocity = {};
-    return runner_.settle("step2.raised", kRestCap);
+    return rest("step2.raised");
   }
 
   /// Lets the plate go: a rigid rotor under its own weight and the grains on it, stopped dead when it is level.
@@ -171,6 +175,7 @@ class SlumpRun {
   }
 
   const SlumpTable& test_;
+  const RunOptions& options_;
   World world_;
   Runner runner_;
   double axis_zero_ = 0, highest_zero_ = 0;  ///< rim less reading of the struck-off fill [m]
@@ -219,6 +224,7 @@ Outcome simulate(const SlumpTable& test, const RunOptions& options) {
   };
   outcome.failure = perform();
   outcome.run = run.summary();
+  if (options.fixed_wait_s) outcome.run.settled = false;  // nobody looked
   if (!options.packing) {
     outcome.run.steps += packing->run.steps;
     outcome.run.particle_steps += packing->run.particle_steps;

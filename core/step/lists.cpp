@@ -41,7 +41,8 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   return deepest;
 }
 
-/// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour too.
+/// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour
+/// too.
 void Lists::take_along() {
   const std::vector<Block>& blocks = world_.pairs.blocks;
   const auto nearly = [&](std::int32_t i) {

@@ -11,6 +11,7 @@
 
 #include "tests/bench/front_figure.h"
 #include "tests/bench/ladder_csv.h"
+#include "tests/bench/phases.h"
 
 using namespace pastefit;
 
@@ -44,6 +45,7 @@ void print_row(const std::vector<Row>& rows, const Row& row) {
 }
 
 void print_table(const std::vector<Row>& rows, const std::string& scene) {
+  if (std::ranges::none_of(rows, [&](const Row& row) { return row.setting.scene == scene; })) return;
   std::printf("\n### %s\n\n| ladder | setting | packings | mean step [s] | processor time [s] |", scene.c_str());
   for (const char* name : kReadingNames) std::printf(" %s [mm] |", name);
   std::printf(" energy error |\n|---|---|---:|---:|---:|");
@@ -53,23 +55,49 @@ void print_table(const std::vector<Row>& rows, const std::string& scene) {
     if (row.setting.scene == scene) print_row(rows, row);
 }
 
+void print_phases(int packings) {
+  for (const char* scene : kScenes) {
+    const std::vector<PhaseCost> phases = phases_of(scene, 0.010, packings);
+    double all = 0;
+    for (const PhaseCost& phase : phases)
+      if (!phase.phase.starts_with("fill")) all += phase.cpu_s;
+    std::printf("\n### %s\n\n| phase | simulated s | processor s | share of the test |\n|---|---:|---:|---:|\n", scene);
+    for (const PhaseCost& phase : phases) {
+      std::printf("| %s | %.2f | %.3f | ", phase.phase.c_str(), phase.simulated_s, phase.cpu_s);
+      if (phase.phase.starts_with("fill"))
+        std::printf("|\n");
+      else
+        std::printf("%.0f %% |\n", 100 * phase.cpu_s / all);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool quick = false;
+  bool quick = false, phases = false;
   std::string ladder, csv_path, svg_path;
+  int most_packings = 1000;
   CLI::App app{"Error of h1, h2, sag and spread of the slump test against run time."};
   app.add_flag("--quick", quick, "few coarse settings, to see that the program works");
-  app.add_option("--ladder", ladder, "measure this one only")->check(CLI::IsMember({"step", "shortcuts", "grains"}));
+  app.add_option("--ladder", ladder, "measure this one only")
+      ->check(CLI::IsMember(std::vector<std::string>(kLadders.begin(), kLadders.end())));
+  app.add_option("--packings", most_packings, "at most so many for each setting")->check(CLI::Range(1, 1000));
   app.add_option("--csv", csv_path, "file for one row per run; settings that it has already are not run again");
   app.add_option("--svg", svg_path, "file for the figure");
+  app.add_flag("--phases", phases, "what each phase of the test takes, and nothing else");
   CLI11_PARSE(app, argc, argv);
+  if (phases) {
+    print_phases(std::min(most_packings, 8));
+    return 0;
+  }
 
   std::vector<Row> rows;
   std::ifstream file(csv_path);
   const std::string known{std::istreambuf_iterator<char>(file), {}};
   Fills fills;
-  for (const Setting& setting : ladders(quick)) {
+  for (Setting setting : ladders(quick)) {
+    setting.packings = std::min(setting.packings, most_packings);
     if (!ladder.empty() && setting.ladder != ladder) continue;
     std::istringstream before(known);
     Row row{setting, read_csv(before, setting)};
@@ -85,7 +113,7 @@ int main(int argc, char** argv) {
   std::printf(
       "Of a reference: mean +- standard error over packings. Else: deviation from it +- noise of the difference "
       "(one standard\nerror); in brackets where it is within twice the noise, which is no difference.\n");
-  for (const char* scene : {"dry", "cohesive"}) print_table(rows, scene);
+  for (const char* scene : kScenes) print_table(rows, scene);
   if (!svg_path.empty()) {
     std::ofstream svg(svg_path);
     write_figure(svg, rows, 0);

@@ -69,7 +69,7 @@ const Row& reference_of(const std::vector<Row>& rows, const Row& row) {
   return row;
 }
 
-SlumpTable front_scene(bool cohesive, double radius_m) {
+SlumpTable front_scene(const std::string& scene, double radius_m) {
   SlumpTable test;
   test.grains.radius_m = radius_m;
   test.lift_velocity_m_s = 0.2;
@@ -77,12 +77,12 @@ SlumpTable front_scene(bool cohesive, double radius_m) {
   test.contact.friction = 0.15;
   test.contact.rolling_friction = 0.02;
   test.contact.friction_basis = FrictionBasis::total;
-  if (!cohesive) return test;
-  constexpr double kStrength = 2500;     // c/R^2 [Pa]
-  constexpr double kRuptureShare = 0.2;  // force at rupture over c
+  if (scene == "dry") return test;
+  const double strength = scene == "weak" ? 1000 : scene == "strong" ? 6000 : 2500;  // c/R^2 [Pa]
+  constexpr double kRuptureShare = 0.2;                                              // force at rupture over c
   Bridge& bridge = test.contact.bridge;
   bridge.shape = BridgeShape::polynomial;
-  bridge.c_n = kStrength * radius_m * radius_m;
+  bridge.c_n = strength * radius_m * radius_m;
   bridge.d_c_m = -0.8 * radius_m;
   bridge.b_n_m = (1 - kRuptureShare) * bridge.c_n / -bridge.d_c_m;
   bridge.offset_m = 0.4 * radius_m;
@@ -110,24 +110,39 @@ std::vector<Setting> ladders(bool quick) {
     all.push_back({scene, "step", "fixed, 2 x advised", radius, 2.0, packings});
     if (!quick) all.push_back({scene, "step", "fixed, 4 x advised", radius, 4.0, packings});
   }
-  StepOptions fine, coarse;
-  fine.impact_resolution = 40;
-  fine.safety = 0.4;
-  coarse.impact_resolution = 9;
-  const auto rest = [](double times) {
-    RestCriterion criterion;
-    criterion.speed_over_fall *= times;
-    criterion.change_over_radius *= times;
-    return criterion;
+  const auto resting = [](double times) {
+    RunOptions run;
+    run.rest.speed_over_fall *= times;
+    run.rest.change_over_radius *= times;
+    return run;
   };
+  RunOptions fine = resting(0.2), coarse, own, fixed;
+  fine.steps.impact_resolution = 40;
+  fine.steps.safety = 0.4;
+  coarse.steps.impact_resolution = 9;
+  own.own_fill = true;
+  fixed.fixed_wait_s = 2;
   for (const char* scene : {"dry", "cohesive"}) {
     if (quick) break;
-    all.push_back(
-        {scene, "shortcuts", "40 steps an impact, rest at a fifth", radius, {}, packings, true, fine, rest(0.2)});
-    all.push_back({scene, "shortcuts", "rest at a third", radius, {}, packings, false, {}, rest(1.0 / 3)});
+    all.push_back({scene, "shortcuts", "40 steps an impact, rest at a fifth", radius, {}, packings, true, fine});
+    all.push_back({scene, "shortcuts", "fixed waits of 2 s", radius, {}, packings, false, fixed});
+    all.push_back({scene, "shortcuts", "rest at a third", radius, {}, packings, false, resting(1.0 / 3)});
     all.push_back({scene, "shortcuts", "the defaults", radius, {}, packings});
-    all.push_back({scene, "shortcuts", "rest at three times", radius, {}, packings, false, {}, rest(3)});
-    all.push_back({scene, "shortcuts", "9 steps an impact", radius, {}, packings, false, coarse, {}});
+    all.push_back({scene, "shortcuts", "rest at three times", radius, {}, packings, false, resting(3)});
+    all.push_back({scene, "shortcuts", "9 steps an impact", radius, {}, packings, false, coarse});
+  }
+  for (const char* scene : kScenes) {
+    if (quick) break;
+    all.push_back({scene, "fill", "own fill", radius, {}, packings, true, own});
+    all.push_back({scene, "fill", "shared fill", radius, {}, packings});
+  }
+  for (const char* scene : kScenes) {
+    if (quick) break;
+    all.push_back({scene, "raise", "2 s", radius, {}, packings, true, {}, 2.0});
+    all.push_back({scene, "raise", "1 s", radius, {}, packings, false, {}, 1.0});
+    all.push_back({scene, "raise", "0.5 s", radius, {}, packings, false, {}, 0.5});
+    all.push_back({scene, "raise", "0.25 s", radius, {}, packings, false, {}, 0.25});
+    all.push_back({scene, "raise", "0.125 s", radius, {}, packings, false, {}, 0.125});
   }
   // From coarse to fine, so that a run cut short has what is cheap. The finest is the reference.
   for (const Size& size : sizes)
@@ -138,19 +153,20 @@ std::vector<Setting> ladders(bool quick) {
 
 Row measure(const Setting& setting, Fills& fills) {
   Row row{setting, {}};
-  SlumpTable test = front_scene(setting.scene == "cohesive", setting.radius_m);
+  SlumpTable test = front_scene(setting.scene, setting.radius_m);
+  if (setting.raise_s) test.drop->lift_duration_s = *setting.raise_s;
   std::optional<double> fixed_step;
   for (int n = 0; n < setting.packings; ++n) {
     Run run;
     run.packing_seed = test.packing_seed = static_cast<std::uint64_t>(n) + 1;
-    RunOptions options;
-    std::shared_ptr<const Packing>& fill = fills[{setting.radius_m, run.packing_seed}];
-    if (!fill) fill = fill_mould(test);
-    options.packing = fill;
+    RunOptions options = setting.run;
+    if (!options.own_fill) {
+      std::shared_ptr<const Packing>& fill = fills[{setting.radius_m, run.packing_seed}];
+      if (!fill) fill = fill_mould(test);
+      options.packing = fill;
+    }
     if (setting.step_share && !fixed_step) fixed_step = *setting.step_share * advised_step(test, options);
-    options.steps = setting.steps;
     options.steps.fixed_step_s = fixed_step;
-    options.rest = setting.rest;
     const double start = cpu_seconds();
     const Outcome outcome = simulate(test, options);
     run.cpu_s = cpu_seconds() - start;

@@ -19,15 +19,15 @@ using Readings = std::array<double, kReadings.size()>;
 
 /// What is varied: one row of a ladder.
 struct Setting {
-  std::string scene;   ///< "dry" or "cohesive"
-  std::string ladder;  ///< "step", "shortcuts" or "grains"
+  std::string scene;   ///< one of `kScenes`
+  std::string ladder;  ///< one of `kLadders`
   std::string name;
   double radius_m = 0.008;
   std::optional<double> step_share;  ///< fixed step over the smallest that the scene asks for; empty: the engine's own
   int packings = 4;
-  bool reference = false;  ///< the rows of the same scene and ladder are compared with it
-  StepOptions steps = {};
-  RestCriterion rest = {};
+  bool reference = false;              ///< the rows of the same scene and ladder are compared with it
+  RunOptions run = {};                 ///< but for a fixed step, which `step_share` sets
+  std::optional<double> raise_s = {};  ///< time in which the plate is turned up; empty: the scene's
 };
 
 /// One run of a setting.
@@ -63,17 +63,22 @@ Deviation deviation(const Row& row, const Row& reference, std::size_t reading);
 /// The reference of a row.
 const Row& reference_of(const std::vector<Row>& rows, const Row& row);
 
-/// The two-step slump test of EN 12350-5 with grains of radius R, as paste (`cohesive`) or dry. Everything but R is a
-/// share of R or a strength, so that every R is the same paste.
-SlumpTable front_scene(bool cohesive, double radius_m);
+/// Dry grains and pastes; "cohesive" is the one between weak and strong.
+inline constexpr std::array kScenes{"dry", "weak", "cohesive", "strong"};
+inline constexpr std::array kLadders{"step", "shortcuts", "fill", "raise", "grains"};
+
+/// The two-step slump test of EN 12350-5 with grains of radius R. Everything but R is a share of R or a strength, so
+/// that every R is the same paste. Requirement: `scene` is one of `kScenes`.
+SlumpTable front_scene(const std::string& scene, double radius_m);
 
 /// All rows to be measured; `quick`: few and coarse, to see that the program works.
 std::vector<Setting> ladders(bool quick);
 
-/// Filled moulds by radius and seed; a fill serves dry grains and paste alike.
+/// Filled moulds by radius and seed; a shared fill serves dry grains and paste alike.
 using Fills = std::map<std::pair<double, std::uint64_t>, std::shared_ptr<const Packing>>;
 
-/// Runs a setting with its packings. Fills that are missing are made and kept; their time does not count.
+/// Runs a setting with its packings. Fills that are missing are made and kept; their time does not count, unless the
+/// setting asks for fills of its own.
 Row measure(const Setting& setting, Fills& fills);
 
 }  // namespace pastefit

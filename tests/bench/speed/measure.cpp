@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "calibrate/search/machine.h"
+#include "tests/bench/speed/calibration.h"
 #include "tests/bench/speed/ours.h"
 #include "tests/bench/speed/peer_files.h"
 #include "tests/bench/speed/two_step.h"
@@ -19,8 +20,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr unsigned kLimit = 1800;        // [s] for one run of one engine
-constexpr double kBytesPerGrain = 4000;  // enough for LAMMPS, LIGGGHTS and us
+constexpr unsigned kLimit = 1800;  // [s] for one run of one engine
+constexpr unsigned kCalibrationLimit = 4 * 3600;
+constexpr std::string_view kCoarseFirst = "-coarse-first";  // ending of a scene of calibration
+constexpr double kBytesPerGrain = 4000;                     // enough for LAMMPS, LIGGGHTS and us
 constexpr double kBytesPerGrainOfYade = 20'000;
 
 class ScratchFolder {
@@ -47,18 +50,6 @@ struct Contender {
   std::function<void(Engine&)> run;
 };
 
-double memory_available_bytes() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  while (file >> word)
-    if (word == "MemAvailable:") {
-      double kilobytes = 0;
-      file >> kilobytes;
-      return 1024 * kilobytes;
-    }
-  return 1e300;
-}
-
 /// The end of what a failed run said, on one line.
 std::string last_lines(std::string text) {
   const std::size_t longest = 300;
@@ -69,8 +60,8 @@ std::string last_lines(std::string text) {
 }
 
 /// Runs a function that returns {"seconds": ..., notes} as JSON in a child.
-void run_ours_in_child(Engine& engine, const std::function<Json()>& function) {
-  const ChildResult child = run_function([&] { return function().dump(); }, kLimit);
+void run_ours_in_child(Engine& engine, const std::function<Json()>& function, unsigned limit_s = kLimit) {
+  const ChildResult child = run_function([&] { return function().dump(); }, limit_s);
   if (!child.ok) {
     engine.problem = last_lines(child.output);
     return;
@@ -221,6 +212,15 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
   return gathered(scene.name, size.grains, scene.steps, contenders, std::move(missing));
 }
 
+/// The mix of a scene of calibration: "calibration" is that of mix 20, "calibration-66" that of mix 66.
+std::optional<std::string> mix_of(std::string_view scene) {
+  if (scene.ends_with(kCoarseFirst)) scene.remove_suffix(kCoarseFirst.size());
+  if (scene == "calibration") return "20";
+  for (const std::string& mix : mixes())
+    if (scene == "calibration-" + mix) return mix;
+  return {};
+}
+
 SceneResult measure_test(const MeasureOptions& options, const ScratchFolder& folder) {
   const std::filesystem::path bed_file = folder / "test";
   const BedSize size = make_bed(bed_file, fill_two_step);
@@ -249,30 +249,49 @@ SceneResult measure_test(const MeasureOptions& options, const ScratchFolder& fol
   return gathered("test", size.grains, 0, contenders, std::move(missing));
 }
 
-/// A whole calibration, by the program as a user calls it.
-SceneResult measure_calibration(const MeasureOptions& options, const ScratchFolder& folder) {
-  const std::filesystem::path study = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "data/studies/concrete-mix-20.json";
-  std::vector<Contender> contenders(1);
+Json json_of(const CalibrationCost& cost) {
+  return {{"seconds", cost.core_s},
+          {"wall_s", cost.wall_s},
+          {"simulations", cost.simulations},
+          {"coarse_simulations", cost.coarse_simulations},
+          {"seconds_a_simulation", cost.simulation_s},
+          {"confirmed", cost.status == CalibrationStatus::confirmed ? 1 : 0},
+          {"confirmed_mm", cost.confirmed_mm},
+          {"smallest_advised_step_s", cost.smallest_advised_s},
+          {"median_advised_step_s", cost.median_advised_s},
+          {"share_below_target", cost.share_below_target},
+          {"share_far_below_target", cost.share_far_below_target}};
+}
+
+/// A calibration by the program's search, and by a plain one; with coarse grains first by ours alone. Every turn has a
+/// search seed of its own.
+SceneResult measure_calibration(const std::string& scene, const MeasureOptions& options, const ScratchFolder& folder) {
+  const std::string mix = mix_of(scene).value();
+  const bool coarse_first = scene.ends_with(kCoarseFirst);
+  std::vector<Contender> contenders(coarse_first ? 1 : 2);
   contenders[0].result.name = "ours";
-  contenders[0].run = [&](Engine& engine) {
-    const ChildResult child = run_program(
-        {PASTEFIT_PROGRAM, "calibrate", study.string(), "--out", (folder / "out").string(), "--force"}, kLimit);
-    const std::size_t count = child.output.rfind(" simulations, ");
-    if (count == std::string::npos) {
-      engine.problem = last_lines(child.output);
-      return;
-    }
-    // "50 of 80 simulations, none failed."
-    const std::size_t line = child.output.rfind('\n', count) + 1;
-    engine.seconds.push_back(child.processor_s);
-    engine.peak_bytes = std::max(engine.peak_bytes, static_cast<double>(child.peak_bytes));
-    engine.notes = {{"wall_s", child.wall_s},
-                    {"core_s", child.processor_s},
-                    {"simulations", std::strtod(child.output.c_str() + line, nullptr)},
-                    {"confirmed", child.ok ? 1.0 : 0.0}};
-  };
+  if (!coarse_first) contenders[1].result.name = "plain search";
+  double smallest_step = 0;
+  for (Contender& contender : contenders) {
+    const bool ours = &contender == &contenders[0];
+    contender.run = [&, ours](Engine& engine) {
+      const std::uint64_t seed = engine.seconds.size() + 1;
+      const auto store = folder / (scene + (ours ? "-ours-" : "-plain-") + std::to_string(seed));
+      run_ours_in_child(
+          engine,
+          [&] {
+            return json_of(ours ? calibrate_ours(mix, seed, coarse_first, store)
+                                : calibrate_plainly(mix, seed, store, smallest_step));
+          },
+          kCalibrationLimit);
+      if (ours)
+        for (const auto& [name, value] : engine.notes)
+          if (name == "smallest_advised_step_s") smallest_step = value;
+      if (!ours) engine.time_step_s = smallest_step;
+    };
+  }
   run_in_turn(contenders, options);
-  return gathered("calibration", 0, 0, contenders, {});
+  return gathered(scene, 0, 0, contenders, {});
 }
 
 }  // namespace
@@ -296,6 +315,8 @@ std::vector<std::string> measurable_scenes() {
   std::vector<std::string> names;
   for (const std::string_view name : scene_names()) names.emplace_back(name);
   names.insert(names.end(), {"test", "calibration"});
+  for (const std::string& mix : mixes()) names.push_back("calibration-" + mix);
+  for (const std::string& mix : mixes()) names.push_back("calibration-" + mix + std::string(kCoarseFirst));
   return names;
 }
 
@@ -306,7 +327,7 @@ Faults validate_scene(const std::string& name) {
     for (const std::string& one : all) known += (known.empty() ? "" : ", ") + one;
     return {{name, "is not a scene of this benchmark", "take one of " + known}};
   }
-  if (name == "test" || name == "calibration") return {};
+  if (name == "test" || mix_of(name)) return {};
   const Scene scene = scene_named(name);
   const double needed = kBytesPerGrain * kTileGrains * scene.tiles_x * scene.tiles_y;
   const double free = memory_available_bytes();
@@ -318,7 +339,7 @@ Faults validate_scene(const std::string& name) {
 SceneResult measure(const std::string& scene, const MeasureOptions& options) {
   static const ScratchFolder folder;
   if (scene == "test") return measure_test(options, folder);
-  if (scene == "calibration") return measure_calibration(options, folder);
+  if (mix_of(scene)) return measure_calibration(scene, options, folder);
   return measure_steps(scene_named(scene), options, folder);
 }
 

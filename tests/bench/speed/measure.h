@@ -45,7 +45,8 @@ struct SceneResult {
   double particle_steps_per_s(const Engine& engine) const { return grains * steps / engine.median(); }
 };
 
-/// The scenes that can be measured: those of `scene_names()`, "test" and "calibration".
+/// The scenes that can be measured: those of `scene_names()`, "test", "calibration" and "calibration-NN" for each
+/// shipped mix.
 std::vector<std::string> measurable_scenes();
 
 /// Why a scene cannot be measured on this machine (it does not exist, or has not the memory); empty: it can.

@@ -22,8 +22,10 @@ import jsonschema
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 STUDY = SOURCE / "data/studies/concrete-mix-20.json"
+CARD = SOURCE / "data/cards/concrete-mix-66.json"
 LAB = SOURCE / "data/lab/concrete-mix-20.json"
 RIG = SOURCE / "data/rigs/abrams.json"
+TWO = str(min(2, len(os.sched_getaffinity(0))))  # threads
 COARSE = ["--set", "grains.radius_mm=12"]
 
 
@@ -70,8 +72,27 @@ class CommandLine(unittest.TestCase):
         self.fails(run("simulate"), 2, "FILE")
         self.fails(run("simulate", RIG, "--sed", "3"), 2, "--sed")
         self.fails(run("calibrate", STUDY), 2, "--out")
-        self.fails(run("calibrate", STUDY, "--out", self.out, "--threads", "0"), 2, "--threads")
         self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
+        self.assertFalse(self.out.exists())
+
+    def test_threads_that_are_not_there_are_bad_input(self):
+        for threads in ("0", "-3", "two", "1.5", str(os.cpu_count() + 1), "99999999999999999999"):
+            for verb in (["calibrate", STUDY, "--out", self.out], ["compare-optimisers", STUDY, "--out", self.out],
+                         ["check", CARD], ["rescale", CARD, "--radius", "7"]):
+                self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "processors")
+        self.assertFalse(self.out.exists())
+
+    def test_a_scene_beyond_the_memory_is_refused_before_anything_is_computed(self):
+        start = time.monotonic()
+        self.fails(run("simulate", RIG, "--set", "grains.radius_mm=0.02", "--out", self.out), 2, "grains", "GB", "larger")
+        lab = json.loads(LAB.read_text())
+        lab["grains"] = {"distribution": "mono", "radius_mm": 0.02}
+        study = self.study()
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        for verb in ("calibrate", "compare-optimisers"):
+            self.fails(run(verb, study, "--out", self.out), 2, "grains", "GB", "larger")
+        self.fails(run("rescale", CARD, "--radius", "0.02"), 2, "grains", "GB", "larger")
+        self.assertLess(time.monotonic() - start, 20)
         self.assertFalse(self.out.exists())
 
     # bad input
@@ -159,7 +180,7 @@ class CommandLine(unittest.TestCase):
         self.fails(run("simulate", RIG, *COARSE, "--out", self.out), 2, "earlier result")
 
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
-        result = run("calibrate", self.study(), "--out", self.out, "--threads", "2")
+        result = run("calibrate", self.study(), "--out", self.out, "--threads", TWO)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "summary.txt"])
         self.assertNotIn("\r", result.stdout)
@@ -188,6 +209,30 @@ class CommandLine(unittest.TestCase):
         self.assertLess(time.monotonic() - start, 2)
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
+    def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
+        search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, coarse_first=True)
+        study = self.study(search=search)
+        result = run("calibrate", study, "--out", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex((self.out / "summary.txt").read_text(), r"\d+ simulations and \d+ with coarse grains")
+        card = json.loads((self.out / "card.json").read_text())
+        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+            query = "SELECT count(*), sum(packing >= 1 << 40) FROM evaluations"
+            stored, coarse = store.execute(query).fetchone()
+        self.assertGreaterEqual(coarse, 2)
+        self.assertEqual(stored - coarse, card["search"]["simulations"])
+        self.assertTrue(all(packing < 1 << 40 for packing in card["confirmation"]["packings"]))
+        resumed = run("calibrate", study, "--out", self.out, "--resume")
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
+
+        lab = json.loads((self.folder / "lab.json").read_text())
+        lab["grains"]["radius_mm"] = 15  # half as large again, two would fill the mould's mouth
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        other = self.folder / "other"
+        self.fails(run("calibrate", study, "--out", other), 2, "coarse_first", "grains")
+        self.assertFalse(other.exists())
+
     def test_an_interrupt_ends_within_seconds_and_resume_ends_where_an_undisturbed_run_does(self):
         study = self.study(budget=8, screening=5)
         command = [PROGRAM, "calibrate", str(study), "--out", str(self.out), "--threads", "1"]
@@ -204,7 +249,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn(process.returncode, (0, 1), errors)
         self.assertEqual(run("calibrate", study, "--out", self.out, "--resume", "--threads", "1").returncode, 0)
         undisturbed = self.folder / "undisturbed"
-        self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", "2").returncode, 0)
+        self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", TWO).returncode, 0)
         self.assertEqual((self.out / "card.json").read_text(), (undisturbed / "card.json").read_text())
 
     def test_a_changed_study_goes_on_with_what_still_holds_and_names_what_changed(self):

@@ -30,6 +30,19 @@ inline Synthetic fake_slump(double height_mm, std::uint64_t seed) {
   return objective;
 }
 
+/// The same with coarse grains: lower by 25 mm where the heap is half as high as the mould, on its own fillings, with
+/// half as much noise again.
+inline Synthetic coarse_fake_slump(double height_mm, std::uint64_t seed) {
+  Synthetic objective = fake_slump(height_mm, seed);
+  const auto fine = objective.observe;
+  objective.observe = [fine](const UnitPoint& x, std::uint64_t packing) {
+    const double mean = mean_height(x);
+    const double bias = -25 * std::max(0.0, 1 - std::pow((mean - 165) / 135, 2));
+    return std::vector<double>{std::min(300.0, mean + bias + 1.5 * (fine(x, packing)[0] - mean))};
+  };
+  return objective;
+}
+
 /// Adds the height after one drop and a reading of sag that is mostly noise.
 inline Synthetic fake_two_step(double height_mm, double after_mm, double sag_mm, std::uint64_t seed) {
   Synthetic objective = fake_slump(height_mm, seed);

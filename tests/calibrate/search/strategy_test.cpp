@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "calibrate/search/coarse_rung.h"
 #include "fake_slump.h"
 
 using namespace pastefit;
@@ -47,6 +48,50 @@ TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations fr
   CHECK(confirmed >= 190);
   CHECK(true_within_tolerance >= 190);
   CHECK(simulations[100] <= 25);
+}
+
+TEST_CASE("coarse grains first: as reliable, and cheaper, though they stand lower") {
+  constexpr double cost_of_coarse = 0.2;
+  int confirmed = 0, confirmed_without = 0, true_within_tolerance = 0;
+  double cost = 0, cost_without = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    CAPTURE(seed);
+    Synthetic fine = fake_slump(target_of(seed), seed), coarse = coarse_fake_slump(target_of(seed), seed);
+    const Calibration calibration = search(fine, options_with(seed), {}, {}, &coarse);
+    CHECK(calibration.simulations == fine.simulations);
+    CHECK(calibration.coarse_simulations == coarse.simulations);
+    CHECK(coarse.simulations >= options_with(seed).screening);
+    for (const Response& response : calibration.history)
+      for (const std::uint64_t packing : response.packings) CHECK(packing < coarse_packings);
+    cost += calibration.simulations + cost_of_coarse * calibration.coarse_simulations;
+    if (calibration.status == CalibrationStatus::confirmed) {
+      ++confirmed;
+      if (std::abs(mean_height(calibration.best.point) - target_of(seed)) <= 5) ++true_within_tolerance;
+    }
+    Synthetic alone = fake_slump(target_of(seed), seed);
+    const Calibration without = search(alone, options_with(seed));
+    cost_without += without.simulations;
+    if (without.status == CalibrationStatus::confirmed) ++confirmed_without;
+  }
+  INFO("cost " << cost / 100 << ", without " << cost_without / 100);
+  CHECK(confirmed >= 95);
+  CHECK(confirmed_without >= 95);
+  CHECK(true_within_tolerance >= 95);
+  CHECK(cost < 0.8 * cost_without);
+}
+
+TEST_CASE("coarse grains that always fail leave the search as it is without them") {
+  Synthetic fine = fake_slump(150, 3), coarse = coarse_fake_slump(150, 3), alone = fake_slump(150, 3);
+  coarse.fails = [](const UnitPoint&, std::uint64_t) { return true; };
+  const Calibration calibration = search(fine, options_with(3), {}, {}, &coarse);
+  const Calibration without = search(alone, options_with(3));
+  CHECK(calibration.status == without.status);
+  CHECK(calibration.simulations <= without.simulations + 20);
+}
+
+TEST_CASE("a height beyond the model is out of reach with coarse grains as well") {
+  Synthetic fine = fake_slump(10, 2), coarse = coarse_fake_slump(10, 2);
+  CHECK(search(fine, options_with(2), {}, {}, &coarse).status == CalibrationStatus::out_of_reach);
 }
 
 TEST_CASE("the default strategy meets two heights and a noisy sag at once") {

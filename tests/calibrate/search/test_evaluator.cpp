@@ -46,6 +46,21 @@ TEST_CASE("the mould is filled once for each packing, however many candidates an
   CHECK(laboratory.fills == 2);
 }
 
+TEST_CASE("simulations that fill their own moulds share none, and run as they are asked to") {
+  Laboratory laboratory;
+  auto store = laboratory.store();
+  laboratory.options.run.own_fill = true;
+  laboratory.options.run.fixed_wait_s = 0.25;
+  std::atomic<int> as_asked = 0;
+  laboratory.twist = [&](const SlumpTable&, const RunOptions& run, Outcome&) {
+    if (!run.packing && run.own_fill && run.fixed_wait_s == 0.25 && run.watch) ++as_asked;
+  };
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5), at(0.2, 0.5)}, kPackings);
+  CHECK(as_asked == 4);
+  CHECK(laboratory.fills == 0);
+}
+
 TEST_CASE("known evaluations are answered from the store with the same bits, and count towards the budget") {
   Laboratory laboratory;
   const std::vector<UnitPoint> points{at(0.3, 1.0 / 3), at(0.3, 1.0 / 3), at(0.9, 0.1)};

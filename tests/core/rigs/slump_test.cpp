@@ -4,6 +4,7 @@
 
 #include "core/rigs/packing.h"
 #include "core/simulate.h"
+#include "core/world/world.h"
 
 using namespace pastefit;
 
@@ -43,6 +44,57 @@ TEST_CASE("the mould is filled level with its rim") {
   const double fraction = packing->solid_volume_m3 / volume_m3(Mould{});
   CHECK(fraction > 0.54);
   CHECK(fraction < 0.64);
+}
+
+TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
+  SlumpTable wide = small_test(0);
+  wide.grains = {SizeDistribution::uniform, 0.010, 0, 0.007, 0.013};
+  for (const SlumpTable& test : {small_test(0), wide}) {
+    std::int64_t poured = 0;
+    RunOptions options;
+    options.watch = [&](const Moment& moment) {
+      poured = moment.world->particles.count();
+      return false;
+    };
+    (void)fill_mould(test, options);
+    CHECK(poured_grains(test) == Approx(static_cast<double>(poured)).epsilon(0.05));
+  }
+}
+
+TEST_CASE("a fill of its own feels the test's own laws; the shared one does not") {
+  SlumpTable smooth = small_test(0), rough = small_test(0);
+  smooth.contact.friction = 0;
+  RunOptions own;
+  own.own_fill = true;
+  const auto height = [](const SlumpTable& test, const RunOptions& options) {
+    const auto packing = fill_mould(test, options);
+    REQUIRE_FALSE(packing->failure);
+    return packing->centres.front().z;
+  };
+  CHECK(height(smooth, {}) == height(rough, {}));
+  CHECK(height(smooth, own) != height(rough, own));
+  const double packed = fill_mould(smooth, own)->solid_volume_m3 / fill_mould(rough, own)->solid_volume_m3;
+  CHECK(packed > 1.01);
+}
+
+TEST_CASE("with a fixed wait the phases last as long whatever the heap does") {
+  RunOptions options;
+  options.fixed_wait_s = 0.3;
+  const SlumpTable test = small_test(30);
+  options.packing = fill_mould(test);
+  std::vector<std::pair<std::string, double>> begun;
+  options.watch_interval_s = 1e-4;
+  options.watch = [&](const Moment& moment) {
+    if (begun.empty() || begun.back().first != moment.phase) begun.emplace_back(moment.phase, moment.time_s);
+    return true;
+  };
+  const Outcome outcome = simulate(test, options);
+  REQUIRE_FALSE(outcome.failure);
+  CHECK_FALSE(outcome.run.settled);
+  REQUIRE(begun.size() == 3);
+  CHECK(begun[1].second == Approx(0.3).margin(2e-3));
+  CHECK(begun[2].second == Approx(0.3 + 1.0).margin(4e-3));
+  CHECK(outcome.run.simulated_s == Approx(1.6).margin(6e-3));
 }
 
 TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lower") {

@@ -1,0 +1,38 @@
+#include "calibrate/search/coarse_rung.h"
+
+#include "calibrate/search/search_run.h"
+#include "calibrate/search/surrogate.h"
+
+namespace pastefit {
+
+Study with_coarse_grains(Study study) {
+  for (StudyTest& test : study.tests) {
+    GrainSizes& grains = test.lab.test.grains;
+    for (double* length : {&grains.radius_m, &grains.standard_deviation_m, &grains.smallest_m, &grains.largest_m})
+      *length *= coarse_radius_ratio;
+  }
+  return study;
+}
+
+std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine) {
+  std::vector<Response> moved;
+  for (const Response& one : coarse)
+    if (is_feasible(one)) moved.push_back(one);
+  if (moved.empty()) return moved;
+  Surrogate surrogate(moved);
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(moved.front().residuals.size());
+  int count = 0;
+  for (const Response& one : fine) {
+    if (!is_feasible(one)) continue;
+    bias += one.residuals - surrogate.evaluate({&one.point, 1}, one.packings).at(0).residuals;
+    ++count;
+  }
+  if (count > 0) bias /= count;
+  for (Response& one : moved) {
+    one.residuals += bias;
+    one.misfit = 0.5 * one.residuals.squaredNorm();
+  }
+  return moved;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// Radius of the coarse grains over that of the study. A simulation costs about the fourth power of it: a fifth.
+inline constexpr double coarse_radius_ratio = 1.5;
+
+/// First packing seed of the coarse rung: its simulations can lie in one store with those of the study.
+inline constexpr std::uint64_t coarse_packings = 1ULL << 40;
+
+/// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
+/// hundred grains in the mould it may not be fit to run: see `validate`.
+Study with_coarse_grains(Study study);
+
+/// What coarse simulations say of fine ones: each feasible one, its residuals moved by the bias between the rungs,
+///     bias = mean over the feasible fine simulations of (their residuals - coarse surrogate at their point),
+/// one for each reading. The search tries every candidate on the coarse rung before it does on the fine one, so the
+/// surrogate is read where it knows. 0 as long as there is no fine simulation. Limits: one bias for all candidates; the
+/// fine simulations gather about the target, so it is the bias there. Requirements: `coarse` and `fine` are simulations
+/// on one packing each, with residuals of the same weights.
+std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine);
+
+}  // namespace pastefit
