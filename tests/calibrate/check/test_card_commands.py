@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 CARD = SOURCE / "tests/calibrate/card/versions/card-2.json"
-TARGETS = ["lammps", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
+TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
 def run(*arguments):
@@ -87,7 +87,7 @@ class CardCommands(unittest.TestCase):
         card["test"]["contact"]["rolling"] = "constant_torque"
         file = self.folder / "card.json"
         file.write_text(json.dumps(card))
-        self.fails(run("export", file, "--to", "lammps", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
+        self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
         self.assertFalse((self.folder / "x").exists())
 
     def test_rescale_measures_its_bias_and_the_new_card_is_a_card(self):
