@@ -3,7 +3,7 @@
 compares.
 
 usage: slump_round_trip.py PASTEFIT READ_HEAP CARD... [--to lammps|lammps-tables|liggghts|yade] [--strengths 0.3,1,2,4,10]
-                           [--packings N] [--radius-mm R] [--ranks N] [--representable]
+                           [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--representable]
 
 For each factor of --strengths a card's attraction is multiplied by it, so that a family from weak to strong comes out.
 --representable takes away what lammps-tables lacks: memory (bridges form where they rupture) and friction of the total
@@ -38,16 +38,20 @@ def variant(card, factor, representable):
         bridge[key] *= factor
     if contact["cohesion_n"] is not None:
         contact["cohesion_n"] *= factor
+    card["parameters"]["strength_pa"] *= factor
     if representable:
         bridge["offset_m"] = -0.5 * bridge["d_c_m"] * 1.001
+        card["parameters"]["offset_ratio"] = bridge["offset_m"] / card["test"]["grains"]["radius_m"]
         bridge["formation"] = "film"
         contact["friction_basis"] = "elastic"
     card["test"]["drop"] = None
     return card
 
 
-def ours(program, file, packing):
-    run = subprocess.run([program, "simulate", file, "--seed", str(packing), "--json"], capture_output=True, text=True)
+def ours(options, file, packing):
+    step = ["--time-step", str(options.time_step)] if options.time_step else []
+    run = subprocess.run([options.program, "simulate", file, "--seed", str(packing), "--json", *step],
+                         capture_output=True, text=True)
     if run.returncode != 0:
         raise SystemExit(run.stderr)
     return json.loads(run.stdout)["observables"]
@@ -72,7 +76,7 @@ def compare(options, file, title, folder):
     pairs, walls = [], []
     for packing in range(1, options.packings + 1):
         other, wall = theirs(options, file, packing, folder / "deck")
-        pairs.append((ours(options.program, file, packing), other))
+        pairs.append((ours(options, file, packing), other))
         walls.append(wall)
     worst = 0
     for reading in READINGS:
@@ -96,6 +100,7 @@ def main():
     parser.add_argument("--packings", type=int, default=4, choices=BAND)
     parser.add_argument("--radius-mm", type=float)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--time-step", type=float, help="of pastefit [s]; without it the default")
     parser.add_argument("--representable", action="store_true")
     options = parser.parse_args()
     worst = 0
