@@ -88,14 +88,14 @@ Result<Export> export_lammps(const ExportScene& scene) {
                         pairs,
                         wall_fix("table", test.table_wall),
                         wall_fix("ground", ground_of(test.table_wall)),
-                        wall_fix("mould", test.mould_wall)};
+                        wall_fix("mould", test.mould_wall),
+                        true};
   Export out;
   out.notes.push_back(
       "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
       "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
       "them.");
   out.instructions = kBuild;
-  if (test.drop) out.notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
   out.files = {{"in.slump", slump_deck(scene, laws, out.notes)},
                {"in.two_grains", two_grains_deck(scene, laws)},
                {"grains.data", grains_data(scene, scene.packing.radii)}};

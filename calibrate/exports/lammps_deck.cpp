@@ -16,7 +16,15 @@ constexpr double kGravity = 9.81;
 constexpr double kRelaxDrag = 40;  // [1/s], as in our own relaxation of the fill
 constexpr double kRelaxTime = 0.25;
 constexpr double kRestTime = 4.0;
+constexpr double kFallTime = 2.0;     // [s] at most
 constexpr double kGroundDepth = 0.1;  // [m] below the table, as in our own test
+const std::string kRest = R"(
+# the heap comes to rest
+run          ${first}
+fix          over all halt 100 v_speed < 0.0005 error continue message no
+run          ${rest}
+unfix        over
+)";
 const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
@@ -48,6 +56,24 @@ std::string drag(const ExportScene& scene) {
   return out + "\n";
 }
 
+/// Step 2. Turning up takes the way of our own test; then the plate falls by its own weight and that of the heap.
+std::string drop_deck(const DropPlate& drop) {
+  const double angle = std::asin(drop.lift_height_m / drop.length_m);
+  std::string out = "\n# step 2: the plate turns up about its hinge\nvariable     start equal $(time)\n";
+  out += format("variable     share equal (time-v_start)/%.17g\n", drop.lift_duration_s);
+  out += format("variable     tilt equal %.17g*v_share*v_share*(3-2*v_share)\n", -angle);
+  out += format("variable     raise equal floor(%.6g/dt)\nrun          ${raise}\n", drop.lift_duration_s);
+  out += format("variable     tilt equal %.17g\n", -angle) + kRest;
+  out += "\n# it falls, until it is level\n";
+  out += format("fix          plate all hinge/pastefit table mass_kg %.17g inertia_kg_m2 %.17g arm_m %.17g &\n",
+                drop.mass_kg, drop.mass_kg * drop.length_m * drop.length_m / 3, 0.5 * drop.length_m);
+  out += format("             x_m %.17g z_m 0 angle_rad %.17g\n", -0.5 * drop.length_m, -angle);
+  out += "variable     tilt equal f_plate\nfix          level all halt 1 v_tilt >= 0 error continue message no\n";
+  out += format("variable     fall equal ceil(%.6g/dt)\nrun          ${fall}\n", kFallTime);
+  out += "unfix        level\nvariable     tilt equal 0\nunfix        plate\n" + kRest;
+  return out + "write_dump   all custom heap2.dump " + kDump;
+}
+
 }  // namespace
 
 double deck_time_step_s(const ExportScene& scene) {
@@ -70,8 +96,11 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
   out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out\n", -half, half, -half, half,
+  const bool falls = test.drop && laws.hinge;
+  if (falls) out += "variable     tilt equal 0\n";
+  out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out", -half, half, -half, half,
                 -0.5 * kGroundDepth);
+  out += falls ? format(" rotate v_tilt %.17g 0 0 0 1 0\n", -half) : "\n";
   out += format("region       ground plane 0 0 %.17g 0 0 1\n", -kGroundDepth);
   out += "variable     rise equal 0\n";
   out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
@@ -94,13 +123,12 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   out += "fix          over all halt 100 v_below < 0 error continue message no\n";
   out += format("variable     lift equal ceil(%.6g/dt)\nrun          ${lift}\n",
                 1.2 * mould.height_m / test.lift_velocity_m_s);
-  out += "unfix        over\nunfix        mould\nregion       mould delete\n\n";
+  out += "unfix        over\nunfix        mould\nregion       mould delete\n";
 
-  out += "# the heap comes to rest\n";
-  out += format("variable     rest equal ceil(%.6g/dt)\nvariable     first equal ceil(0.2/dt)\nrun          ${first}\n",
-                kRestTime);
-  out += "fix          over all halt 100 v_speed < 0.0005 error continue message no\nrun          ${rest}\n";
+  out += format("variable     rest equal ceil(%.6g/dt)\nvariable     first equal ceil(0.2/dt)\n", kRestTime);
+  out += kRest;
   out += "write_dump   all custom heap.dump " + kDump;
+  if (falls) out += drop_deck(*test.drop);
   out += "run          0 post no\nprint        \"highest grain centre $(c_top) m\"\n";
   return out;
 }

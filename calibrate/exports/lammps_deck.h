@@ -14,9 +14,11 @@ struct LammpsLaws {
   std::string conventions;                          ///< comment
   std::string pairs, first_pair;                    ///< pair style and coefficients; of the first size class only
   std::string table_wall, ground_wall, mould_wall;  ///< "fix ..." with regions table, ground, mould
+  bool hinge = false;                               ///< fix hinge/pastefit is there
 };
 
-/// Step 1 of the slump test: relax in the mould, lift, rest. Notes become comments.
+/// The slump test: relax in the mould, lift, rest; and, where the laws have a hinge and the card a drop plate, step 2:
+/// turn the plate up, rest, let it fall, rest. Notes become comments.
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
 /// Two grains of the first class at distances from an overlap of a twentieth of their radius to beyond rupture, and

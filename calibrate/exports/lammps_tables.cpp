@@ -142,7 +142,7 @@ std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
         format("Grains take the radius of their class, %zu classes; the largest change of a radius is "
                "%.2f %%.",
                scene.sizes.radii_m.size(), 100 * scene.sizes.largest_change));
-  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
+  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, needs --to lammps.");
   return notes;
 }
 
@@ -157,7 +157,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
   const bool attracts = attraction_n(test.contact, {radius, radius, radius}, 1e-12) > 0;
 
-  LammpsLaws laws{kVersionGuard, kConventions, {}, {}, {}, {}, {}};
+  LammpsLaws laws{kVersionGuard, kConventions, {}, {}, {}, {}, {}, false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)
                                      : "pair_style   granular\n";
   const PairConstants grains = grain_pair(test.contact, radius);

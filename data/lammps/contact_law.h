@@ -28,10 +28,19 @@ struct WallLaw {
   double cohesion_factor = 0;  ///< share of the grains' attraction that acts here
 };
 
+/// A plate that turns about a hinge along y.
+struct Hinge {
+  double mass_kg = 0, inertia_kg_m2 = 0;  ///< inertia about the hinge
+  double arm_m = 0;                       ///< of its centre, towards +x when level
+  double x_m = 0, z_m = 0;                ///< of the hinge
+  double angle_rad = 0;                   ///< at the beginning; negative is raised
+};
+
 /// Reads "name value name value ...". Every name has to be there once, but for those of the bridge, whose shape says
 /// which it needs. Returns what is wrong, one line for each fault; empty: nothing.
 std::string read_law(const std::vector<std::string>& words, Law& law);
 std::string read_wall_law(const std::vector<std::string>& words, WallLaw& wall);
+std::string read_hinge(const std::vector<std::string>& words, Hinge& hinge);
 
 /// What a contact remembers; numbers only, because it travels between processors as such.
 struct Memory {

@@ -107,4 +107,15 @@ std::string read_wall_law(const std::vector<std::string>& all, WallLaw& wall) {
   return words.faults();
 }
 
+std::string read_hinge(const std::vector<std::string>& all, Hinge& hinge) {
+  Words words(all);
+  words.number("mass_kg", hinge.mass_kg, 0, kMost, false);
+  words.number("inertia_kg_m2", hinge.inertia_kg_m2, 0, kMost, false);
+  words.number("arm_m", hinge.arm_m, 0, 1000);
+  words.number("x_m", hinge.x_m, -1000, 1000);
+  words.number("z_m", hinge.z_m, -1000, 1000);
+  words.number("angle_rad", hinge.angle_rad, -1.5707, 0);
+  return words.faults();
+}
+
 }  // namespace pastefit_lammps

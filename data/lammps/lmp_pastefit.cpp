@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "fix_hinge_pastefit.h"
 #include "fix_wall_pastefit.h"
 #include "force.h"
 #include "input.h"
@@ -35,6 +36,7 @@ const char* const kStyleVersion = "variable pastefit_style equal 1";
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   (*lammps.force->pair_map)[PairPastefit::kStyle] = &new_pair<PairPastefit>;
   (*lammps.modify->fix_map)[PairMemory::kStyle] = &new_fix<PairMemory>;
+  (*lammps.modify->fix_map)[FixHingePastefit::kStyle] = &new_fix<FixHingePastefit>;
   (*lammps.modify->fix_map)[FixWallPastefit::kStyle] = &new_fix<FixWallPastefit>;
   lammps.input->one(kStyleVersion);
 }

@@ -3,10 +3,11 @@
 compares.
 
 usage: slump_round_trip.py PASTEFIT READ_HEAP CARD... [--to lammps|lammps-tables|liggghts|yade] [--strengths 0.3,1,2,4,10]
-                           [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--representable]
+                           [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--both-steps]
+                           [--representable]
 
 For each factor of --strengths a card's attraction is multiplied by it, so that a family from weak to strong comes out.
---representable takes away what lammps-tables lacks: memory (bridges form where they rupture) and friction of the total
+Step 1 only, unless --both-steps, which gives a card without a drop plate the usual one. --representable takes away what lammps-tables lacks: memory (bridges form where they rupture) and friction of the total
 force.
 
 Exit status 1 if some reading differs by more than noise does once in a thousand comparisons (t-interval for the
@@ -27,10 +28,9 @@ import engines
 
 # two-sided quantile of Student's t at 0.001 for 2 (n - 1) degrees of freedom
 BAND = {2: 31.6, 3: 8.61, 4: 5.96, 5: 5.04, 6: 4.59, 8: 4.14, 10: 3.92, 12: 3.79, 16: 3.65}
-READINGS = ["step1.height_axis_mm", "step1.height_max_mm", "step1.spread_mm"]
 
 
-def variant(card, factor, representable):
+def variant(card, factor, representable, both_steps):
     card = json.loads(json.dumps(card))
     contact = card["test"]["contact"]
     bridge = contact["bridge"]
@@ -44,7 +44,11 @@ def variant(card, factor, representable):
         card["parameters"]["offset_ratio"] = bridge["offset_m"] / card["test"]["grains"]["radius_m"]
         bridge["formation"] = "film"
         contact["friction_basis"] = "elastic"
-    card["test"]["drop"] = None
+    test = card["test"]
+    if not both_steps:
+        test["drop"] = None
+    elif test["drop"] is None:
+        test["drop"] = {"length_m": test["table_length_m"], "mass_kg": 16, "lift_height_m": 0.04, "lift_duration_s": 0.5}
     return card
 
 
@@ -66,7 +70,8 @@ def theirs(options, file, packing, deck):
     if run.returncode != 0 or "ERROR" in run.stdout:
         raise SystemExit(run.stdout[-2000:] + run.stderr)
     wall = time.time() - start
-    read = subprocess.run([options.read_heap, file, deck / "filled.dump", deck / "heap.dump"], check=True,
+    second = [deck / "heap2.dump"] if options.both_steps else []
+    read = subprocess.run([options.read_heap, file, deck / "filled.dump", deck / "heap.dump", *second], check=True,
                           capture_output=True, text=True)
     return json.loads(read.stdout), wall
 
@@ -79,7 +84,7 @@ def compare(options, file, title, folder):
         pairs.append((ours(options, file, packing), other))
         walls.append(wall)
     worst = 0
-    for reading in READINGS:
+    for reading in pairs[0][1]:
         a, b = [p[0][reading] for p in pairs], [p[1][reading] for p in pairs]
         difference = statistics.mean(b) - statistics.mean(a)
         noise = math.sqrt(max(statistics.variance(a) + statistics.variance(b), 1.0) / len(pairs))
@@ -101,6 +106,7 @@ def main():
     parser.add_argument("--radius-mm", type=float)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--time-step", type=float, help="of pastefit [s]; without it the default")
+    parser.add_argument("--both-steps", action="store_true")
     parser.add_argument("--representable", action="store_true")
     options = parser.parse_args()
     worst = 0
@@ -116,7 +122,7 @@ def main():
                                 "--out", taken], check=True, stdout=subprocess.DEVNULL)
             card = json.loads(taken.read_text())
             for factor in map(float, options.strengths.split(",")):
-                changed = variant(card, factor, options.representable)
+                changed = variant(card, factor, options.representable, options.both_steps)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
                 title = f"{source.stem}, {changed['test']['contact']['bridge']['c_n']:.3g}"

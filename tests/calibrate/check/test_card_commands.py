@@ -51,7 +51,8 @@ class CardCommands(unittest.TestCase):
                 self.assertIn(words, result.stdout)
 
     def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):
-        cut, newer, impossible, unit = (self.folder / name for name in ("cut", "newer", "impossible", "unit"))
+        cut, newer, impossible, unit, edited = (
+            self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited"))
         text = CARD.read_text()
         cut.write_text(text[: len(text) // 2])
         newer.write_text(text.replace("pastefit-card-2", "pastefit-card-7"))
@@ -61,7 +62,11 @@ class CardCommands(unittest.TestCase):
         card = json.loads(text)
         card["test"]["grains"]["radius"] = card["test"]["grains"].pop("radius_m")
         unit.write_text(json.dumps(card))
-        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m"}
+        card = json.loads(text)
+        card["test"]["contact"]["friction"] += 0.1
+        edited.write_text(json.dumps(card))
+        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m",
+                 edited: "test.contact.friction"}
         out = self.folder / "out"
         for file, word in words.items():
             for verb in (["show", file], ["rescale", file, "--radius", "9", "--out", out],

@@ -162,6 +162,7 @@ TEST_CASE("the style for LAMMPS names every fault of its words") {
 TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
   Card card;
   card.test.contact = paste(BridgeShape::polynomial);
+  card.test.drop = DropPlate{};
   ExportScene scene;
   scene.packing.centres = {{0, 0, kRadius}};
   scene.packing.radii = {kRadius};
@@ -185,6 +186,9 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
     style::WallLaw wall;
     CHECK(style::read_wall_law(after("wall/pastefit mould ", "\ncompute"), wall) == "");
     CHECK(wall.friction == scene.card.test.mould_wall.friction);
+    style::Hinge plate;
+    CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
+    CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));
     if (shape == BridgeShape::polynomial) CHECK(law.a_n_m2 == -1500);
   }
 }
