@@ -92,7 +92,7 @@ void ContactMemory::unpack_restart(int grain, int nth) {
 }
 
 double ContactMemory::memory_usage() {
-  double bytes = static_cast<double>(of_grain_.capacity() * sizeof(of_grain_[0]));
+  double bytes = static_cast<double>(of_grain_.capacity() * sizeof(std::vector<Entry>));
   for (const auto& entries : of_grain_) bytes += static_cast<double>(entries.capacity() * sizeof(Entry));
   return bytes;
 }
