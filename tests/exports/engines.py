@@ -52,7 +52,8 @@ def command_of(target, script, pastefit, deck, ranks=1):
 
 
 def environment():
-    return os.environ | {"OMP_NUM_THREADS": "1"}
+    # Ranks that wait leave the processor to others.
+    return os.environ | {"OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
 
 
 def export(pastefit, card, target, deck, packing=None):
