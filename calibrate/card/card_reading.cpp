@@ -2,6 +2,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
+#include "calibrate/card/two_forms.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/names.h"
 #include "calibrate/study/parameters.h"
@@ -270,6 +271,7 @@ Result<Card> card_from_json(const json& document) {
     read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
   }
+  if (faults.empty()) faults = differing_forms(card);
   if (!faults.empty()) return faults;
   return card;
 }

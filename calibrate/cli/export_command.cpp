@@ -27,6 +27,7 @@ std::string notes_text(const Exporter& exporter, const ExportScene& scene, const
   std::string out = scene.card.title + "\n" + std::string(exporter.meaning) + "\n\n";
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
+  if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
   return out;
 }
 
@@ -61,9 +62,12 @@ int export_card(const ExportOptions& options) {
   if (!folder.ok()) return report(folder.faults());
   auto files = written.value().files;
   files.push_back({kNotes, notes_text(*exporter, scene.value(), written.value())});
-  for (const auto& file : files)
+  for (const auto& file : files) {
+    std::error_code ignored;  // what cannot be made cannot be written into
+    std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
     if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
       return report(unwritten, kFailed);
+  }
   for (const auto& file : files) std::printf("wrote %s\n", folder.value().file(file.name).c_str());
   std::fputs(files.back().content.c_str(), stdout);
   return kDone;
@@ -74,7 +78,8 @@ int export_card(const ExportOptions& options) {
 Command add_export(CLI::App& verb) {
   const auto options = std::make_shared<ExportOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  verb.add_option("--to", options->target, "target: lammps, liggghts, yade, mercurydpm, csv or edem-notes")
+  verb.add_option("--to", options->target,
+                  "target: lammps, lammps-tables, liggghts, yade, mercurydpm, csv or edem-notes")
       ->required()
       ->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");

@@ -8,7 +8,10 @@ namespace pastefit {
 
 std::span<const Exporter> exporters() {
   static constexpr std::array kExporters{
-      Exporter{"lammps", "deck of the slump test, step 1, for LAMMPS, with the attraction as tables", export_lammps},
+      Exporter{"lammps", "deck of the slump test for LAMMPS, and the card's laws as styles for it", export_lammps},
+      Exporter{"lammps-tables",
+               "deck of the slump test, step 1, for LAMMPS as it stands, with the attraction as tables",
+               export_lammps_tables},
       Exporter{"liggghts", "deck of the slump test, step 1, for LIGGGHTS, with its nearest law", export_liggghts},
       Exporter{"yade", "Python module and script of the slump test, step 1, for Yade", export_yade},
       Exporter{"mercurydpm", "parameters, force table and instructions for MercuryDPM", export_mercurydpm},

@@ -24,13 +24,15 @@ struct ExportScene {
 Result<ExportScene> export_scene(const Card& card, std::uint64_t packing);
 
 struct ExportFile {
-  std::string name, content;
+  std::string name;  ///< in the folder of the export, with / where it has folders of its own
+  std::string content;
 };
 
 /// A card in the words of another program.
 struct Export {
   std::vector<ExportFile> files;
   std::vector<std::string> notes;  ///< what the target cannot represent, each with a number; for people
+  std::string instructions = {};   ///< how to run it
 };
 
 /// A target. Errors of `write`: a law the target lacks and nothing can stand in for.
@@ -44,6 +46,7 @@ struct Exporter {
 std::span<const Exporter> exporters();
 
 Result<Export> export_lammps(const ExportScene& scene);
+Result<Export> export_lammps_tables(const ExportScene& scene);
 Result<Export> export_liggghts(const ExportScene& scene);
 Result<Export> export_yade(const ExportScene& scene);
 Result<Export> export_mercurydpm(const ExportScene& scene);

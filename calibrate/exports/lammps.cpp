@@ -1,180 +1,105 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/force_curve.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/lammps_style.h"
+#include "calibrate/exports/parameter_table.h"
 #include "calibrate/report/format.h"
-#include "core/laws/constants.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr int kTablePoints = 4001;
-constexpr double kDeepest = 0.3;  // of the smaller radius; LAMMPS stops at grains that overlap more
+/// lmp_pastefit defines the variable (data/lammps/lmp_pastefit.cpp).
+const char* const kGuard = R"guard(if "! $(is_defined(variable,pastefit_style))" then &
+  "print 'This deck needs pair style pastefit: build style/ as NOTES.txt says, and run lmp_pastefit in place of lmp.'" &
+  "quit 2"
+if "${pastefit_style} != 1" then &
+  "print 'This deck was written for version 1 of pair style pastefit: build lmp_pastefit from the style/ beside it.'" &
+  "quit 2"
+)guard";
 
-/// The polynomial by which LAMMPS's "damping tsuji" turns a restitution into its coefficient (pair_style granular).
-double tsuji(double e) {
-  constexpr std::array<double, 7> kFactors{1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218};
-  double sum = 0;
-  for (std::size_t i = kFactors.size(); i-- > 0;) sum = sum * e + kFactors[i];
-  return sum;
+const char* const kConventions = R"(#
+# Conventions. Names and numbers of the laws are those of the card; style/README.md explains them.
+#
+#   lmp_pastefit -in in.slump                          one core
+#   mpirun -np 2 lmp_pastefit -in in.slump             two ranks
+
+)";
+
+const char* const kBuild =
+    "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
+    "    (cd style && mpicxx -O3 -std=c++17 -I. -isystem /usr/include/lammps *.cpp -o ../lmp_pastefit -llammps)\n"
+    "    ./lmp_pastefit -in in.slump              or: mpirun -np 2 ./lmp_pastefit -in in.slump\n";
+
+/// " &" and a name with its number, on a line of its own.
+std::string number(const char* name, double value) {
+  return format(" &\n             %s %.17g", name, value);
 }
 
-/// The restitution to give to LAMMPS for the damping of ours: gamma sqrt(m* 4/3 E* a) = 2 sqrt(5/6) beta sqrt(m* 2 E*
-/// a) asks for gamma = sqrt(5) beta. LAMMPS's own number would damp a third less.
-double lammps_restitution(double restitution) {
-  const double wanted = std::sqrt(5.0) * damping_ratio(restitution);
-  double low = 0, high = 1;  // the polynomial falls all the way
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (tsuji(middle) > wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+template <class T, std::size_t N>
+std::string word(const char* name, T value, const std::array<Named<T>, N>& words) {
+  return format(" &\n             %s ", name) + word_of(value, words);
 }
 
-/// "hertz ... damping tsuji" of a pair whose contacts rest at this overlap.
-std::string granular_model(const PairConstants& pair, bool rolls, double effective_radius, double effective_mass,
-                           double resting_overlap, double restitution) {
-  const double shear = pair.tangential_ratio * pair.normal_stiffness;
-  std::string out = format("hertz %.17g %.17g tangential mindlin_rescale/force %.17g %.17g %.17g", pair.hertz,
-                           lammps_restitution(restitution), shear, std::sqrt(pair.tangential_ratio), pair.friction);
-  if (rolls && pair.rolling_friction > 0) {
-    const double stiffness = pair.normal_stiffness * std::sqrt(effective_radius * resting_overlap);
-    const double dashpot = 0.6 * std::sqrt(1.4 * 2.25) * pair.rolling_friction * std::sqrt(stiffness * effective_mass);
-    out += format(" rolling sds %.17g %.17g %.17g", 2.25 * stiffness * pair.rolling_friction * pair.rolling_friction,
-                  dashpot, pair.rolling_friction);
-  }
-  return out + " damping tsuji";
+std::string bridge_words(const Bridge& bridge) {
+  std::string out = word("bridge", bridge.shape, bridge_shapes);
+  if (bridge.shape == BridgeShape::none) return out;
+  if (bridge.shape == BridgeShape::capillary)
+    out += number("liquid_volume_m3", bridge.liquid_volume_m3) +
+           number("surface_tension_n_m", bridge.surface_tension_n_m) +
+           number("contact_angle_rad", bridge.contact_angle_rad);
+  else
+    out += number("c_n", bridge.c_n) + number("d_c_m", bridge.d_c_m);
+  if (bridge.shape == BridgeShape::polynomial) out += number("a_n_m2", bridge.a_n_m2) + number("b_n_m", bridge.b_n_m);
+  out += word("formation", bridge.formation, bridge_formations);
+  if (bridge.formation == BridgeFormation::film) out += number("offset_m", bridge.offset_m);
+  return out;
 }
 
-/// One table, equidistant in r^2 with a point at touch and the last one at rupture: what LAMMPS uses as it stands.
-/// Columns: number, r, energy, force; negative forces attract.
-std::string table_of(const ContactModel& contact, const GrainPair& pair, const std::string& name, double& cutoff) {
-  const double touch = pair.first_radius_m + pair.second_radius_m;
-  const double reach = bridge_gaps(contact, pair).rupture_m;
-  const double deepest = touch - kDeepest * std::min(pair.first_radius_m, pair.second_radius_m);
-  cutoff = touch + reach;
-  const double outside = cutoff * cutoff - touch * touch, inside = touch * touch - deepest * deepest;
-  const int last = kTablePoints - 1;
-  const int steps = std::clamp(static_cast<int>(last * outside / (outside + inside)), 1, last - 1);
-  const double h = outside / steps;
-  const double smallest = std::sqrt(cutoff * cutoff - last * h);
-  std::string out = format("%s\nN %d RSQ %.17g %.17g\n\n", name.c_str(), kTablePoints, smallest, cutoff);
-  for (int i = 0; i <= last; ++i) {
-    const int from_touch = i - (last - steps);
-    const double r = i == last ? cutoff : std::sqrt(std::max(touch * touch + from_touch * h, smallest * smallest));
-    const double overlap = i == last ? -reach : (from_touch == 0 ? 0.0 : touch - r);
-    const double energy = overlap > 0
-                              ? -bridge_work_j(contact, pair, 0, reach) - overlap * attraction_n(contact, pair, overlap)
-                              : -bridge_work_j(contact, pair, -overlap, reach);
-    out += format("%d %.17g %.17g %.17g\n", i + 1, r, energy, -attraction_n(contact, pair, overlap));
-  }
-  return out + "\n";
-}
-
-double mass_of(double radius, double density) {
-  return 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius * density;
-}
-
-Faults lacking(const SlumpTable& test) {
-  Faults faults;
-  if (test.contact.rolling == RollingModel::constant_torque)
-    faults.push_back({"test.contact.rolling", "is a constant torque, which LAMMPS's granular style lacks",
-                      "calibrate with rolling_model \"spring_dashpot\" or \"none\""});
-  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
-    if (wall.cohesion_factor > 0)
-      faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
-                        "is not 0, but LAMMPS's walls attract no grain across a gap",
-                        "calibrate with " + std::string(name) + "_cohesion_factor 0"});
-  return faults;
-}
-
-std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
-  const auto& test = scene.card.test;
+std::string pair_style(const SlumpTable& test) {
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
-  const GrainPair pair{radius, radius, radius};
-  const auto gaps = bridge_gaps(contact, pair);
-  std::vector<std::string> notes;
-  if (gaps.remembers()) {
-    const double whole = bridge_work_j(contact, pair, 0, gaps.rupture_m);
-    const double early = bridge_work_j(contact, pair, gaps.formation_m, gaps.rupture_m);
-    notes.push_back(
-        format("A table has no memory. The card's bridge forms at a gap of %.4g mm and ruptures at %.4g mm; "
-               "in the deck grains attract each other already on their way to each other. Each new bridge "
-               "gains %.3g J too early, %.1f %% of the work of the bridge (%.3g J).",
-               1e3 * gaps.formation_m, 1e3 * gaps.rupture_m, early, 100 * early / whole, whole));
-  }
-  const double pull = attraction_n(contact, pair, 1e-12);
-  if (contact.friction_basis == FrictionBasis::total && pull > 0)
-    notes.push_back(
-        format("The card's friction is of the total normal force; LAMMPS's granular style, which does not "
-               "see the table, takes that of the elastic force. Under the weight of ten grains its limit "
-               "is %.3g N in the deck, %.3g N on the card: the material of the deck is stiffer.",
-               contact.friction * (10 * weight + pull), contact.friction * 10 * weight));
-  if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
-    notes.push_back(
-        "The rolling spring is constant, that of a contact at rest under the weight of ten grains; on the "
-        "card it grows with the root of the overlap. The largest rolling moment is the same.");
-  if (scene.sizes.radii_m.size() > 1)
-    notes.push_back(
-        format("Grains take the radius of their class, %zu classes; the largest change of a radius is "
-               "%.2f %%.",
-               scene.sizes.radii_m.size(), 100 * scene.sizes.largest_change));
-  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
-  notes.push_back("The table is endless in the deck; grains that would spill over its edge stay on it.");
-  return notes;
+  return "pair_style   pastefit" + number("reference_radius_m", radius) +
+         number("youngs_modulus_pa", contact.youngs_modulus_pa) + number("poissons_ratio", contact.poissons_ratio) +
+         number("restitution", contact.restitution) + number("friction", contact.friction) +
+         word("friction_basis", contact.friction_basis, friction_bases) +
+         number("rolling_friction", contact.rolling_friction) + word("rolling", contact.rolling, rolling_models) +
+         number("cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12)) + bridge_words(contact.bridge) +
+         "\npair_coeff   * *\n";
+}
+
+std::string wall_fix(const std::string& name, const WallContact& wall) {
+  return "fix          " + name + " all wall/pastefit " + name + number("youngs_modulus_pa", wall.youngs_modulus_pa) +
+         number("poissons_ratio", wall.poissons_ratio) + number("restitution", wall.restitution) +
+         number("friction", wall.friction) + number("rolling_friction", wall.rolling_friction) +
+         number("cohesion_factor", wall.cohesion_factor) + "\n";
 }
 
 }  // namespace
 
 Result<Export> export_lammps(const ExportScene& scene) {
+  auto style = lammps_style();
+  if (!style.ok()) return style.faults();
   const auto& test = scene.card.test;
-  if (auto faults = lacking(test); !faults.empty()) return faults;
-  const auto& sizes = scene.sizes.radii_m;
-  const double radius = test.grains.radius_m, density = scene.grain_density_kg_m3;
-  const double load = 10 * mass_of(radius, density) * 9.81;
-  const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
-
-  LammpsDeck deck;
-  deck.table_points = kTablePoints;
-  const PairConstants grains = grain_pair(test.contact, radius);
-  std::string tables = "# attraction of two grains; read by \"pair_coeff ... table\"\n\n";
-  const bool attracts = attraction_n(test.contact, {radius, radius, radius}, 1e-12) > 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    for (std::size_t j = i; j < sizes.size(); ++j) {
-      const GrainPair pair{sizes[i], sizes[j], radius};
-      const double first = mass_of(sizes[i], density), second = mass_of(sizes[j], density);
-      LammpsPair one;
-      one.first = static_cast<int>(i) + 1;
-      one.second = static_cast<int>(j) + 1;
-      one.granular = granular_model(grains, rolls, pair.effective_radius_m(), first * second / (first + second),
-                                    resting_overlap_m(test.contact, pair, load), test.contact.restitution);
-      if (attracts) {
-        one.table = format("ATTRACTION_%d_%d", one.first, one.second);
-        tables += table_of(test.contact, pair, one.table, one.cutoff_m);
-      }
-      deck.pairs.push_back(one);
-    }
-  const GrainPair on_wall{2 * radius, 2 * radius, radius};  // R* = radius
-  const auto wall_model = [&](const WallContact& wall) {
-    const PairConstants pair = wall_pair(test.contact, wall, radius);
-    const double overlap = std::pow(load / (pair.hertz * std::sqrt(radius)), 2.0 / 3.0);
-    return granular_model(pair, rolls, on_wall.effective_radius_m(), mass_of(radius, density), overlap,
-                          wall.restitution);
-  };
-  deck.mould_wall = wall_model(test.mould_wall);
-  deck.table_wall = wall_model(test.table_wall);
-
+  const std::string pairs = pair_style(test);
+  const LammpsLaws laws{kGuard,
+                        kConventions,
+                        pairs,
+                        pairs,
+                        wall_fix("table", test.table_wall),
+                        wall_fix("ground", ground_of(test.table_wall)),
+                        wall_fix("mould", test.mould_wall),
+                        true};
   Export out;
-  out.notes = losses_of(scene, load / 10);
-  out.files = {{"in.slump", slump_deck(scene, deck, out.notes)},
-               {"in.two_grains", two_grains_deck(scene, deck)},
-               {"grains.data", grains_data(scene)}};
-  if (attracts) out.files.push_back({"attraction.table", tables});
+  out.notes.push_back(
+      "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
+      "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
+      "them.");
+  out.instructions = kBuild;
+  out.files = {{"in.slump", slump_deck(scene, laws, out.notes)},
+               {"in.two_grains", two_grains_deck(scene, laws)},
+               {"grains.data", grains_data(scene, scene.packing.radii)}};
+  for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});
   return out;
 }
 

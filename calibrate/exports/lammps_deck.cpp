@@ -16,21 +16,22 @@ constexpr double kGravity = 9.81;
 constexpr double kRelaxDrag = 40;  // [1/s], as in our own relaxation of the fill
 constexpr double kRelaxTime = 0.25;
 constexpr double kRestTime = 4.0;
+constexpr double kFallTime = 2.0;     // [s] at most
+constexpr double kGroundDepth = 0.1;  // [m] below the table, as in our own test
+const std::string kRest = R"(
+# the heap comes to rest
+run          ${first}
+fix          over all halt 100 v_speed < 0.0005 error continue message no
+run          ${rest}
+unfix        over
+)";
+const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
   std::string out = "# " + scene.card.title + "\n# written by " + program_identity() + " from a material card\n";
   if (!notes.empty()) out += "#\n# What is lost or changed:\n";
   for (const auto& note : notes) out += "# - " + note + "\n";
   return out;
-}
-
-std::string conventions() {
-  return R"(#
-# Conventions. normal "hertz k e": k = 4/3 E*, force k sqrt(R*) d^1.5. "damping tsuji": LAMMPS turns e into the factor of
-# sqrt(m* k a) by a polynomial; e below is chosen such that the factor is sqrt(5) beta(e of the card), which is the
-# damping 2 sqrt(5/6) beta sqrt(S_n m*). tangential: stiffness 8 G*, damping ratio sqrt(4 G*/E*), friction.
-# rolling sds: stiffness, dashpot, friction. Walls: E*, G* of grain and wall. Attraction: tables, negative = pull.
-)";
 }
 
 std::string begin(const char* comment) {
@@ -41,30 +42,6 @@ boundary     f f f
 newton       off
 comm_modify  mode single vel yes
 )";
-}
-
-/// `version` of LAMMPS is a date as a number; an older program would misread the deck.
-std::string version_guard() {
-  return R"(variable     program_version equal version
-if "${program_version} < 20210929" then &
-  "print 'This deck needs LAMMPS of 29 September 2021 or later (pair style granular with mindlin_rescale/force).'" &
-  "quit 2"
-)";
-}
-
-std::string pair_styles(const LammpsDeck& deck, bool only_first) {
-  const bool attracts = !deck.pairs[0].table.empty();
-  std::string out = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", deck.table_points)
-                             : "pair_style   granular\n";
-  for (const auto& pair : deck.pairs) {
-    if (only_first && (pair.first > 1 || pair.second > 1)) continue;
-    out +=
-        format("pair_coeff   %d %d ", pair.first, pair.second) + (attracts ? "granular " : "") + pair.granular + "\n";
-    if (attracts)
-      out += format("pair_coeff   %d %d table attraction.table %s %.17g\n", pair.first, pair.second, pair.table.c_str(),
-                    pair.cutoff_m);
-  }
-  return out;
 }
 
 double grain_mass(const ExportScene& scene, double radius) {
@@ -79,6 +56,24 @@ std::string drag(const ExportScene& scene) {
   return out + "\n";
 }
 
+/// Step 2. Turning up takes the way of our own test; then the plate falls by its own weight and that of the heap.
+std::string drop_deck(const DropPlate& drop) {
+  const double angle = std::asin(drop.lift_height_m / drop.length_m);
+  std::string out = "\n# step 2: the plate turns up about its hinge\nvariable     start equal $(time)\n";
+  out += format("variable     share equal (time-v_start)/%.17g\n", drop.lift_duration_s);
+  out += format("variable     tilt equal %.17g*v_share*v_share*(3-2*v_share)\n", -angle);
+  out += format("variable     raise equal floor(%.6g/dt)\nrun          ${raise}\n", drop.lift_duration_s);
+  out += format("variable     tilt equal %.17g\n", -angle) + kRest;
+  out += "\n# it falls, until it is level\n";
+  out += format("fix          plate all hinge/pastefit table mass_kg %.17g inertia_kg_m2 %.17g arm_m %.17g &\n",
+                drop.mass_kg, drop.mass_kg * drop.length_m * drop.length_m / 3, 0.5 * drop.length_m);
+  out += format("             x_m %.17g z_m 0 angle_rad %.17g\n", -0.5 * drop.length_m, -angle);
+  out += "variable     tilt equal f_plate\nfix          level all halt 1 v_tilt >= 0 error continue message no\n";
+  out += format("variable     fall equal ceil(%.6g/dt)\nrun          ${fall}\n", kFallTime);
+  out += "unfix        level\nvariable     tilt equal 0\nunfix        plate\n" + kRest;
+  return out + "write_dump   all custom heap2.dump " + kDump;
+}
+
 }  // namespace
 
 double deck_time_step_s(const ExportScene& scene) {
@@ -91,98 +86,101 @@ double deck_time_step_s(const ExportScene& scene) {
   return std::floor(step / digit) * digit;
 }
 
-std::string slump_deck(const ExportScene& scene, const LammpsDeck& deck, const std::vector<std::string>& notes) {
+std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   const auto& test = scene.card.test;
   const auto& mould = test.mould;
-  std::string out = header(scene, notes) + conventions();
-  out += "#\n#   lmp -in in.slump                    one core\n#   mpirun -np 2 lmp -in in.slump       two ranks\n\n";
-  out += begin("# the scene");
-  out += version_guard();
-  out += "processors   * * 1\nread_data    grains.data\n";
-  out += pair_styles(deck, false);
+  std::string out = header(scene, notes) + laws.conventions;
+  out += begin("# the scene") + laws.guard;
+  out += "processors   * * 1\nread_data    grains.data\n" + laws.pairs;
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
   out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
-  out += "fix          table all wall/gran granular " + deck.table_wall + " zplane 0.0 NULL\n\n";
+  const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
+  const bool falls = test.drop && laws.hinge;
+  if (falls) out += "variable     tilt equal 0\n";
+  out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out", -half, half, -half, half,
+                -0.5 * kGroundDepth);
+  out += falls ? format(" rotate v_tilt %.17g 0 0 0 1 0\n", -half) : "\n";
+  out += format("region       ground plane 0 0 %.17g 0 0 1\n", -kGroundDepth);
+  out += "variable     rise equal 0\n";
+  out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
+                mould.base_radius_m, mould.top_radius_m, mould.height_m);
+  out += laws.table_wall + laws.ground_wall + laws.mould_wall;
   out += "compute      top all reduce max z\n";
   out += "variable     speed equal sqrt(2*ke/mass(all))   # root mean square [m/s]\n";
   out += "thermo_style custom step time atoms ke c_top v_speed\nthermo       1000\n";
   out += "thermo_modify norm no lost error\n\n";
 
   out += "# the fill feels its attraction: relax in the mould, with drag\n";
-  out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2\n", mould.base_radius_m,
-                mould.top_radius_m, mould.height_m);
-  out += "fix          mould all wall/gran/region granular " + deck.mould_wall + " region mould\n";
   out += drag(scene);
   out += format("variable     relax equal ceil(%.6g/dt)\nrun          ${relax}\n", kRelaxTime);
-  out +=
-      "unfix        drag\nwrite_dump   all custom filled.dump id type x y z radius modify sort id format float %.9g\n";
-  out += "unfix        mould\nregion       mould delete\n\n";
+  out += "unfix        drag\nwrite_dump   all custom filled.dump " + kDump;
 
-  out += "# step 1: the mould rises at constant speed until it is above the heap\n";
-  out += "variable     start equal ${relax}*dt\n";
+  out += "\n# step 1: the mould rises at constant speed until it is above the heap\n";
+  out += "variable     start equal $(time)\n";
   out += format("variable     rise equal %.17g*(time-v_start)\n", test.lift_velocity_m_s);
-  out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
-                mould.base_radius_m, mould.top_radius_m, mould.height_m);
-  out += "fix          mould all wall/gran/region granular " + deck.mould_wall + " region mould\n";
   out += "variable     below equal c_top-v_rise\n";
   out += "fix          over all halt 100 v_below < 0 error continue message no\n";
   out += format("variable     lift equal ceil(%.6g/dt)\nrun          ${lift}\n",
                 1.2 * mould.height_m / test.lift_velocity_m_s);
-  out += "unfix        over\nunfix        mould\n\n";
+  out += "unfix        over\nunfix        mould\nregion       mould delete\n";
 
-  out += "# the heap comes to rest\n";
-  out += format("variable     rest equal ceil(%.6g/dt)\nvariable     first equal ceil(0.2/dt)\nrun          ${first}\n",
-                kRestTime);
-  out += "fix          over all halt 100 v_speed < 0.0005 error continue message no\nrun          ${rest}\n";
-  out += "write_dump   all custom heap.dump id type x y z radius modify sort id format float %.9g\n";
+  out += format("variable     rest equal ceil(%.6g/dt)\nvariable     first equal ceil(0.2/dt)\n", kRestTime);
+  out += kRest;
+  out += "write_dump   all custom heap.dump " + kDump;
+  if (falls) out += drop_deck(*test.drop);
   out += "run          0 post no\nprint        \"highest grain centre $(c_top) m\"\n";
   return out;
 }
 
-std::string two_grains_deck(const ExportScene& scene, const LammpsDeck& deck) {
+std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
   constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
   const double nearest = 2 * radius - 0.05 * radius;
   const double reach =
       bridge_gaps(scene.card.test.contact, {radius, radius, scene.card.test.grains.radius_m}).rupture_m;
   const double farthest = 2 * radius + 1.05 * std::max(reach, 0.05 * radius);
-  std::string out = header(scene, {}) + begin("# force of two grains against their distance; prints \"pair r F\"");
-  out += version_guard();
+  std::string out = header(scene, {});
+  out += begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
                 4 * radius, -4 * radius, 4 * radius);
   out += "create_box   1 box\ncreate_atoms 1 single 0 0 0\n";
   out += format("create_atoms 1 single %.17g 0 0\n", nearest);
   out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
                 scene.grain_density_kg_m3);
-  out += pair_styles(deck, true);
+  out += laws.first_pair;
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\n", 0.15 * radius);
-  out += "fix          motion all nve/sphere\nthermo_style custom step\n";
+  out += "fix          motion all nve/sphere\n";
   out += "group        second id 2\ncompute      push second reduce sum fx\ncompute      at second reduce sum x\n";
   out += "thermo_style custom step c_push c_at\n";
   out += "variable     push equal c_push\nvariable     at equal c_at\n";
-  out += format("variable     n loop %d\nlabel        next_distance\n", kDistances + 1);
-  out += "run          0 post no\n";
-  out += "print        \"pair $(v_at:%.17g) $(v_push:%.17g)\"\n";
-  out += format("displace_atoms second move %.17g 0 0 units box\n", (farthest - nearest) / kDistances);
-  out += "next         n\njump         SELF next_distance\n";
+  for (const auto& [way, sign] : {std::pair{"apart", 1}, std::pair{"back", -1}}) {
+    out += format("variable     n loop %d\nlabel        next_%s\nrun          0 post no\n", kDistances + 1, way);
+    out += format("print        \"%s $(v_at:%%.17g) $(v_push:%%.17g)\"\n", way);
+    out += format("displace_atoms second move %.17g 0 0 units box\n", sign * (farthest - nearest) / kDistances);
+    out += format("next         n\njump         SELF next_%s\n", way);
+  }
   return out;
 }
 
-std::string grains_data(const ExportScene& scene) {
+WallContact ground_of(WallContact table) {
+  table.rolling_friction = 1;
+  return table;
+}
+
+std::string grains_data(const ExportScene& scene, std::span<const double> radii) {
   const auto& test = scene.card.test;
   const auto& grains = scene.packing.centres;
-  const double margin = 4 * *std::ranges::max_element(scene.sizes.radii_m);
+  const double margin = 4 * std::ranges::max(radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
   std::string out = "grains of a filled mould, written by pastefit\n\n";
   out += format("%zu atoms\n%zu atom types\n\n", grains.size(), scene.sizes.radii_m.size());
-  out += format("%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n%.9g %.9g zlo zhi\n\n", -half, half, -half, half, -margin,
-                2 * test.mould.height_m + margin);
+  out += format("%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n%.9g %.9g zlo zhi\n\n", -half, half, -half, half,
+                -kGroundDepth - margin, 2 * test.mould.height_m + margin);
   out += "Atoms # sphere\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i)
-    out += format("%zu %d %.17g %.17g %.17g %.17g %.17g\n", i + 1, scene.sizes.class_of[i] + 1,
-                  2 * scene.sizes.radii_m[scene.sizes.class_of[i]], scene.grain_density_kg_m3, grains[i].x, grains[i].y,
-                  grains[i].z);
+    out += format("%zu %d %.17g %.17g %.17g %.17g %.17g\n", i + 1, scene.sizes.class_of[i] + 1, 2 * radii[i],
+                  scene.grain_density_kg_m3, grains[i].x, grains[i].y, grains[i].z);
   return out;
 }
 

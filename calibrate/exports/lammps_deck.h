@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -7,29 +8,28 @@
 
 namespace pastefit {
 
-/// Two size classes and their interaction in LAMMPS's words.
-struct LammpsPair {
-  int first = 1, second = 1;  ///< atom types
-  std::string granular;       ///< arguments of "pair_coeff i j granular"
-  std::string table;          ///< keyword in attraction.table; empty: no attraction
-  double cutoff_m = 0;        ///< where the table ends
+/// The contact laws of a scene in LAMMPS's words; everything else of a deck does not depend on them.
+struct LammpsLaws {
+  std::string guard;                                ///< commands that stop a program which would misread the deck
+  std::string conventions;                          ///< comment
+  std::string pairs, first_pair;                    ///< pair style and coefficients; of the first size class only
+  std::string table_wall, ground_wall, mould_wall;  ///< "fix ..." with regions table, ground, mould
+  bool hinge = false;                               ///< fix hinge/pastefit is there
 };
 
-struct LammpsDeck {
-  std::vector<LammpsPair> pairs;
-  std::string mould_wall, table_wall;  ///< arguments of "fix wall/gran granular"
-  int table_points = 0;
-};
+/// The slump test: relax in the mould, lift, rest; and, where the laws have a hinge and the card a drop plate, step 2:
+/// turn the plate up, rest, let it fall, rest. Notes become comments.
+std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
-/// Step 1 of the slump test: relax in the mould, lift, rest. Notes become comments.
-std::string slump_deck(const ExportScene& scene, const LammpsDeck& deck, const std::vector<std::string>& notes);
+/// Two grains of the first class at distances from an overlap of a twentieth of their radius to beyond rupture, and
+/// back; prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive.
+std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws);
 
-/// Two grains of the first class at distances from an overlap of a twentieth of their radius to beyond rupture; prints
-/// "pair DISTANCE FORCE" for each, repulsion positive.
-std::string two_grains_deck(const ExportScene& scene, const LammpsDeck& deck);
+/// The filled mould: id, type, diameter, density, position. Types are size classes; `radii_m` one for each grain.
+std::string grains_data(const ExportScene& scene, std::span<const double> radii_m);
 
-/// The filled mould: id, type, diameter, density, position.
-std::string grains_data(const ExportScene& scene);
+/// Where grains land that flow over the table's edge, as in our own test.
+WallContact ground_of(WallContact table);
 
 /// Tenth of the Rayleigh time of the smallest grain [s], rounded down to two digits: pi R sqrt(rho/G)/(0.1631 nu +
 /// 0.8766).

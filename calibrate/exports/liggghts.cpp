@@ -116,7 +116,7 @@ std::string two_grains_deck(const ExportScene& scene, const Models& models, cons
   const double radius = scene.card.test.grains.radius_m, speed = 1e-9;
   const double nearest = 1.95 * radius;
   const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
-  std::string out = begin(scene, "force of two grains against their distance; prints \"pair r F\"", {});
+  std::string out = begin(scene, "force of two grains against their distance; prints \"apart r F\"", {});
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   3 box\n", -4 * radius,
                 8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius);
   out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", nearest);
@@ -131,7 +131,7 @@ std::string two_grains_deck(const ExportScene& scene, const Models& models, cons
   out += "fix          hold first move linear 0 0 0 units box\n";
   out += "compute      push second reduce sum fx\ncompute      at second reduce sum x\n";
   out += "variable     push equal c_push\nvariable     at equal c_at\n";
-  out += "thermo_style custom step c_push c_at\nfix          out all print 1 \"pair ${at} ${push}\"\n";
+  out += "thermo_style custom step c_push c_at\nfix          out all print 1 \"apart ${at} ${push}\"\n";
   return out + format("run          %d\n", kDistances);
 }
 

@@ -2,19 +2,11 @@
 
 #include "calibrate/exports/force_curve.h"
 #include "calibrate/report/format.h"
-#include "calibrate/study/names.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {
 
 namespace {
-
-template <class T, std::size_t N>
-std::string word_of(T value, const std::array<Named<T>, N>& words) {
-  for (const auto& word : words)
-    if (word.value == value) return std::string(word.name);
-  return "?";
-}
 
 void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const WallContact& wall) {
   rows.push_back({name + ".youngs_modulus_pa", wall.youngs_modulus_pa, "of the wall"});

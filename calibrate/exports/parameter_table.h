@@ -4,8 +4,17 @@
 #include <vector>
 
 #include "calibrate/exports/export.h"
+#include "calibrate/study/names.h"
 
 namespace pastefit {
+
+/// The word of all files for a choice of a test.
+template <class T, std::size_t N>
+std::string word_of(T value, const std::array<Named<T>, N>& words) {
+  for (const auto& word : words)
+    if (word.value == value) return std::string(word.name);
+  return "?";
+}
 
 /// One number of a card, for tables in any form.
 struct ParameterRow {

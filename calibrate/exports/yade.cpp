@@ -173,7 +173,8 @@ print('highest grain centre %.9g m' % max(O.bodies[i].state.pos[2] for i in ids)
 )PY";
 
 constexpr const char* kTwoGrains = R"PY(# Force of two grains against their distance.   yade -n -x two_grains.py
-# The second is pulled from an overlap out beyond rupture; prints "pair r F", repulsion positive.
+# The second is pulled from an overlap out beyond rupture, and pushed back; prints "apart r F", then "back r F",
+# repulsion positive.
 import os, sys
 sys.path.insert(0, os.getcwd())
 from pastefit_material import *
@@ -188,10 +189,11 @@ O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()], verletD
              PyRunner(command='attraction.act()', iterPeriod=1, initRun=True),
              NewtonIntegrator(damping=0.0)]
 O.dt = 1e-12
-for n in range(distances + 1):
+for way, order in (('apart', range(distances + 1)), ('back', range(distances, -1, -1))):
+  for n in order:
     O.bodies[ids[1]].state.pos = Vector3(nearest + n * (farthest - nearest) / distances, 0, 0)
     O.run(1, True)
-    print('pair %.17g %.17g' % (O.bodies[ids[1]].state.pos[0], O.forces.f(ids[1])[0]))
+    print(way + ' %.17g %.17g' % (O.bodies[ids[1]].state.pos[0], O.forces.f(ids[1])[0]))
 )PY";
 
 std::string module_of(const ExportScene& scene) {

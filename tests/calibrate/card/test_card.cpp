@@ -102,6 +102,21 @@ TEST_CASE("a card with faults names every one of them with its place") {
   CHECK(read.faults().size() == 4);
 }
 
+TEST_CASE("a card whose two forms of the law differ was edited in one place, and says where") {
+  const auto written = text_and_back(to_json(card()));
+  auto document = written;
+  document["test"]["contact"]["friction"] = 0.31;
+  document["test"]["contact"]["bridge"]["c_n"] = written["test"]["contact"]["bridge"]["c_n"].get<double>() * 1.0001;
+  const auto read = card_from_json(document);
+  REQUIRE_FALSE(read.ok());
+  std::string places;
+  for (const auto& fault : read.faults()) places += fault.where + " ";
+  CHECK(places == "test.contact.bridge.c_n test.contact.friction ");
+  document = written;
+  document["parameters"]["strength_pa"] = 1.0001 * written["parameters"]["strength_pa"].get<double>();
+  CHECK_FALSE(card_from_json(document).ok());
+}
+
 TEST_CASE("a card without its test, and another kind of file, are faults") {
   auto document = text_and_back(to_json(card()));
   document.erase("test");

@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 CARD = SOURCE / "tests/calibrate/card/versions/card-2.json"
-TARGETS = ["lammps", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
+TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
 def run(*arguments):
@@ -51,7 +51,8 @@ class CardCommands(unittest.TestCase):
                 self.assertIn(words, result.stdout)
 
     def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):
-        cut, newer, impossible, unit = (self.folder / name for name in ("cut", "newer", "impossible", "unit"))
+        cut, newer, impossible, unit, edited = (
+            self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited"))
         text = CARD.read_text()
         cut.write_text(text[: len(text) // 2])
         newer.write_text(text.replace("pastefit-card-2", "pastefit-card-7"))
@@ -61,7 +62,11 @@ class CardCommands(unittest.TestCase):
         card = json.loads(text)
         card["test"]["grains"]["radius"] = card["test"]["grains"].pop("radius_m")
         unit.write_text(json.dumps(card))
-        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m"}
+        card = json.loads(text)
+        card["test"]["contact"]["friction"] += 0.1
+        edited.write_text(json.dumps(card))
+        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m",
+                 edited: "test.contact.friction"}
         out = self.folder / "out"
         for file, word in words.items():
             for verb in (["show", file], ["rescale", file, "--radius", "9", "--out", out],
@@ -87,7 +92,7 @@ class CardCommands(unittest.TestCase):
         card["test"]["contact"]["rolling"] = "constant_torque"
         file = self.folder / "card.json"
         file.write_text(json.dumps(card))
-        self.fails(run("export", file, "--to", "lammps", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
+        self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
         self.assertFalse((self.folder / "x").exists())
 
     def test_rescale_measures_its_bias_and_the_new_card_is_a_card(self):

@@ -121,25 +121,25 @@ TEST_CASE("every exporter writes files, and says what it loses") {
   }
 }
 
-TEST_CASE("what LAMMPS cannot represent is said with a number") {
+TEST_CASE("what LAMMPS as it stands cannot represent is said with a number") {
   Card material = card();
   material.test.contact.bridge.offset_m = 0.1 * -material.test.contact.bridge.d_c_m;
   material.test.contact.friction_basis = FrictionBasis::total;
-  const auto written = export_lammps(scene(material));
+  const auto written = export_lammps_tables(scene(material));
   REQUIRE(written.ok());
   const auto text = text_of(written.value());
   // c (1 - gap/reach): from 0.2 of the reach on, 64 % of the work
   CHECK_THAT(text, Catch::Contains("no memory") && Catch::Contains("64.0 % of the work"));
   CHECK_THAT(text, Catch::Contains("friction is of the total normal force"));
   material.test.contact.bridge.offset_m = -material.test.contact.bridge.d_c_m;
-  CHECK_THAT(text_of(export_lammps(scene(material)).value()), !Catch::Contains("no memory"));
+  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("no memory"));
 }
 
 TEST_CASE("a law the target lacks is refused, with a remedy") {
   Card material = card();
   material.test.contact.rolling = RollingModel::constant_torque;
   material.test.table_wall.cohesion_factor = 0.5;
-  for (const auto write : {&export_lammps, &export_yade}) {
+  for (const auto write : {&export_lammps_tables, &export_yade}) {
     const auto written = write(scene(material));
     REQUIRE_FALSE(written.ok());
     CHECK(written.faults().size() == 2);
@@ -147,11 +147,11 @@ TEST_CASE("a law the target lacks is refused, with a remedy") {
   CHECK(export_liggghts(scene(material)).ok());
 }
 
-TEST_CASE("sizes become types in LAMMPS, each pair with its own table") {
+TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table") {
   auto several = scene(card());
   several.packing.radii = {0.006, 0.008, 0.010};
   several.sizes = size_classes(several.packing.radii);
-  const auto written = export_lammps(several);
+  const auto written = export_lammps_tables(several);
   REQUIRE(written.ok());
   const auto text = text_of(written.value());
   CHECK_THAT(text,

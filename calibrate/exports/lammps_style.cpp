@@ -1,0 +1,35 @@
+#include "calibrate/exports/lammps_style.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace pastefit {
+
+namespace fs = std::filesystem;
+
+Result<std::vector<ExportFile>> lammps_style() {
+  std::vector<fs::path> folders;
+  if (const char* data = std::getenv("PASTEFIT_DATA_DIR"); data && *data) folders.emplace_back(data);
+  folders.emplace_back(PASTEFIT_SOURCE_DATA_DIR);
+  folders.emplace_back(PASTEFIT_INSTALL_DATA_DIR);
+  for (const fs::path& data : folders) {
+    const fs::path folder = data / "lammps";
+    std::vector<ExportFile> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
+      if (!entry.is_regular_file()) continue;
+      std::ifstream in(entry.path(), std::ios::binary);
+      files.push_back({entry.path().lexically_relative(folder).generic_string(),
+                       std::string(std::istreambuf_iterator<char>(in), {})});
+    }
+    std::ranges::sort(files, {}, &ExportFile::name);
+    if (!files.empty()) return files;
+  }
+  return Fault{"--to lammps", "the sources of its style were not found",
+               "set PASTEFIT_DATA_DIR to the data folder of pastefit, or export with --to lammps-tables"};
+}
+
+}  // namespace pastefit

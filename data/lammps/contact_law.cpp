@@ -1,0 +1,168 @@
+#include "contact_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit_lammps {
+
+namespace {
+
+const double kPi = std::acos(-1.0);
+
+double damping_ratio(double restitution) {
+  const double ln = std::log(restitution);
+  return -ln / std::sqrt(ln * ln + kPi * kPi);
+}
+
+double shear_modulus(double youngs_modulus, double poissons_ratio) {
+  return youngs_modulus / (2 * (1 + poissons_ratio));
+}
+
+/// A vector of the contact plane, carried along with the contact: into the plane as it is now, turned by `angle`, as
+/// long as it was.
+Vector carried(const Vector& v, const Vector& normal, double angle) {
+  const Vector flat = v - dot(v, normal) * normal;
+  const Vector turned = flat + angle * cross(normal, flat);
+  const double length = norm(turned);
+  return length > 0 ? norm(v) / length * turned : Vector{};
+}
+
+/// The factor that brings a vector of this length down to the limit.
+double cap(double length, double limit) {
+  return length > limit ? limit / length : 1;
+}
+
+}  // namespace
+
+Contact::Contact(const Law& law) {
+  set_elastic(law, law.youngs_modulus_pa, law.poissons_ratio, law.restitution);
+  friction_ = law.friction;
+  rolling_friction_ = law.rolling_friction;
+  set_attraction(law, 1, 2);
+}
+
+Contact::Contact(const Law& law, const WallLaw& wall) {
+  set_elastic(law, wall.youngs_modulus_pa, wall.poissons_ratio, wall.restitution);
+  friction_ = wall.friction;
+  rolling_friction_ = wall.rolling_friction;
+  set_attraction(law, wall.cohesion_factor, 1);
+}
+
+void Contact::set_elastic(const Law& law, double e, double nu, double restitution) {
+  const double own_nu = law.poissons_ratio, own_e = law.youngs_modulus_pa;
+  const double e_star = 1 / ((1 - own_nu * own_nu) / own_e + (1 - nu * nu) / e);
+  const double g_star = 1 / ((2 - own_nu) / shear_modulus(own_e, own_nu) + (2 - nu) / shear_modulus(e, nu));
+  hertz_ = 4.0 / 3.0 * e_star;
+  normal_stiffness_ = 2 * e_star;
+  tangential_ratio_ = 4 * g_star / e_star;
+  damping_ = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
+  friction_of_total_ = law.friction_basis == "total";
+  reference_radius_ = law.reference_radius_m;
+  if (law.rolling == "spring_dashpot") rolling_ = Rolling::spring_dashpot;
+  if (law.rolling == "constant_torque") rolling_ = Rolling::constant_torque;
+}
+
+void Contact::set_attraction(const Law& law, double share, double shells) {
+  cohesion_ = share * law.cohesion_n;
+  if (law.bridge == "none" || share == 0) return;
+  c_ = share * law.c_n;
+  rupture_gap_ = -law.d_c_m;
+  formation_gap_ = law.formation == "film" ? shells * law.offset_m : 0;
+  if (law.bridge == "polynomial") {
+    bridge_ = Bridge::polynomial;
+    a_ = share * law.a_n_m2;
+    b_ = share * law.b_n_m;
+  } else if (law.bridge == "linear") {
+    bridge_ = Bridge::polynomial;
+    b_ = c_ / rupture_gap_;
+  } else if (law.bridge == "exponential") {
+    bridge_ = Bridge::exponential;
+    b_ = 3 / rupture_gap_;
+  } else {
+    bridge_ = Bridge::capillary;
+    const double radius = law.reference_radius_m, volume = law.liquid_volume_m3, root = std::cbrt(volume);
+    c_ = share * 2 * kPi * radius * law.surface_tension_n_m * std::cos(law.contact_angle_rad);
+    rupture_gap_ = (1 + 0.5 * law.contact_angle_rad) * (root + 0.1 * root * root / radius);
+    a_ = 2.5 * radius / volume;
+    b_ = 1.05 * std::sqrt(radius / volume);
+  }
+}
+
+/// Forms and ruptures the bridge; its pull [N], none while the bodies overlap.
+double Contact::attraction(double overlap, double scale, Memory& memory) const {
+  if (bridge_ == Bridge::none) return 0;
+  const double gap = -overlap / scale;
+  if (gap <= formation_gap_) memory.bridge = 1;
+  if (gap > rupture_gap_) memory.bridge = 0;
+  if (memory.bridge == 0 || overlap > 0) return 0;
+  switch (bridge_) {
+    case Bridge::polynomial:
+      return scale * scale * ((a_ * gap - b_) * gap + c_);
+    case Bridge::exponential:
+      return scale * scale * c_ * std::exp(-b_ * gap);
+    default:
+      return scale * scale * c_ / (1 + (b_ + a_ * gap) * gap);
+  }
+}
+
+Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance) const {
+  const double scale = size_scale(m.radius);
+  const double pull = attraction(m.overlap, scale, memory);
+  Action action;
+  if (m.overlap <= 0) {
+    memory.slip = memory.roll = {};
+    memory.contact_radius = 0;
+    action.force = pull * m.normal;
+    return action;
+  }
+  const double contact_radius = std::sqrt(m.radius * m.overlap);
+  const double stiffness_n = normal_stiffness_ * contact_radius, stiffness_t = tangential_ratio_ * stiffness_n;
+  const double repulsion = hertz_ * contact_radius * m.overlap;
+  // Velocities are those of half a step ago; the denominators make the dampers right to second order in dt.
+  const double damping_n = damping_ * std::sqrt(stiffness_n * m.mass);
+  const double damping_t = damping_ * std::sqrt(stiffness_t * m.mass);
+  const double braked_n = 1 / (1 + 0.5 * dt * damping_n / m.mass);
+  const double braked_t = 1 / (1 + 1.75 * dt * damping_t / m.mass);
+  const double approach = dot(m.velocity, m.normal);
+  const double push = repulsion + braked_n * damping_n * approach - cohesion_ * scale * scale - pull;
+  const double load = friction_of_total_ ? std::max(push, 0.0) : repulsion;
+
+  // A spring that stiffens keeps its force, one that softens its stretch: neither makes energy.
+  const double softened = std::min(1.0, memory.contact_radius / contact_radius);
+  const Vector sliding = m.velocity - approach * m.normal;
+  const Vector slip = softened * carried(memory.slip, m.normal, m.twist * advance) + advance * sliding;
+  const Vector drag = stiffness_t * slip + damping_t * braked_t * sliding;
+  const double kept = cap(norm(drag), friction_ * load);
+  memory.slip = kept * slip;
+  action.traction = -kept * drag;
+  action.force = action.traction - push * m.normal;
+  roll(m, load, softened, braked_n, dt, advance, memory, action);
+  memory.contact_radius = contact_radius;
+  return action;
+}
+
+void Contact::roll(const Meeting& m, double load, double softened, double braked, double dt, double advance,
+                   Memory& memory, Action& action) const {
+  const double limit = rolling_friction_ * load * m.radius;
+  const Vector rolling = m.spin - dot(m.spin, m.normal) * m.normal;
+  if (rolling_ == Rolling::spring_dashpot) {
+    // Ai et al. 2011: k_r = 2.25 S_n (mu_r R*)^2, dashpot 2 eta sqrt(I_r k_r) with eta 0.3 while the spring holds.
+    const double lever = rolling_friction_ * m.radius;
+    const double stiffness_n = normal_stiffness_ * std::sqrt(m.radius * m.overlap);
+    const double stiffness = 2.25 * stiffness_n * lever * lever;
+    const Vector turn = softened * carried(memory.roll, m.normal, m.twist * advance) + advance * rolling;
+    const double kept = cap(stiffness * norm(turn), limit);
+    const double dashpot = kept < 1 ? 0
+                                    : 0.6 * std::sqrt(1.4 * 2.25) * rolling_friction_ *
+                                          std::sqrt(stiffness_n * m.mass) * m.radius * m.radius * braked;
+    memory.roll = kept * turn;
+    action.moment = -stiffness * memory.roll - dashpot * rolling;
+  } else if (rolling_ == Rolling::constant_torque) {
+    // Near rest a dashpot that takes a tenth of a grain's spin in a step; the torque's sign would alternate.
+    const double gentle = 0.08 * m.smaller_radius * m.smaller_radius * m.mass / dt;
+    const double speed = norm(rolling);
+    action.moment = -(speed * gentle > limit ? limit / speed : gentle) * rolling;
+  }
+}
+
+}  // namespace pastefit_lammps

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vector.h"
+
+namespace pastefit_lammps {
+
+/// The contact law of a pastefit card: words and numbers as on the card. SI units.
+struct Law {
+  double reference_radius_m = 0;  ///< grain radius to which forces and lengths of the bridge belong
+  double youngs_modulus_pa = 0, poissons_ratio = 0;
+  double restitution = 0, friction = 0, rolling_friction = 0;
+  std::string rolling;         ///< none, spring_dashpot or constant_torque
+  std::string friction_basis;  ///< elastic or total
+  double cohesion_n = 0;       ///< constant attraction of grains that overlap
+  std::string bridge;          ///< none, polynomial, linear, exponential or capillary
+  std::string formation;       ///< film or touch
+  double a_n_m2 = 0, b_n_m = 0, c_n = 0, d_c_m = 0, offset_m = 0;
+  double liquid_volume_m3 = 0, surface_tension_n_m = 0, contact_angle_rad = 0;
+};
+
+/// What grains meet at a wall.
+struct WallLaw {
+  double youngs_modulus_pa = 0, poissons_ratio = 0;
+  double restitution = 0, friction = 0, rolling_friction = 0;
+  double cohesion_factor = 0;  ///< share of the grains' attraction that acts here
+};
+
+/// A plate that turns about a hinge along y.
+struct Hinge {
+  double mass_kg = 0, inertia_kg_m2 = 0;  ///< inertia about the hinge
+  double arm_m = 0;                       ///< of its centre, towards +x when level
+  double x_m = 0, z_m = 0;                ///< of the hinge
+  double angle_rad = 0;                   ///< at the beginning; negative is raised
+};
+
+/// Reads "name value name value ...". Every name has to be there once, but for those of the bridge, whose shape says
+/// which it needs. Returns what is wrong, one line for each fault; empty: nothing.
+std::string read_law(const std::vector<std::string>& words, Law& law);
+std::string read_wall_law(const std::vector<std::string>& words, WallLaw& wall);
+std::string read_hinge(const std::vector<std::string>& words, Hinge& hinge);
+
+/// What a contact remembers; numbers only, because it travels between processors as such.
+struct Memory {
+  Vector slip;                ///< tangential displacement [m]
+  Vector roll;                ///< relative rotation across the normal [rad]
+  double contact_radius = 0;  ///< sqrt(R* d) at the last step [m]; 0: the bodies did not touch
+  double bridge = 0;          ///< 1 while a liquid bridge lives
+
+  static constexpr int size = 8;  ///< numbers
+  bool empty() const { return contact_radius == 0 && bridge == 0; }
+  /// The same contact seen from the other body.
+  Memory turned() const { return {-1.0 * slip, -1.0 * roll, contact_radius, bridge}; }
+};
+static_assert(sizeof(Memory) == Memory::size * sizeof(double));
+
+/// Two bodies seen from their contact; i is a grain, j a grain or a wall.
+struct Meeting {
+  Vector normal;       ///< unit vector from i to j
+  double overlap = 0;  ///< > 0 bodies interpenetrate, < 0 a gap [m]
+  Vector velocity;     ///< of i relative to j at the contact, spins included [m/s]
+  Vector spin;         ///< of i less that of j [rad/s]
+  double twist = 0;    ///< mean spin about the normal [rad/s]
+  double radius = 0;   ///< effective, R*
+  double mass = 0;     ///< effective, m*
+  double smaller_radius = 0;
+};
+
+/// On body i; body j gets the opposite. The torque of the traction is lever * normal x traction on both.
+struct Action {
+  Vector force;     ///< [N]
+  Vector traction;  ///< tangential part of it [N]
+  Vector moment;    ///< rolling resistance [N m]
+};
+
+/// A law between two surfaces: forces and memory of one contact.
+class Contact {
+ public:
+  Contact() = default;
+  /// Grain on grain; on a wall, which carries no liquid shell of its own.
+  explicit Contact(const Law& law);
+  Contact(const Law& law, const WallLaw& wall);
+
+  /// Gap at which a bridge of a pair with this effective radius ruptures [m].
+  double reach(double effective_radius) const { return size_scale(effective_radius) * rupture_gap_; }
+
+  /// One step of dt; `advance` is dt, or 0 where time stands still (forces at the beginning of a run).
+  ///
+  /// Overlap d > 0: Hertz 4/3 E* sqrt(R*) d^1.5, constant cohesion against it, damping 2 sqrt(5/6) beta sqrt(S_n m*),
+  /// Mindlin spring 8 G* sqrt(R* d) with the friction limit on spring and damper together, rolling resistance.
+  /// Gap: the bridge's attraction, if it lives. It forms at the formation gap and lives until the rupture gap.
+  Action act(const Meeting& meeting, Memory& memory, double dt, double advance) const;
+
+ private:
+  void set_elastic(const Law& law, double e, double nu, double restitution);
+  void set_attraction(const Law& law, double share, double shells);
+  double size_scale(double effective_radius) const { return 2 * effective_radius / reference_radius_; }
+  double attraction(double overlap, double scale, Memory& memory) const;
+  void roll(const Meeting& meeting, double load, double softened, double braked, double dt, double advance,
+            Memory& memory, Action& action) const;
+
+  enum class Rolling { none, spring_dashpot, constant_torque } rolling_ = Rolling::none;
+  enum class Bridge { none, polynomial, exponential, capillary } bridge_ = Bridge::none;
+  double reference_radius_ = 1, hertz_ = 0, normal_stiffness_ = 0, tangential_ratio_ = 0, damping_ = 0;
+  double friction_ = 0, rolling_friction_ = 0, cohesion_ = 0;
+  bool friction_of_total_ = false;
+  double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0;
+};
+
+}  // namespace pastefit_lammps

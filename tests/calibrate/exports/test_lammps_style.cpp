@@ -1,0 +1,194 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/exports/export.h"
+#include "calibrate/study/names.h"
+#include "core/laws/contact.h"
+#include "data/lammps/contact_law.h"
+
+// The contact law is written a second time for LAMMPS (data/lammps); here both act on the same motions.
+
+using namespace pastefit;
+namespace style = pastefit_lammps;
+
+namespace {
+
+constexpr double kRadius = 0.008, kStep = 1e-5;
+
+ContactModel paste(BridgeShape shape) {
+  ContactModel model;
+  model.cohesion_n = 0.2;
+  model.bridge = {shape, BridgeFormation::film, -1500, 40, 0.3, -0.004, 0.0012, 1e-9, 3, 0.2};
+  return model;
+}
+
+style::Law law_of(const ContactModel& model) {
+  const auto word = [](auto value, const auto& words) {
+    for (const auto& one : words)
+      if (one.value == value) return std::string(one.name);
+    return std::string();
+  };
+  const Bridge& bridge = model.bridge;
+  return {kRadius,
+          model.youngs_modulus_pa,
+          model.poissons_ratio,
+          model.restitution,
+          model.friction,
+          model.rolling_friction,
+          word(model.rolling, rolling_models),
+          word(model.friction_basis, friction_bases),
+          *model.cohesion_n,
+          word(bridge.shape, bridge_shapes),
+          word(bridge.formation, bridge_formations),
+          bridge.a_n_m2,
+          bridge.b_n_m,
+          bridge.c_n,
+          bridge.d_c_m,
+          bridge.offset_m,
+          bridge.liquid_volume_m3,
+          bridge.surface_tension_n_m,
+          bridge.contact_angle_rad};
+}
+
+/// A pair that comes together, is pressed, sheared, rolled and twisted, and is torn apart beyond rupture.
+struct Motion {
+  double time = 0;
+
+  double overlap() const { return 2e-4 - 6e-3 * std::cos(40 * time) * std::cos(40 * time); }
+  style::Vector normal() const {
+    return {std::cos(0.3 * time) * std::cos(2 * time), std::cos(0.3 * time) * std::sin(2 * time), std::sin(0.3 * time)};
+  }
+  style::Vector velocity() const { return {0.3 * std::sin(50 * time), 0.2, -0.4 * std::cos(70 * time)}; }
+  style::Vector spin() const { return {3 * std::cos(60 * time), 20 * std::sin(30 * time), -5}; }
+};
+
+Vec3 of(const style::Vector& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Largest difference of a force, and of a moment over the radius, in units of the largest force [1].
+template <class Attraction, class Rolling>
+double difference(const PairConstants& pair, const style::Contact& contact, double small, double large) {
+  const double radius = small * large / (small + large), mass = 0.003;
+  Memory<double> memory{};
+  style::Memory other{};
+  double largest = 0, worst = 0;
+  for (Motion motion; motion.time < 0.1; motion.time += kStep) {
+    const Meeting<double> meeting{of(motion.normal()),
+                                  motion.overlap(),
+                                  of(motion.velocity()),
+                                  of(motion.spin()),
+                                  7.0,
+                                  std::min(small, large),
+                                  std::sqrt(radius),
+                                  std::sqrt(mass),
+                                  1 / mass,
+                                  2 * radius / kRadius,
+                                  0.0};
+    const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, false);
+    const Vec3 force = action.traction - action.push * meeting.normal;
+    const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
+                                     mass, std::min(small, large)},
+                                    other, kStep, kStep);
+    largest = std::max(largest, norm(force));
+    worst = std::max({worst, norm(force - of(theirs.force)), norm(action.moment - of(theirs.moment)) / kRadius});
+    CHECK(memory.bridge == other.bridge);
+  }
+  return worst / largest;
+}
+
+template <class Attraction>
+void compare(BridgeShape shape) {
+  for (const auto basis : {FrictionBasis::elastic, FrictionBasis::total}) {
+    ContactModel model = paste(shape);
+    model.friction_basis = basis;
+    const auto of_law = [&](RollingModel rolling, const auto& check) {
+      model.rolling = rolling;
+      const WallContact wall{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
+      const style::WallLaw same{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
+      check(grain_pair(model, kRadius), style::Contact(law_of(model)));
+      check(wall_pair(model, wall, kRadius), style::Contact(law_of(model), same));
+    };
+    of_law(RollingModel::none, [](const auto& pair, const auto& contact) {
+      CHECK(difference<Attraction, NoRolling>(pair, contact, 0.006, 0.010) < 1e-6);
+    });
+    of_law(RollingModel::spring_dashpot, [](const auto& pair, const auto& contact) {
+      CHECK(difference<Attraction, SpringDashpotRolling>(pair, contact, 0.006, 0.010) < 1e-6);
+    });
+    of_law(RollingModel::constant_torque, [](const auto& pair, const auto& contact) {
+      CHECK(difference<Attraction, ConstantTorqueRolling>(pair, contact, 0.006, 0.010) < 1e-6);
+    });
+  }
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> out;
+  std::string word;
+  for (const char c : text + " ") {
+    if (c != ' ') word += c;
+    if (c == ' ' && !word.empty()) out.push_back(std::exchange(word, ""));
+  }
+  return out;
+}
+
+const std::string kPlain =
+    "reference_radius_m 0.008 youngs_modulus_pa 2e6 poissons_ratio 0.3 restitution 0.3 friction 0.5 rolling_friction "
+    "0.1 "
+    "rolling none friction_basis total cohesion_n 0.2 bridge none";
+
+}  // namespace
+
+TEST_CASE("the law that is exported to LAMMPS acts as the engine's, bridge after bridge") {
+  compare<NoAttraction>(BridgeShape::none);
+  compare<PolynomialAttraction>(BridgeShape::polynomial);
+  compare<PolynomialAttraction>(BridgeShape::linear);
+  compare<ExponentialAttraction>(BridgeShape::exponential);
+  compare<CapillaryAttraction>(BridgeShape::capillary);
+}
+
+TEST_CASE("the style for LAMMPS names every fault of its words") {
+  style::Law law;
+  CHECK(style::read_law(words(kPlain), law).empty());
+  const std::string faults = style::read_law(
+      words("reference_radius_m 0 youngs_modulus_pa 2e6x poissons_ratio 0.3 restitution 0.3 friction 0.5 fricton 0.1 "
+            "rolling some friction_basis total cohesion_n 0.2 bridge polynomial c_n 1 d_c_m 0.004 a_n_m2 0 b_n_m 0"),
+      law);
+  for (const char* fault :
+       {"'reference_radius_m 0' is not in its range", "'youngs_modulus_pa 2e6x'", "'rolling_friction' is missing",
+        "'rolling some': one of none", "'d_c_m 0.004'", "'formation' is missing", "'fricton' is not known here"})
+    CHECK_THAT(faults, Catch::Contains(fault));
+}
+
+TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
+  Card card;
+  card.test.contact = paste(BridgeShape::polynomial);
+  card.test.drop = DropPlate{};
+  ExportScene scene;
+  scene.packing.centres = {{0, 0, kRadius}};
+  scene.packing.radii = {kRadius};
+  scene.card = card;
+  scene.sizes = size_classes(scene.packing.radii);
+  for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,
+                           BridgeShape::capillary}) {
+    scene.card.test.contact.bridge.shape = shape;
+    const auto written = export_lammps(scene);
+    REQUIRE(written.ok());
+    const std::string& deck = written.value().files[0].content;
+    const auto after = [&](const std::string& command, const std::string& end) {
+      const auto from = deck.find(command) + command.size();
+      std::string text = deck.substr(from, deck.find(end, from) - from);
+      std::erase(text, '&');
+      std::ranges::replace(text, '\n', ' ');
+      return words(text);
+    };
+    style::Law law;
+    CHECK(style::read_law(after("pair_style   pastefit ", "\npair_coeff"), law) == "");
+    style::WallLaw wall;
+    CHECK(style::read_wall_law(after("wall/pastefit mould ", "\ncompute"), wall) == "");
+    CHECK(wall.friction == scene.card.test.mould_wall.friction);
+    style::Hinge plate;
+    CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
+    CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));
+    if (shape == BridgeShape::polynomial) CHECK(law.a_n_m2 == -1500);
+  }
+}
