@@ -12,7 +12,7 @@ Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::fu
       at_start_(objective.budget_left()),
       common_packings_(options.packings) {
   budget_ = std::min(options.budget_simulations / objective.simulations_each(), at_start_);
-  for (const Response& response : objective.earlier()) keep_single(response);
+  for (const Response& response : objective.earlier()) keep_single(response, singles_);
 }
 
 int Ledger::budget_left() const {

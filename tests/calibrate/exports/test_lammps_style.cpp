@@ -83,7 +83,6 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
                                   std::sqrt(radius),
                                   std::sqrt(mass),
                                   1 / mass,
-                                  2 * radius / kRadius,
                                   0.0};
     const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, false);
     const Vec3 force = action.traction - action.push * meeting.normal;

@@ -57,7 +57,7 @@ TEST_CASE("coarse grains first: as reliable, and cheaper, though they stand lowe
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     CAPTURE(seed);
     Synthetic fine = fake_slump(target_of(seed), seed), coarse = coarse_fake_slump(target_of(seed), seed);
-    const Calibration calibration = search(fine, options_with(seed), {}, {}, &coarse);
+    const Calibration calibration = search(fine, options_with(seed), {}, {}, {}, &coarse);
     CHECK(calibration.simulations == fine.simulations);
     CHECK(calibration.coarse_simulations == coarse.simulations);
     CHECK(coarse.simulations >= options_with(seed).screening);
@@ -83,7 +83,7 @@ TEST_CASE("coarse grains first: as reliable, and cheaper, though they stand lowe
 TEST_CASE("coarse grains that always fail leave the search as it is without them") {
   Synthetic fine = fake_slump(150, 3), coarse = coarse_fake_slump(150, 3), alone = fake_slump(150, 3);
   coarse.fails = [](const UnitPoint&, std::uint64_t) { return true; };
-  const Calibration calibration = search(fine, options_with(3), {}, {}, &coarse);
+  const Calibration calibration = search(fine, options_with(3), {}, {}, {}, &coarse);
   const Calibration without = search(alone, options_with(3));
   CHECK(calibration.status == without.status);
   CHECK(calibration.simulations <= without.simulations + 20);
@@ -91,7 +91,7 @@ TEST_CASE("coarse grains that always fail leave the search as it is without them
 
 TEST_CASE("a height beyond the model is out of reach with coarse grains as well") {
   Synthetic fine = fake_slump(10, 2), coarse = coarse_fake_slump(10, 2);
-  CHECK(search(fine, options_with(2), {}, {}, &coarse).status == CalibrationStatus::out_of_reach);
+  CHECK(search(fine, options_with(2), {}, {}, {}, &coarse).status == CalibrationStatus::out_of_reach);
 }
 
 TEST_CASE("the default strategy meets two heights and a noisy sag at once") {
