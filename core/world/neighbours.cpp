@@ -25,12 +25,13 @@ double size_scale(double r1, double r2, double reference_radius) {
 }
 
 /// Contacts and bridges of the blocks as they were, grouped by the lower index of their grains: found again after the
-/// grains have been sorted.
+/// grains have been sorted. A block's lists are given up when the last of them has been, so that there are never two
+/// lists of the whole scene.
 class Remembered {
  public:
-  Remembered(const std::vector<Block>& blocks, const Candidates& old, const std::vector<std::int32_t>& new_place,
+  Remembered(std::vector<Block>& blocks, const Candidates& old, const std::vector<std::int32_t>& new_place,
              std::int32_t grains)
-      : blocks_(blocks), first_(grains + 1, 0) {
+      : blocks_(blocks), left_(blocks.size(), 0), first_(grains + 1, 0) {
     const auto lower = [&](std::size_t c) { return std::min(new_place[old.i[c]], new_place[old.j[c]]); };
     const auto upper = [&](std::size_t c) { return std::max(new_place[old.i[c]], new_place[old.j[c]]); };
     for (std::size_t c = 0; c < old.size(); ++c)
@@ -40,25 +41,15 @@ class Remembered {
     known_.resize(first_.back());
     for (std::size_t b = 0; b < blocks.size(); ++b)
       for (std::size_t c = blocks[b].candidates; c < blocks[b].candidates_end; ++c)
-        if (old.place(c) != Candidates::kNone)
+        if (old.place(c) != Candidates::kNone && ++left_[b] > 0)
           known_[next[lower(c)]++] = {upper(c), old.place(c), static_cast<std::int32_t>(b),
                                       new_place[old.i[c]] > new_place[old.j[c]]};
   }
 
   /// Puts the pair's memory into the block's lists and returns its place there.
-  std::int32_t recall(std::int32_t i, std::int32_t j, Block& block) const {
-    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p) {
-      const Known& known = known_[p];
-      if (known.upper != j) continue;
-      if (known.place >= 0) {
-        const Contact contact = blocks_[known.block].contacts.contact(known.place);
-        block.contacts.add(i, j, known.turned ? contact.turned() : contact);
-        return block.contacts.count - 1;
-      }
-      const double alive = blocks_[known.block].bridges.bridge(Candidates::bridge_at(known.place));
-      block.bridges.add(i, j, 0, alive);
-      return Candidates::place_of_bridge(block.bridges.count - 1);
-    }
+  std::int32_t recall(std::int32_t i, std::int32_t j, Block& block) {
+    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p)
+      if (known_[p].upper == j) return hand_over(known_[p], i, j, block);
     return Candidates::kNone;
   }
 
@@ -67,7 +58,27 @@ class Remembered {
     std::int32_t upper, place, block;
     bool turned;
   };
-  const std::vector<Block>& blocks_;
+
+  std::int32_t hand_over(const Known& known, std::int32_t i, std::int32_t j, Block& block) {
+    Block& old = blocks_[known.block];
+    std::int32_t place = Candidates::kNone;
+    if (known.place >= 0) {
+      const Contact contact = old.contacts.contact(known.place);
+      place = block.contacts.count;
+      block.contacts.add(i, j, known.turned ? contact.turned() : contact);
+    } else {
+      place = Candidates::place_of_bridge(block.bridges.count);
+      block.bridges.add(i, j, 0, old.bridges.bridge(Candidates::bridge_at(known.place)));
+    }
+    if (--left_[known.block] == 0) {
+      old.contacts = {};
+      old.bridges = {};
+    }
+    return place;
+  }
+
+  std::vector<Block>& blocks_;
+  std::vector<std::int32_t> left_;  ///< of each block's pairs, to be handed over
   std::vector<std::int32_t> first_;
   std::vector<Known> known_;
 };
@@ -157,11 +168,11 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   reorder(particles, sorted.order);
   std::vector<std::int32_t> new_place(n);
   for (std::int32_t k = 0; k < n; ++k) new_place[sorted.order[k]] = k;
-  const std::vector<Block> old = std::exchange(pairs.blocks, blocks_of(cells, first));
+  std::vector<Block> old = std::exchange(pairs.blocks, blocks_of(cells, first));
   for (Block& block : pairs.blocks) block.walls.resize(walls);
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
   Candidates& candidates = pairs.candidates;
-  const Remembered remembered(old, candidates, new_place, n);
+  Remembered remembered(old, candidates, new_place, n);
   candidates.clear();
   auto block = pairs.blocks.begin();
   const auto look = [&](std::int32_t i, std::int32_t begin, std::int32_t end) {
