@@ -8,8 +8,9 @@
 namespace pastefit {
 
 /// Adds --threads to a verb: from 1 to the processors of this machine.
-inline void add_threads(CLI::App& verb, int& threads) {
-  verb.add_option("--threads", threads, "simulations at the same time; default: one for each processor")
+inline void add_threads(CLI::App& verb, int& threads,
+                        const std::string& meaning = "simulations at the same time; default: one for each processor") {
+  verb.add_option("--threads", threads, meaning)
       ->type_name("N")
       ->check(CLI::Validator(
           [](std::string& text) -> std::string {

@@ -8,6 +8,7 @@
 
 #include "calibrate/card/atomic_file.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/scene.h"
 #include "calibrate/report/vtk.h"
@@ -30,6 +31,7 @@ struct SimulateOptions {
   bool json = false;
   std::optional<double> vtk_interval_s;
   std::optional<double> time_step_s;
+  int threads = 1;
 };
 
 const std::string kResult = "outcome.json";
@@ -117,6 +119,7 @@ int simulate_file(const SimulateOptions& options) {
 
   RunOptions run;
   run.steps.fixed_step_s = options.time_step_s;
+  run.steps.threads = options.threads;
   Faults unwritten;
   if (series) {
     run.watch_interval_s = *options.vtk_interval_s;
@@ -166,6 +169,8 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--time-step", options->time_step_s,
                   "fixed time step of the test; without it the step follows from the scene")
       ->type_name("SECONDS");
+  add_threads(verb, options->threads,
+              "threads that share the grains of the simulation (1); the result does not change");
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")

@@ -231,6 +231,12 @@ void solve(Residuals& residuals, UnitPoint& x, const CeresOptions& options) {
 
 }  // namespace
 
+std::optional<TrustRegion> trust_region_of(std::string_view strategy) {
+  if (strategy == "levenberg_marquardt") return TrustRegion::levenberg_marquardt;
+  if (strategy == "dogleg") return TrustRegion::dogleg;
+  return std::nullopt;
+}
+
 double noise_step(double noise, double curvature) {
   return std::clamp(curvature > 0 ? 2 * std::sqrt(noise / curvature) : 0.5, 0.01, 0.5);
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "calibrate/search/search_run.h"
 
@@ -10,6 +12,9 @@ namespace pastefit {
 
 /// How Ceres chooses a step within the trust region.
 enum class TrustRegion { levenberg_marquardt, dogleg };
+
+/// The strategies that Ceres carries out, by name; empty for any other name.
+std::optional<TrustRegion> trust_region_of(std::string_view strategy);
 
 /// What a residual costs; all but `none` keep one bad measurement from ruling the fit.
 enum class Loss { none, huber, cauchy };

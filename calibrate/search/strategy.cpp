@@ -24,13 +24,6 @@ constexpr double same_point = 0.01;     // proposals closer than this bring noth
 constexpr int coarse_tries = 4;         // proposals tried with coarse grains before one is with fine ones
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
 
-/// The strategies that Ceres carries out, by name.
-std::optional<TrustRegion> trust_region_of(std::string_view strategy) {
-  if (strategy == "levenberg_marquardt") return TrustRegion::levenberg_marquardt;
-  if (strategy == "dogleg") return TrustRegion::dogleg;
-  return std::nullopt;
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -388,36 +381,6 @@ std::string_view name_of(CalibrationStatus status) {
       return "failed";
   }
   return "unknown";
-}
-
-std::vector<std::string_view> strategy_names() {
-  std::vector<std::string_view> names = nlopt_algorithm_names();
-  names.insert(names.begin(), {"default", "levenberg_marquardt", "dogleg"});
-  return names;
-}
-
-Faults validate(const SearchOptions& options, int parameters, int tests) {
-  Faults faults;
-  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
-    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
-  };
-  demand(parameters >= 1, "parameters", "none is free", "free at least one");
-  if (options.strategy != "default" && !trust_region_of(options.strategy)) {
-    NloptOptions nlopt;
-    nlopt.algorithm = options.strategy;
-    for (const Fault& fault : validate(nlopt, parameters)) {
-      demand(false, "search.strategy", fault.what, "default, levenberg_marquardt, dogleg, or " + fault.remedy);
-    }
-  }
-  demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
-  demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
-  demand(options.confirmation_packings >= 1, "search.confirmation_packings",
-         std::to_string(options.confirmation_packings), "at least 1");
-  demand(options.tolerance_mm > 0, "search.tolerance_mm", number(options.tolerance_mm), "above 0");
-  const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
-  demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
-         "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
-  return faults;
 }
 
 Calibration search(Objective& objective, const SearchOptions& options,

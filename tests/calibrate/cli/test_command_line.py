@@ -78,7 +78,7 @@ class CommandLine(unittest.TestCase):
     def test_threads_that_are_not_there_are_bad_input(self):
         for threads in ("0", "-3", "two", "1.5", str(os.cpu_count() + 1), "99999999999999999999"):
             for verb in (["calibrate", STUDY, "--out", self.out], ["compare-optimisers", STUDY, "--out", self.out],
-                         ["check", CARD], ["rescale", CARD, "--radius", "7"]):
+                         ["check", CARD], ["rescale", CARD, "--radius", "7"], ["simulate", RIG]):
                 self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "processors")
         self.assertFalse(self.out.exists())
 

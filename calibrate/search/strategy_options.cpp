@@ -1,0 +1,39 @@
+#include <string>
+
+#include "calibrate/search/ceres_search.h"
+#include "calibrate/search/nlopt_search.h"
+#include "calibrate/search/strategy.h"
+
+namespace pastefit {
+
+std::vector<std::string_view> strategy_names() {
+  std::vector<std::string_view> names = nlopt_algorithm_names();
+  names.insert(names.begin(), {"default", "levenberg_marquardt", "dogleg"});
+  return names;
+}
+
+Faults validate(const SearchOptions& options, int parameters, int tests) {
+  Faults faults;
+  const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
+    if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
+  };
+  demand(parameters >= 1, "parameters", "none is free", "free at least one");
+  if (options.strategy != "default" && !trust_region_of(options.strategy)) {
+    NloptOptions nlopt;
+    nlopt.algorithm = options.strategy;
+    for (const Fault& fault : validate(nlopt, parameters)) {
+      demand(false, "search.strategy", fault.what, "default, levenberg_marquardt, dogleg, or " + fault.remedy);
+    }
+  }
+  demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
+  demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
+  demand(options.confirmation_packings >= 1, "search.confirmation_packings",
+         std::to_string(options.confirmation_packings), "at least 1");
+  demand(options.tolerance_mm > 0, "search.tolerance_mm", std::to_string(options.tolerance_mm), "above 0");
+  const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
+  demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
+         "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");
+  return faults;
+}
+
+}  // namespace pastefit
