@@ -52,14 +52,6 @@ void ContactList::pad(std::int32_t dummy) {
   while (count % kBatch != 0) add(dummy, dummy, nothing);
 }
 
-void ContactList::append(const ContactList& others) {
-  near = count;
-  for (std::int32_t batch = 0; batch < others.batch_count(); ++batch) {
-    next() = others.batches[batch];
-    count += kBatch - 1;
-  }
-}
-
 Contact ContactList::contact(std::int32_t k) const {
   const ContactBatch& batch = batches[k / kBatch];
   const int lane = k % kBatch;

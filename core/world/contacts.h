@@ -31,6 +31,14 @@ class BatchList {
   std::int32_t count = 0;  ///< pairs, the padding among them once it is there
 
   void clear() { count = 0; }
+  /// Puts those of another list after them; both are padded.
+  void append(const BatchList& others) {
+    for (std::int32_t batch = 0; batch < others.batch_count(); ++batch) {
+      next() = others.batches[batch];
+      count += kBatch - 1;
+    }
+  }
+  void reserve(std::int32_t pairs) { batches.reserve((pairs + kBatch - 1) / kBatch); }
   std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }
 
  protected:
@@ -50,8 +58,6 @@ class ContactList : public BatchList<ContactBatch> {
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
   void pad(std::int32_t dummy);
-  /// Puts those of another list, padded like this one, after them as those that may touch.
-  void append(const ContactList& near);
   Contact contact(std::int32_t k) const;
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/world/cells.h"
@@ -25,13 +26,13 @@ double size_scale(double r1, double r2, double reference_radius) {
 }
 
 /// Contacts and bridges of the blocks as they were, grouped by the lower index of their grains: found again after the
-/// grains have been sorted. A block's lists are given up when the last of them has been, so that there are never two
-/// lists of the whole scene.
+/// grains have been sorted. A block's lists are given up when the grains they belong to are done with, so that there
+/// are never two lists of the whole scene.
 class Remembered {
  public:
   Remembered(std::vector<Block>& blocks, const Candidates& old, const std::vector<std::int32_t>& new_place,
              std::int32_t grains)
-      : blocks_(blocks), left_(blocks.size(), 0), first_(grains + 1, 0) {
+      : blocks_(blocks), last_(blocks.size(), -1), first_(grains + 1, 0) {
     const auto lower = [&](std::size_t c) { return std::min(new_place[old.i[c]], new_place[old.j[c]]); };
     const auto upper = [&](std::size_t c) { return std::max(new_place[old.i[c]], new_place[old.j[c]]); };
     for (std::size_t c = 0; c < old.size(); ++c)
@@ -41,15 +42,36 @@ class Remembered {
     known_.resize(first_.back());
     for (std::size_t b = 0; b < blocks.size(); ++b)
       for (std::size_t c = blocks[b].candidates; c < blocks[b].candidates_end; ++c)
-        if (old.place(c) != Candidates::kNone && ++left_[b] > 0)
+        if (old.place(c) != Candidates::kNone) {
+          last_[b] = std::max(last_[b], lower(c));
           known_[next[lower(c)]++] = {upper(c), old.place(c), static_cast<std::int32_t>(b),
                                       new_place[old.i[c]] > new_place[old.j[c]]};
+        }
+  }
+
+  /// Gives up what belongs to pairs whose lower index is below `grain`.
+  void forget_before(std::int32_t grain) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (last_[b] >= grain) continue;
+      blocks_[b].contacts = {};
+      blocks_[b].bridges = {};
+    }
   }
 
   /// Puts the pair's memory into the block's lists and returns its place there.
-  std::int32_t recall(std::int32_t i, std::int32_t j, Block& block) {
-    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p)
-      if (known_[p].upper == j) return hand_over(known_[p], i, j, block);
+  std::int32_t recall(std::int32_t i, std::int32_t j, Block& block) const {
+    for (std::int32_t p = first_[i]; p < first_[i + 1]; ++p) {
+      const Known& known = known_[p];
+      if (known.upper != j) continue;
+      const Block& old = blocks_[known.block];
+      if (known.place >= 0) {
+        const Contact contact = old.contacts.contact(known.place);
+        block.contacts.add(i, j, known.turned ? contact.turned() : contact);
+        return block.contacts.count - 1;
+      }
+      block.bridges.add(i, j, 0, old.bridges.bridge(Candidates::bridge_at(known.place)));
+      return Candidates::place_of_bridge(block.bridges.count - 1);
+    }
     return Candidates::kNone;
   }
 
@@ -58,27 +80,8 @@ class Remembered {
     std::int32_t upper, place, block;
     bool turned;
   };
-
-  std::int32_t hand_over(const Known& known, std::int32_t i, std::int32_t j, Block& block) {
-    Block& old = blocks_[known.block];
-    std::int32_t place = Candidates::kNone;
-    if (known.place >= 0) {
-      const Contact contact = old.contacts.contact(known.place);
-      place = block.contacts.count;
-      block.contacts.add(i, j, known.turned ? contact.turned() : contact);
-    } else {
-      place = Candidates::place_of_bridge(block.bridges.count);
-      block.bridges.add(i, j, 0, old.bridges.bridge(Candidates::bridge_at(known.place)));
-    }
-    if (--left_[known.block] == 0) {
-      old.contacts = {};
-      old.bridges = {};
-    }
-    return place;
-  }
-
   std::vector<Block>& blocks_;
-  std::vector<std::int32_t> left_;  ///< of each block's pairs, to be handed over
+  std::vector<std::int32_t> last_;  ///< by block: the largest lower index among its pairs
   std::vector<std::int32_t> first_;
   std::vector<Known> known_;
 };
@@ -194,6 +197,8 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
           if (i == block->grains_end) {
             block->candidates_end = candidates.size();
             (++block)->candidates = candidates.size();
+            remembered.forget_before(i);
+            block->contacts.reserve(std::prev(block)->contacts.count);
           }
           look(i, i + 1, first[next + 1]);
           look_around(cells, first, x, y, z, [&](std::int32_t begin, std::int32_t end) { look(i, begin, end); });
@@ -248,9 +253,13 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
   chosen.bridges.pad(particles.count());
   for (const std::size_t c : chosen.near_candidates)
     candidates.set_place(c, chosen.contacts.count + candidates.place(c));
-  chosen.contacts.append(chosen.near);
-  std::swap(block.contacts, chosen.contacts);
-  std::swap(block.bridges, chosen.bridges);
+  // Copied, not swapped: lists that wander from block to block all become as long as the longest.
+  block.contacts.clear();
+  block.contacts.append(chosen.contacts);
+  block.contacts.near = block.contacts.count;
+  block.contacts.append(chosen.near);
+  block.bridges.clear();
+  block.bridges.append(chosen.bridges);
   return deepest;
 }
 
@@ -258,7 +267,7 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
                     Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway) {
   // Both lists are in the order of the grains: one pass merges memory into the new list.
   const ContactList& contacts = touching.contacts;
-  ContactList& chosen = selection.contacts;
+  ContactList& chosen = selection.at_wall;
   chosen.clear();
   std::int32_t old = 0;
   for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
@@ -274,7 +283,8 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
   }
   touching.count = chosen.count;
   chosen.pad(particles.count());
-  std::swap(touching.contacts, chosen);
+  touching.contacts.clear();
+  touching.contacts.append(chosen);
   touching.batches.assign(touching.contacts.batch_count(), {});
   for (std::int32_t k = touching.count; k < touching.contacts.count; ++k)
     touching.batches.back().overlap[k % kBatch] = -1;

@@ -98,7 +98,7 @@ struct Deepest {
 
 /// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
 struct Selection {
-  ContactList contacts, near;
+  ContactList contacts, near, at_wall;  ///< apart, because a list keeps the room it has once had
   BridgeList bridges;
   std::vector<std::size_t> near_candidates;
 };

@@ -74,16 +74,9 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
   style::Memory other{};
   double largest = 0, worst = 0;
   for (Motion motion; motion.time < 0.1; motion.time += kStep) {
-    const Meeting<double> meeting{of(motion.normal()),
-                                  motion.overlap(),
-                                  of(motion.velocity()),
-                                  of(motion.spin()),
-                                  7.0,
-                                  std::min(small, large),
-                                  std::sqrt(radius),
-                                  std::sqrt(mass),
-                                  1 / mass,
-                                  0.0};
+    const Meeting<double> meeting{
+        of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
+        std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
     const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, false);
     const Vec3 force = action.traction - action.push * meeting.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
