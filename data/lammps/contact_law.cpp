@@ -57,13 +57,14 @@ void Contact::set_elastic(const Law& law, double e, double nu, double restitutio
   tangential_ratio_ = 4 * g_star / e_star;
   damping_ = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
   friction_of_total_ = law.friction_basis == "total";
-  reference_radius_ = law.reference_radius_m;
   if (law.rolling == "spring_dashpot") rolling_ = Rolling::spring_dashpot;
   if (law.rolling == "constant_torque") rolling_ = Rolling::constant_torque;
 }
 
 void Contact::set_attraction(const Law& law, double share, double shells) {
   cohesion_ = share * law.cohesion_n;
+  // A wall counts as flat: its effective radius is the grain's own, twice that of two equal grains.
+  size_per_radius_ = shells / law.reference_radius_m;
   if (law.bridge == "none" || share == 0) return;
   c_ = share * law.c_n;
   rupture_gap_ = -law.d_c_m;

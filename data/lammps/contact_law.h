@@ -96,14 +96,14 @@ class Contact {
  private:
   void set_elastic(const Law& law, double e, double nu, double restitution);
   void set_attraction(const Law& law, double share, double shells);
-  double size_scale(double effective_radius) const { return 2 * effective_radius / reference_radius_; }
+  double size_scale(double effective_radius) const { return size_per_radius_ * effective_radius; }
   double attraction(double overlap, double scale, Memory& memory) const;
   void roll(const Meeting& meeting, double load, double softened, double braked, double dt, double advance,
             Memory& memory, Action& action) const;
 
   enum class Rolling { none, spring_dashpot, constant_torque } rolling_ = Rolling::none;
   enum class Bridge { none, polynomial, exponential, capillary } bridge_ = Bridge::none;
-  double reference_radius_ = 1, hertz_ = 0, normal_stiffness_ = 0, tangential_ratio_ = 0, damping_ = 0;
+  double size_per_radius_ = 1, hertz_ = 0, normal_stiffness_ = 0, tangential_ratio_ = 0, damping_ = 0;
   double friction_ = 0, rolling_friction_ = 0, cohesion_ = 0;
   bool friction_of_total_ = false;
   double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0;
