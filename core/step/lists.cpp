@@ -108,8 +108,8 @@ Deepest Lists::select_pairs() {
   team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
     const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
     if (strayed_[b] || next_strayed)
-      deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b], selections_[member],
-                                          world_.reach(), leeway_);
+      deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b],
+                                          world_.particles.count() + b, selections_[member], world_.reach(), leeway_);
   });
   return *std::max_element(deepest.begin(), deepest.end(),
                            [](const Deepest& a, const Deepest& b) { return a.overlap < b.overlap; });

@@ -276,7 +276,7 @@ void Stepper::integrate(double dt) {
     ledger_.heat_drag += moved.heat_drag;
     if (moved.runaway >= 0) runaway_ = moved.runaway;
   }
-  world_.particles.load[world_.particles.count()] = {};
+  for (std::size_t d = world_.particles.count(); d < world_.particles.load.size(); ++d) world_.particles.load[d] = {};
 }
 
 Stepper::Moved Stepper::move_grains(const Block& block, double dt) {

@@ -172,6 +172,7 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   std::vector<std::int32_t> new_place(n);
   for (std::int32_t k = 0; k < n; ++k) new_place[sorted.order[k]] = k;
   std::vector<Block> old = std::exchange(pairs.blocks, blocks_of(cells, first));
+  provide_dummies(particles, pairs.blocks.size());
   for (Block& block : pairs.blocks) block.walls.resize(walls);
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
   Candidates& candidates = pairs.candidates;
@@ -207,8 +208,8 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   block->candidates_end = candidates.size();
 }
 
-Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, Selection& chosen,
-                     const AttractionReach& reach, const Leeway& leeway) {
+Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
+                     Selection& chosen, const AttractionReach& reach, const Leeway& leeway) {
   chosen.contacts.clear();
   chosen.near.clear();
   chosen.bridges.clear();
@@ -248,9 +249,9 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
     candidates.set_place(c, chosen.contacts.count);
     chosen.contacts.add(i, j, pair);
   }
-  chosen.contacts.pad(particles.count());
-  chosen.near.pad(particles.count());
-  chosen.bridges.pad(particles.count());
+  chosen.contacts.pad(dummy);
+  chosen.near.pad(dummy);
+  chosen.bridges.pad(dummy);
   for (const std::size_t c : chosen.near_candidates)
     candidates.set_place(c, chosen.contacts.count + candidates.place(c));
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.

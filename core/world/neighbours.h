@@ -104,9 +104,9 @@ struct Selection {
 };
 
 /// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
-/// those that may touch, bridges the rest.
-Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, Selection& selection,
-                     const AttractionReach& reach, const Leeway& leeway);
+/// those that may touch, bridges the rest. `dummy`: the block's own, for padding.
+Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
+                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
 
 /// Lists the block's grains that touch a wall or may do so while they stay within their leeway, and the wall within its
 /// own [m].

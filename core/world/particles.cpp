@@ -36,6 +36,15 @@ Particles make_particles(const std::vector<Vec3>& centres, const std::vector<dou
   return particles;
 }
 
+void provide_dummies(Particles& particles, std::size_t count) {
+  const std::size_t n = particles.identity.size();
+  Motion dummy;
+  dummy.position = {kFarAway, kFarAway, kFarAway};
+  particles.motion.resize(n + count, dummy);
+  particles.spin.resize(n + count);
+  particles.load.resize(n + count);
+}
+
 void reorder(Particles& particles, const std::vector<std::int32_t>& order) {
   std::vector<Motion> motion;
   std::vector<Spin> spin;

@@ -45,6 +45,9 @@ struct Particles {
 /// Grains at rest with these centres and radii; identities are 0 .. n-1.
 Particles make_particles(const std::vector<Vec3>& centres, const std::vector<double>& radii, double density_kg_m3);
 
+/// Leaves so many dummies behind the grains, at least one: blocks that are worked on at the same time need one each.
+void provide_dummies(Particles& particles, std::size_t count);
+
 /// Arranges the grains so that new place k holds what was at `order[k]`.
 void reorder(Particles& particles, const std::vector<std::int32_t>& order);
 
