@@ -5,6 +5,7 @@
 #include "core/laws/pack.h"
 #include "core/laws/transpose.h"
 #include "core/step/kernels.h"
+#include "core/step/motion_kernel.h"
 
 namespace pastefit::PASTEFIT_ISA {
 
@@ -288,6 +289,7 @@ const KernelTable kernels = {
      PASTEFIT_ROW(wall_kernel, ExponentialAttraction), PASTEFIT_ROW(wall_kernel, CapillaryAttraction)},
     {nullptr, bridge_kernel<PolynomialAttraction>, bridge_kernel<ExponentialAttraction>,
      bridge_kernel<CapillaryAttraction>},
+    move_grains,
     PASTEFIT_ISA_NAME};
 
 }  // namespace pastefit::PASTEFIT_ISA

@@ -42,6 +42,29 @@ struct KernelTask {
   bool with_stored;  ///< the energy stored is wanted in this step: it costs the work of every bridge
 };
 
+constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it
+
+/// The grains of a block, to be moved by a step.
+struct MoveTask {
+  Motion* motion;
+  Spin* spin;
+  Load* load;         ///< used up: zero afterwards
+  const Room* rooms;  ///< where the lists allow them to be
+  std::int32_t grains, grains_end;
+  double dt;    ///< [s]
+  double kick;  ///< from the half step before to the half step after [s]
+  double gravity, drag;
+};
+
+/// What grains did in a step.
+struct Moved {
+  double fastest_square = 0;  ///< [m^2/s^2]
+  double stiffest = 0;        ///< stiffness over mass [1/s^2]
+  double heat_drag = 0;       ///< [J]
+  bool strayed = false;       ///< one has left its room; a position that is not a number has
+  std::int32_t runaway = -1;  ///< one beyond any speed, or whose speed is not a number
+};
+
 /// Laws are composed at compile time: one function per combination, chosen once per run.
 using Kernel = void (*)(const KernelTask&);
 
@@ -51,6 +74,7 @@ struct KernelTable {
   Kernel pair[4][3];
   Kernel wall[4][3];
   Kernel bridge[4];  ///< pairs that cannot touch; empty where there is no attraction
+  Moved (*move)(const MoveTask&);
   std::string_view instruction_set;
 };
 

@@ -46,8 +46,8 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
 void Lists::take_along() {
   const std::vector<Block>& blocks = world_.pairs.blocks;
   const auto nearly = [&](std::int32_t i) {
-    const Vec3 way = world_.particles.motion[i].position - leeway_.from[i];
-    return dot(way, way) > kNearlyUsed * kNearlyUsed * leeway_.distance[i] * leeway_.distance[i];
+    const Vec3 way = world_.particles.motion[i].position - leeway_.rooms[i].from;
+    return dot(way, way) > kNearlyUsed * kNearlyUsed * leeway_.rooms[i].distance * leeway_.rooms[i].distance;
   };
   team_.each(static_cast<int>(blocks.size()), [&](int b, int) {
     for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !strayed_[b]; ++i) strayed_[b] = nearly(i);
@@ -59,9 +59,8 @@ void Lists::list_candidates() {
   rebuild(particles, world_.pairs, world_.walls.size(), world_.reach(), skin_);
   listed_.resize(particles.count());
   for (std::int32_t i = 0; i < particles.count(); ++i) listed_[i] = particles.motion[i].position;
-  leeway_.from.resize(particles.count());
+  leeway_.rooms.resize(particles.count());
   leeway_.own.assign(particles.count(), 0.0);
-  leeway_.distance.resize(particles.count());
   strayed_.assign(world_.pairs.blocks.size(), true);
   valid_ = true;
 }
@@ -74,9 +73,8 @@ bool Lists::give_leeway(double duration) {
   team_.each(blocks, [&](int b, int) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      leeway_.from[i] = motion[i].position;
       leeway_.own[i] = std::clamp(norm(motion[i].velocity) * duration, least, most);
-      leeway_.distance[i] = leeway_.own[i];
+      leeway_.rooms[i] = {motion[i].position, leeway_.own[i]};
     }
   });
   in_two_rounds(team_, blocks, [&](int b, int) {
@@ -85,8 +83,11 @@ bool Lists::give_leeway(double duration) {
     const Block& block = pairs.blocks[b];
     for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
       const std::int32_t i = pairs.candidates.i[c], j = pairs.candidates.j[c];
-      if (first) leeway_.distance[i] = std::max(leeway_.distance[i], leeway_.own[j]);
-      if (j < block.grains_end ? first : second) leeway_.distance[j] = std::max(leeway_.distance[j], leeway_.own[i]);
+      const auto make_room = [&](std::int32_t grain, std::int32_t other) {
+        leeway_.rooms[grain].distance = std::max(leeway_.rooms[grain].distance, leeway_.own[other]);
+      };
+      if (first) make_room(i, j);
+      if (j < block.grains_end ? first : second) make_room(j, i);
     }
   });
   // Two grains of a candidate may each use half of its skin.
@@ -95,8 +96,9 @@ bool Lists::give_leeway(double duration) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
       const double left = 0.5 * skin_ - norm(motion[i].position - listed_[i]);
-      if (!(left >= kLeastShare * leeway_.distance[i])) enough[b] = false;
-      leeway_.distance[i] = std::min(leeway_.distance[i], left);
+      double& distance = leeway_.rooms[i].distance;
+      if (!(left >= kLeastShare * distance)) enough[b] = false;
+      distance = std::min(distance, left);
     }
   });
   return std::find(enough.begin(), enough.end(), false) == enough.end();

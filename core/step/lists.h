@@ -21,12 +21,9 @@ class Lists {
   /// call, and the fastest of them moves with `wall_speed`. Returns the deepest overlap among the pairs it looked at.
   Deepest update(double dt, double wall_way, double wall_speed);
 
-  /// Whether a grain that is here now is still where the lists allow it to be. A position that is not a number is not.
-  bool allow(std::int32_t grain, const Vec3& position) const {
-    const Vec3 way = position - leeway_.from[grain];
-    return dot(way, way) <= leeway_.distance[grain] * leeway_.distance[grain];
-  }
-  /// A grain of the block is not.
+  /// Where the lists allow the grains to be, one room each.
+  const Room* rooms() const { return leeway_.rooms.data(); }
+  /// A grain of the block is not in its room any more.
   void note_strayed(std::size_t block) { strayed_[block] = true; }
 
  private:

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "core/world/nearest.h"
 
 namespace pastefit {
 
 namespace {
 
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
-constexpr double kRunawaySpeed = 100;    // [m/s]; nothing in a laboratory test comes near it
 
 void put(const Vec3& v, double (&rows)[3][kBatch], int lane) {
   rows[0][lane] = v.x;
@@ -187,18 +189,21 @@ void Stepper::act_on_wall(std::size_t w) {
 /// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
 std::int32_t Stepper::find_wall(const Wall& wall, WallContacts& touching) const {
   std::int32_t pierced = -1;
-  for (std::int32_t k = 0; k < touching.count; ++k) {
-    WallBatch& batch = touching.batches[k / kBatch];
-    const int lane = k % kBatch;
-    const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
-    const Nearest point = nearest(wall.shape, grain.position);
-    const double overlap = grain.radius - point.distance;
-    if (overlap > options_.overlap_limit * grain.radius) pierced = touching.contacts.first(k);
-    const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
-    put(point.direction, batch.normal, lane);
-    put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
-    batch.overlap[lane] = overlap;
-  }
+  const auto find = [&](const auto& shape) {
+    for (std::int32_t k = 0; k < touching.count; ++k) {
+      WallBatch& batch = touching.batches[k / kBatch];
+      const int lane = k % kBatch;
+      const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
+      const Nearest point = nearest_on(shape, grain.position);
+      const double overlap = grain.radius - point.distance;
+      if (overlap > options_.overlap_limit * grain.radius) pierced = touching.contacts.first(k);
+      const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
+      put(point.direction, batch.normal, lane);
+      put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
+      batch.overlap[lane] = overlap;
+    }
+  };
+  std::visit(find, wall.shape);
   return pierced;
 }
 
@@ -265,55 +270,34 @@ void Stepper::look_at_energy(double dt) {
 void Stepper::integrate(double dt) {
   const auto blocks = static_cast<int>(world_.pairs.blocks.size());
   moved_.assign(blocks, {});
+  Particles& particles = world_.particles;
+  const MoveTask all = {particles.motion.data(),
+                        particles.spin.data(),
+                        particles.load.data(),
+                        lists_.rooms(),
+                        0,
+                        0,
+                        dt,
+                        0.5 * (dt_ + dt),
+                        world_.gravity,
+                        world_.drag};
   team_.each(blocks, [&](int b, int) {
-    moved_[b] = move_grains(world_.pairs.blocks[b], dt);
+    MoveTask mine = all;
+    mine.grains = world_.pairs.blocks[b].grains;
+    mine.grains_end = world_.pairs.blocks[b].grains_end;
+    moved_[b] = kernels_.move(mine);
     if (moved_[b].strayed) lists_.note_strayed(b);
   });
-  fastest_ = stiffest_ = 0;
+  stiffest_ = 0;
+  double fastest_square = 0;
   for (const Moved& moved : moved_) {
-    fastest_ = std::max(fastest_, moved.fastest);
+    fastest_square = std::max(fastest_square, moved.fastest_square);
     stiffest_ = std::max(stiffest_, moved.stiffest);
     ledger_.heat_drag += moved.heat_drag;
     if (moved.runaway >= 0) runaway_ = moved.runaway;
   }
-  for (std::size_t d = world_.particles.count(); d < world_.particles.load.size(); ++d) world_.particles.load[d] = {};
-}
-
-Stepper::Moved Stepper::move_grains(const Block& block, double dt) {
-  Particles& particles = world_.particles;
-  const double kick = 0.5 * (dt_ + dt);  // from the half step before to the half step after
-  const double fall = kick * world_.gravity;
-  const double kept = 1 / (1 + kick * world_.drag);
-  Moved moved;
-  double fastest = 0;
-  for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
-    Motion& motion = particles.motion[i];
-    Spin& spin = particles.spin[i];
-    Load& load = particles.load[i];
-    const double lightness = spin.inverse_mass;
-    const Vec3 velocity_before = motion.velocity, spin_before = spin.velocity;
-    motion.velocity += (kick * lightness) * load.force;
-    motion.velocity.z -= fall;
-    motion.velocity = kept * motion.velocity;
-    motion.position += dt * motion.velocity;
-    moved.strayed |= !lists_.allow(i, motion.position);
-    motion.damping_rate = load.damping * lightness;
-    const double inverse_inertia = 2.5 * lightness / (motion.radius * motion.radius);
-    spin.velocity += (kick * inverse_inertia) * load.torque;
-    spin.velocity = kept * spin.velocity;
-    if (world_.drag > 0) {
-      const double rate = 0.5 * kick * world_.drag;
-      moved.heat_drag += rate / lightness * dot(motion.velocity, velocity_before + motion.velocity) +
-                         rate / inverse_inertia * dot(spin.velocity, spin_before + spin.velocity);
-    }
-    const double square = dot(motion.velocity, motion.velocity);
-    if (!(square < kRunawaySpeed * kRunawaySpeed)) moved.runaway = i;
-    fastest = std::max(fastest, square);
-    moved.stiffest = std::max(moved.stiffest, load.stiffness * lightness);
-    load = {};
-  }
-  moved.fastest = std::sqrt(fastest);
-  return moved;
+  fastest_ = std::sqrt(fastest_square);
+  for (std::size_t d = particles.count(); d < particles.load.size(); ++d) particles.load[d] = {};
 }
 
 Failure Stepper::failure(FailureReason reason, std::int64_t grain, double value, double limit,

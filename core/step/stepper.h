@@ -41,12 +41,6 @@ class Stepper {
     Vec3 force, torque;
     std::int32_t pierced = -1;  ///< a grain too deep in the wall
   };
-  /// What a block's grains did in a step.
-  struct Moved {
-    double fastest = 0, stiffest = 0, heat_drag = 0;
-    bool strayed = false;
-    std::int32_t runaway = -1;
-  };
 
   std::optional<Failure> maintain_lists();
   void compute_forces();
@@ -57,7 +51,6 @@ class Stepper {
   void add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum);
   void account_walls(double dt);
   void integrate(double dt);
-  Moved move_grains(const Block& block, double dt);
   void look_at_energy(double dt);
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "core/world/cells.h"
+#include "core/world/nearest.h"
 
 namespace pastefit {
 
@@ -181,9 +183,11 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   auto block = pairs.blocks.begin();
   const auto look = [&](std::int32_t i, std::int32_t begin, std::int32_t end) {
     const Motion& a = particles.motion[i];
+    const double widest = a.radius + largest + farthest * 2 * a.radius * largest / (a.radius + largest) + skin;
     for (std::int32_t j = begin; j < end; ++j) {
       const Motion& b = particles.motion[j];
       const Vec3 between = b.position - a.position;
+      if (dot(between, between) >= widest * widest) continue;
       const double range = a.radius + b.radius + farthest * 2 * a.radius * b.radius / (a.radius + b.radius) + skin;
       if (dot(between, between) >= range * range) continue;
       candidates.add(i, j, remembered.recall(i, j, *block));
@@ -225,7 +229,7 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
     const double alive = contact                     ? block.contacts.bridge(place)
                          : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
                                                      : 0.0;
-    const double near = touch + leeway.distance[i] + leeway.distance[j];
+    const double near = touch + leeway.rooms[i].distance + leeway.rooms[j].distance;
     if (square >= near * near) {
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
@@ -271,17 +275,22 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
   ContactList& chosen = selection.at_wall;
   chosen.clear();
   std::int32_t old = 0;
-  for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
-    while (old < touching.count && contacts.first(old) < i) ++old;
-    const bool known = old < touching.count && contacts.first(old) == i;
-    const Motion& grain = particles.motion[i];
-    const double scale = grain.radius / reach.reference_radius;
-    const bool bridged = known && contacts.bridge(old) > 0;
-    const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
-    const double margin = leeway.distance[i] + wall_leeway;
-    if (nearest(wall.shape, grain.position).distance >= grain.radius + gap * scale + margin) continue;
-    chosen.add(i, i, known ? contacts.contact(old) : new_contact(particles, i, i));
-  }
+  const auto choose = [&](const auto& shape) {
+    for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
+      while (old < touching.count && contacts.first(old) < i) ++old;
+      const bool known = old < touching.count && contacts.first(old) == i;
+      const Motion& grain = particles.motion[i];
+      const double scale = grain.radius / reach.reference_radius;
+      const bool bridged = known && contacts.bridge(old) > 0;
+      const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
+      const double margin = leeway.rooms[i].distance + wall_leeway;
+      const double range = grain.radius + gap * scale + margin;
+      if (is_surely_beyond(shape, grain.position, range)) continue;
+      if (nearest_on(shape, grain.position).distance >= range) continue;
+      chosen.add(i, i, known ? contacts.contact(old) : new_contact(particles, i, i));
+    }
+  };
+  std::visit(choose, wall.shape);
   touching.count = chosen.count;
   chosen.pad(particles.count());
   touching.contacts.clear();

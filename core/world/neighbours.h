@@ -85,9 +85,8 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
 /// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
 /// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
 struct Leeway {
-  std::vector<Vec3> from;
-  std::vector<double> distance;  ///< [m]
-  std::vector<double> own;       ///< what each grain by itself would be given [m]
+  std::vector<Room> rooms;
+  std::vector<double> own;  ///< what each grain by itself would be given [m]
 };
 
 /// The deepest overlap of two grains over the smaller radius, and one of them.

@@ -29,6 +29,12 @@ struct alignas(64) Load {
   double stiffness = 0;  ///< sum of k, 3.5 k_t of the contacts [N/m]
 };
 
+/// Where a grain may be while the lists of its block hold: no farther from here than this. 32 bytes. Hot.
+struct alignas(32) Room {
+  Vec3 from;            ///< [m]
+  double distance = 0;  ///< [m]
+};
+
 /// Spheres as a structure of arrays, kept in spatial order. One more element than grains: the last one is a dummy far
 /// away with no mass effect, on which the padding of contact batches acts.
 struct Particles {
