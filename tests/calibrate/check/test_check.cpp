@@ -142,7 +142,7 @@ TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction droppe
 }
 #endif
 
-TEST_CASE("any change at all is a change of bits, and the same program gives the same bits") {
+TEST_CASE("any change at all is a change of bits, and the same program gives the same bits", "[campaign]") {
   const Card card = with_baseline(coarse_card(), 2);
   const CheckOptions quick{.quick = true};
   const auto same = check(card, quick);

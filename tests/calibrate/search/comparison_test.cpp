@@ -77,7 +77,7 @@ TEST_CASE("rows are ordered by what was confirmed, then by what it cost, and dra
   CHECK(figure.find("nan") == std::string::npos);
 }
 
-TEST_CASE("no strategy hangs, loses its best or confirms what fails, whatever fails") {
+TEST_CASE("no strategy hangs, loses its best or confirms what fails, whatever fails", "[campaign]") {
   for (const std::string_view name : strategy_names()) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       CAPTURE(name, seed);

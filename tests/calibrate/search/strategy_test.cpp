@@ -28,7 +28,7 @@ bool finite(const Response& response) {
 
 }  // namespace
 
-TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations from 95 of 100 seeds") {
+TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations from 95 of 100 seeds", "[campaign]") {
   int confirmed = 0, true_within_tolerance = 0;
   std::vector<int> simulations;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -50,7 +50,7 @@ TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations fr
   CHECK(simulations[100] <= 25);
 }
 
-TEST_CASE("coarse grains first: as reliable, and cheaper, though they stand lower") {
+TEST_CASE("coarse grains first: as reliable, and cheaper, though they stand lower", "[campaign]") {
   constexpr double cost_of_coarse = 0.2;
   int confirmed = 0, confirmed_without = 0, true_within_tolerance = 0;
   double cost = 0, cost_without = 0;
@@ -94,7 +94,7 @@ TEST_CASE("a height beyond the model is out of reach with coarse grains as well"
   CHECK(search(fine, options_with(2), {}, {}, {}, &coarse).status == CalibrationStatus::out_of_reach);
 }
 
-TEST_CASE("the default strategy meets two heights and a noisy sag at once") {
+TEST_CASE("the default strategy meets two heights and a noisy sag at once", "[campaign]") {
   int confirmed = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     UnitPoint truth(5);
@@ -114,7 +114,7 @@ TEST_CASE("the default strategy meets two heights and a noisy sag at once") {
   CHECK(confirmed >= 36);
 }
 
-TEST_CASE("every algorithm by name goes the whole way within the budget") {
+TEST_CASE("every algorithm by name goes the whole way within the budget", "[campaign]") {
   for (const std::string_view name : strategy_names()) {
     int confirmed = 0;
     CAPTURE(name);
