@@ -78,6 +78,13 @@ void judge(CardTest& test, std::size_t packings) {
   }
 }
 
+Baseline baseline_of(const std::vector<Observables>& runs, const std::vector<std::uint64_t>& packings,
+                     const Store& store) {
+  Baseline out{store.identity().program, machine_type(), {}};
+  for (std::size_t i = 0; i < runs.size(); ++i) out.runs.push_back({packings[i], runs[i]});
+  return out;
+}
+
 CardTest further_of(const Study& study, std::size_t index, const std::vector<double>& values,
                     const std::vector<std::uint64_t>& packings, const Store& store) {
   const auto& test = study.tests[index];
@@ -91,6 +98,7 @@ CardTest further_of(const Study& study, std::size_t index, const std::vector<dou
   const auto runs = runs_of(study, index, values, packings, store);
   if (runs.empty()) return out;
   out.observables = observables_of(test, runs);
+  out.baseline = baseline_of(runs, packings, store);
   if (out.hold_out) judge(out, packings.size());
   return out;
 }
@@ -112,9 +120,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   for (std::size_t i = 0; i < values.size(); ++i) card.parameters[i].value = values[i];
 
   const auto runs = runs_of(study, 0, values, shown.packings, store);
-  card.baseline.program = store.identity().program;
-  card.baseline.machine = machine_type();
-  for (std::size_t i = 0; i < runs.size(); ++i) card.baseline.runs.push_back({shown.packings[i], runs[i]});
+  card.baseline = baseline_of(runs, shown.packings, store);
   card.observables = observables_of(first, runs);
   for (const auto& observable : card.observables)
     if (observable.name == "fill.solid_fraction")

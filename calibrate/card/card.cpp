@@ -57,6 +57,18 @@ ordered_json provenance_to_json(const Provenance& lab) {
   return {{"source", lab.source}, {"licence", lab.licence}, {"notes", lab.notes}, {"twin", lab.twin}};
 }
 
+ordered_json baseline_to_json(const Baseline& baseline) {
+  ordered_json out{{"program", baseline.program},
+                   {"machine", baseline.machine},
+                   {"packings", ordered_json::array()},
+                   {"readings", ordered_json::object()}};
+  for (const auto& run : baseline.runs) {
+    out["packings"].push_back(run.packing);
+    for (const auto& [name, value] : run.observables.all()) out["readings"][name].push_back(value);
+  }
+  return out;
+}
+
 ordered_json further_to_json(const CardTest& test, std::size_t packings) {
   ordered_json out{{"name", test.name},
                    {"hold_out", test.hold_out},
@@ -66,6 +78,7 @@ ordered_json further_to_json(const CardTest& test, std::size_t packings) {
                    {"test", to_json(test.test)},
                    {"observables", observables_to_json(test.observables, packings)}};
   if (test.within_noise) out["within_noise"] = *test.within_noise;
+  if (!test.baseline.runs.empty()) out["baseline"] = baseline_to_json(test.baseline);
   return out;
 }
 
@@ -77,18 +90,6 @@ void add_inference(ordered_json& out, const CardInference& inference) {
   }
   for (const auto& pair : inference.correlations) out["correlation"][pair.first][pair.second] = pair.value;
   for (const auto& unseen : inference.not_identified) out["not_identified"][unseen.parameter] = unseen.reason;
-}
-
-ordered_json baseline_to_json(const Baseline& baseline) {
-  ordered_json out{{"program", baseline.program},
-                   {"machine", baseline.machine},
-                   {"packings", ordered_json::array()},
-                   {"readings", ordered_json::object()}};
-  for (const auto& run : baseline.runs) {
-    out["packings"].push_back(run.packing);
-    for (const auto& [name, value] : run.observables.all()) out["readings"][name].push_back(value);
-  }
-  return out;
 }
 
 ordered_json rebaseline_to_json(const Rebaseline& change) {
@@ -110,6 +111,13 @@ ordered_json rescaling_to_json(const Rescaling& step) {
 }
 
 }  // namespace
+
+std::vector<TestOfCard> tests_of(Card& card) {
+  std::vector<TestOfCard> tests{{"", true, card.test, card.observables, card.baseline}};
+  for (auto& test : card.further)
+    tests.push_back({test.name + ": ", !test.hold_out, test.test, test.observables, test.baseline});
+  return tests;
+}
 
 ordered_json to_json(const Card& card) {
   ordered_json out;

@@ -25,6 +25,17 @@ struct CardObservable {
   std::optional<double> band = std::nullopt;  ///< of a hold-out: |simulated - measured| that the noise of both explains
 };
 
+/// What one engine read off a test of the card, packing by packing: what a regression check compares with.
+struct Baseline {
+  struct Run {
+    std::uint64_t packing = 0;
+    Observables observables;  ///< the same readings in every run
+  };
+  std::string program;  ///< `program_identity` of the engine
+  std::string machine;  ///< `machine_type` it ran on
+  std::vector<Run> runs;
+};
+
 /// A further test of the same material, beside the card's own.
 struct CardTest {
   std::string name;
@@ -34,6 +45,7 @@ struct CardTest {
   SlumpTable test;  ///< with the same material in its own grains
   std::vector<CardObservable> observables;
   std::optional<bool> within_noise;  ///< of a hold-out: every reading that counts lies within its band
+  Baseline baseline;                 ///< no runs: `observables` stand in
 };
 
 /// How well the calibrated material was confirmed.
@@ -90,17 +102,6 @@ struct CardInference {
   std::vector<NotIdentified> not_identified;
 };
 
-/// What one engine read off the card's test, packing by packing: what a regression check compares with.
-struct Baseline {
-  struct Run {
-    std::uint64_t packing = 0;
-    Observables observables;  ///< the same readings in every run
-  };
-  std::string program;  ///< `program_identity` of the engine
-  std::string machine;  ///< `machine_type` it ran on
-  std::vector<Run> runs;
-};
-
 /// A change of the baseline that was meant.
 struct Rebaseline {
   struct Moved {
@@ -141,6 +142,18 @@ struct Card {
   std::vector<Rebaseline> rebaselined;  ///< oldest first
   std::vector<Rescaling> rescaled;      ///< oldest first
 };
+
+/// One of the card's tests, its own or a further one.
+struct TestOfCard {
+  std::string prefix;  ///< of its readings where there are several tests, e.g. "tall mould: "; empty for the card's own
+  bool fitted = true;
+  SlumpTable& test;
+  std::vector<CardObservable>& observables;
+  Baseline& baseline;
+};
+
+/// The card's own test, then the further ones. They belong to the card.
+std::vector<TestOfCard> tests_of(Card& card);
 
 /// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws.
 /// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated

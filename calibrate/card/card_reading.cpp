@@ -63,6 +63,22 @@ void read_lab_provenance(ObjectReader& reader, Provenance& target) {
   });
 }
 
+void read_baseline(ObjectReader& reader, const json& document, Baseline& baseline) {
+  reader.text("program", baseline.program, kRequired);
+  reader.text("machine", baseline.machine, kRequired);
+  std::vector<std::uint64_t> packings;
+  reader.integers("packings", packings, kRequired);
+  for (const auto packing : packings) baseline.runs.push_back({packing, {}});
+  reader.object("readings", kRequired, [&](ObjectReader& readings) {
+    for (const auto& [name, value] : document["readings"].items()) {
+      std::vector<double> column;
+      if (!readings.numbers(name, column, kAny, kRequired, packings.size(), packings.size())) continue;
+      if (column.size() != packings.size()) continue;  // no packings, but readings: the length is a fault already
+      for (std::size_t i = 0; i < column.size(); ++i) baseline.runs[i].observables.set(name, column[i]);
+    }
+  });
+}
+
 void read_further(ObjectReader& reader, const json& document, CardTest& test) {
   reader.text("name", test.name, kRequired);
   reader.flag("hold_out", test.hold_out, kRequired);
@@ -73,6 +89,8 @@ void read_further(ObjectReader& reader, const json& document, CardTest& test) {
   test.test = read_test(document, reader.place("test"), reader.faults());
   read_observables(reader, document, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
+  reader.object("baseline", kOptional,
+                [&](ObjectReader& baseline) { read_baseline(baseline, document["baseline"], test.baseline); });
 }
 
 void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
@@ -166,22 +184,6 @@ void read_inference(ObjectReader& card, const json& document, CardInference& inf
       auto& entry = inference.not_identified.emplace_back();
       entry.parameter = name;
       unseen.text(name, entry.reason, kRequired);
-    }
-  });
-}
-
-void read_baseline(ObjectReader& reader, const json& document, Baseline& baseline) {
-  reader.text("program", baseline.program, kRequired);
-  reader.text("machine", baseline.machine, kRequired);
-  std::vector<std::uint64_t> packings;
-  reader.integers("packings", packings, kRequired);
-  for (const auto packing : packings) baseline.runs.push_back({packing, {}});
-  reader.object("readings", kRequired, [&](ObjectReader& readings) {
-    for (const auto& [name, value] : document["readings"].items()) {
-      std::vector<double> column;
-      if (!readings.numbers(name, column, kAny, kRequired, packings.size(), packings.size())) continue;
-      if (column.size() != packings.size()) continue;  // no packings, but readings: the length is a fault already
-      for (std::size_t i = 0; i < column.size(); ++i) baseline.runs[i].observables.set(name, column[i]);
     }
   });
 }

@@ -5,22 +5,24 @@ namespace pastefit {
 Result<Card> rescaled(Card card, double radius) {
   const double s = radius / card.test.grains.radius_m;
   card.rescaled.push_back({card.test.grains.radius_m, {}});
-
-  GrainSizes& grains = card.test.grains;
-  grains.radius_m = radius;
-  grains.standard_deviation_m *= s;
-  grains.smallest_m *= s;
-  grains.largest_m *= s;
-  card.test.contact = enlarged(card.test.contact, s);
-
-  if (auto faults = validate(card.test); !faults.empty()) return faults;
-  card.observables.clear();
-  card.further.clear();
+  Faults all;
+  for (const auto& [prefix, fitted, test, observables, baseline] : tests_of(card)) {
+    test.grains = enlarged(test.grains, s);
+    test.contact = enlarged(test.contact, s);
+    observables.clear();
+    baseline = {};
+    for (Fault fault : validate(test)) {
+      fault.where = prefix + fault.where;
+      all.push_back(std::move(fault));
+    }
+  }
+  if (!all.empty()) return all;
+  card.test.grains.radius_m = radius;  // s rounds
+  for (auto& test : card.further) test.within_noise.reset();
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = false;
   card.confirmation.misfit_mm = 0;
   card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
-  card.baseline = {};
   card.rebaselined.clear();
   return card;
 }

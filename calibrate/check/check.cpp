@@ -35,25 +35,25 @@ struct Promise {
   Sample sample;
 };
 
-std::vector<Promise> promises_of(const Card& card) {
+std::vector<Promise> promises_of(const Card& card, const TestOfCard& test) {
   std::vector<Promise> out;
-  if (card.baseline.runs.empty()) {
-    for (const auto& observable : card.observables)
+  if (test.baseline.runs.empty()) {
+    for (const auto& observable : test.observables)
       if (is_checked(observable.name))
         out.push_back({observable.name,
                        {static_cast<int>(card.confirmation.packings.size()), observable.simulated,
                         observable.simulated_standard_deviation}});
     return out;
   }
-  for (const auto& [name, value] : card.baseline.runs[0].observables.all())
-    if (is_checked(name)) out.push_back({name, sample_of(column_of(card.baseline.runs, name))});
+  for (const auto& [name, value] : test.baseline.runs[0].observables.all())
+    if (is_checked(name)) out.push_back({name, sample_of(column_of(test.baseline.runs, name))});
   return out;
 }
 
-std::vector<std::uint64_t> packings_of(const Card& card) {
-  if (card.baseline.runs.empty()) return card.confirmation.packings;
+std::vector<std::uint64_t> packings_of(const Card& card, const Baseline& baseline) {
+  if (baseline.runs.empty()) return card.confirmation.packings;
   std::vector<std::uint64_t> out;
-  for (const auto& run : card.baseline.runs) out.push_back(run.packing);
+  for (const auto& run : baseline.runs) out.push_back(run.packing);
   return out;
 }
 
@@ -81,6 +81,25 @@ SameBits compare_bits(const Baseline& before, const Baseline& now) {
       if (!again || std::bit_cast<std::uint64_t>(*again) != std::bit_cast<std::uint64_t>(value)) return SameBits::other;
     }
   return SameBits::same;
+}
+
+/// Of all tests together.
+SameBits all_of(const std::vector<SameBits>& bits) {
+  for (const auto bad : {SameBits::other, SameBits::not_comparable})
+    if (std::ranges::count(bits, bad) > 0) return bad;
+  return SameBits::same;
+}
+
+/// Simulates a test of the card in these packings; the first failure instead, if there is one.
+std::optional<std::string> run_test(const Card& card, const TestOfCard& test,
+                                    const std::vector<std::uint64_t>& packings, const CheckOptions& options,
+                                    const CheckEngine& engine, int& simulations, Baseline& now) {
+  const auto filling = [&](std::uint64_t packing) { return filling_of(card, test.test, packing); };
+  const auto outcomes = run_packings(test.test, packings, filling, engine, options.threads);
+  simulations += static_cast<int>(outcomes.size());
+  auto failure = keep_runs(packings, outcomes, now);
+  if (failure) *failure = test.prefix + *failure;
+  return failure;
 }
 
 void judge(CardCheck& out, const CheckOptions& options) {
@@ -120,43 +139,48 @@ bool CheckedReading::agrees() const {
   return std::abs(got - expected) <= band;
 }
 
-CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
+CardCheck check(const Card& given, const CheckOptions& options, const CheckEngine& engine) {
+  Card card = given;
   CardCheck out;
   out.card = card.title;
   out.false_alarm = options.false_alarm;
   out.same_program = card.baseline.program == engine.program && card.baseline.machine == engine.machine;
-  out.now.program = engine.program;
-  out.now.machine = engine.machine;
-  auto packings = packings_of(card);
-  const auto promises = promises_of(card);
-  if (packings.size() < 2 || promises.empty()) {
-    out.reason =
-        "The card keeps the readings of fewer than two packings, so that their noise is not known; give it a "
-        "baseline with --rebaseline.";
-    return out;
+  std::size_t promised = 0;
+  for (const auto& test : tests_of(card)) {
+    const auto promises = promises_of(card, test);
+    if (packings_of(card, test.baseline).size() < 2 || promises.empty()) {
+      out.reason = test.prefix +
+                   "The card keeps the readings of fewer than two packings, so that their noise is not known; give it "
+                   "a baseline with --rebaseline.";
+      return out;
+    }
+    promised += promises.size();
   }
-  if (options.quick) keep_quick(packings);
-
-  const auto outcomes = run_packings(
-      card.test, packings, [&](std::uint64_t packing) { return filling_of(card, packing); }, engine, options.threads);
-  out.simulations = static_cast<int>(outcomes.size());
-  if (auto failure = keep_runs(packings, outcomes, out.now)) {
-    out.reason = *failure;
-    out.verdict = CheckVerdict::disagrees;
-    return out;
-  }
-  const double share = options.false_alarm / static_cast<double>(promises.size());
-  for (const auto& [name, before] : promises) {
-    const auto now = sample_of(column_of(out.now.runs, name));
-    if (now.count == 0) {
-      out.reason = "The engine does not give the reading " + name + ".";
+  const double share = options.false_alarm / static_cast<double>(promised);
+  std::vector<SameBits> bits;
+  for (const auto& test : tests_of(card)) {
+    auto packings = packings_of(card, test.baseline);
+    if (options.quick) keep_quick(packings);
+    Baseline now;
+    if (auto failure = run_test(card, test, packings, options, engine, out.simulations, now)) {
+      out.reason = *failure;
       out.verdict = CheckVerdict::disagrees;
       return out;
     }
-    out.readings.push_back({name, before.mean, now.mean, band_of(before, now, share), before.count, now.count});
+    for (const auto& [name, before] : promises_of(card, test)) {
+      const auto again = sample_of(column_of(now.runs, name));
+      if (again.count == 0) {
+        out.reason = "The engine does not give the reading " + test.prefix + name + ".";
+        out.verdict = CheckVerdict::disagrees;
+        return out;
+      }
+      out.readings.push_back(
+          {test.prefix + name, before.mean, again.mean, band_of(before, again, share), before.count, again.count});
+    }
+    bits.push_back(compare_bits(test.baseline, now));
   }
   for (auto& reading : check_law(card.test, engine)) out.readings.push_back(std::move(reading));
-  out.bits = compare_bits(card.baseline, out.now);
+  out.bits = all_of(bits);
   judge(out, options);
   return out;
 }
@@ -175,7 +199,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
     out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
     return out;
   }
-  auto packings = packings_of(card);
+  auto packings = packings_of(card, card.baseline);
   if (packings.size() < 2) packings = {test.packing_seed, test.packing_seed + 1};
   if (options.quick) keep_quick(packings);
   const auto filling = [&](std::uint64_t packing) {
@@ -188,18 +212,19 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   };
   const auto outcomes = run_packings(test, packings, filling, engine, options.threads);
   out.simulations = static_cast<int>(outcomes.size());
-  if (auto failure = keep_runs(packings, outcomes, out.now)) {
+  Baseline now;
+  if (auto failure = keep_runs(packings, outcomes, now)) {
     out.reason = *failure;
     out.verdict = CheckVerdict::disagrees;
     return out;
   }
   const double share = options.false_alarm / static_cast<double>(lab.measurements.size());
   for (const auto& measurement : lab.measurements) {
-    const auto now = sample_of(column_of(out.now.runs, measurement.observable));
-    if (now.count == 0) continue;
+    const auto read = sample_of(column_of(now.runs, measurement.observable));
+    if (read.count == 0) continue;
     const Sample measured{measurement.repeats, measurement.value, measurement.standard_deviation};
-    out.readings.push_back({measurement.observable, measured.mean, now.mean, unequal_band_of(measured, now, share),
-                            measured.count, now.count});
+    out.readings.push_back({measurement.observable, measured.mean, read.mean, unequal_band_of(measured, read, share),
+                            measured.count, read.count});
   }
   judge(out, options);
   return out;
@@ -207,7 +232,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
 
 Result<Card> rebaselined(Card card, const std::string& why, int count, const CheckOptions& options,
                          const CheckEngine& engine) {
-  auto packings = packings_of(card);
+  auto packings = packings_of(card, card.baseline);
   std::uint64_t fresh = 1;
   const auto taken = [&](std::uint64_t seed) {
     return std::ranges::count(packings, seed) + std::ranges::count(card.search.packings, seed) > 0;
@@ -216,15 +241,17 @@ Result<Card> rebaselined(Card card, const std::string& why, int count, const Che
     while (taken(fresh)) ++fresh;
     packings.push_back(fresh);
   }
-  const auto outcomes = run_packings(
-      card.test, packings, [&](std::uint64_t packing) { return filling_of(card, packing); }, engine, options.threads);
-  Baseline now{engine.program, engine.machine, {}};
-  if (auto failure = keep_runs(packings, outcomes, now))
-    return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
-  Rebaseline change{why, card.baseline.runs.empty() ? card.provenance.program : card.baseline.program, now.program, {}};
-  for (const auto& [name, before] : promises_of(card))
-    change.moved.push_back({name, before.mean, sample_of(column_of(now.runs, name)).mean});
-  card.baseline = std::move(now);
+  Rebaseline change{
+      why, card.baseline.runs.empty() ? card.provenance.program : card.baseline.program, engine.program, {}};
+  for (const auto& test : tests_of(card)) {
+    Baseline now{engine.program, engine.machine, {}};
+    int simulations = 0;
+    if (auto failure = run_test(card, test, packings, options, engine, simulations, now))
+      return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
+    for (const auto& [name, before] : promises_of(card, test))
+      change.moved.push_back({test.prefix + name, before.mean, sample_of(column_of(now.runs, name)).mean});
+    test.baseline = std::move(now);
+  }
   card.rebaselined.push_back(std::move(change));
   return card;
 }

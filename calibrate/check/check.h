@@ -48,7 +48,7 @@ std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
 
 /// One comparison.
 struct CheckedReading {
-  std::string name;              ///< a reading of the test, or "law.attraction_n" at some gap
+  std::string name;              ///< a reading, of a further test with its name, or "law.attraction_n" at some gap
   double expected = 0, got = 0;  ///< means
   double band = 0;               ///< |got - expected| must not exceed it
   int expected_count = 0, got_count = 0;
@@ -64,16 +64,15 @@ struct CardCheck {
   std::vector<CheckedReading> readings;
   double false_alarm = 0;
   int simulations = 0;
-  Baseline now;  ///< what the engine gave
 };
 
 /// Simulates again what the card promises.
 ///
 /// First the contact law: the attraction of two grains that are pulled apart, against the card's formula at several
-/// gaps (to 1e-6 of the force at touch). Then the test, in the packings of its baseline. If the card was made by the
-/// same program on the same type of machine, the same bits are expected. Otherwise each reading has to agree within
-/// `band_of`, the false alarm rate divided by the number of readings (Bonferroni). A simulation that fails is a
-/// disagreement. Not checked: a card with fewer than two runs.
+/// gaps (to 1e-6 of the force at touch). Then every test of the card, in the packings of its baseline. If the card was
+/// made by the same program on the same type of machine, the same bits are expected. Otherwise each reading has to
+/// agree within `band_of`, the false alarm rate divided by the number of readings (Bonferroni). A simulation that fails
+/// is a disagreement. Not checked: a card with fewer than two runs.
 CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine = CheckEngine::ours());
 
 /// Judges the material by other readings of a laboratory: its contact laws and grains in that laboratory's test,

@@ -11,65 +11,74 @@ namespace pastefit {
 
 namespace {
 
-Result<std::vector<Baseline::Run>> runs_of(const Card& card, const std::vector<std::uint64_t>& packings,
-                                           const CheckEngine& engine, int threads) {
-  const auto outcomes = run_packings(
-      card.test, packings, [&](std::uint64_t packing) { return filling_of(card, packing); }, engine, threads);
+Result<std::vector<Baseline::Run>> runs_of(const Card& card, const TestOfCard& test,
+                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                           int threads) {
+  const auto filling = [&](std::uint64_t packing) { return filling_of(card, test.test, packing); };
+  const auto outcomes = run_packings(test.test, packings, filling, engine, threads);
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (const auto& failure = outcomes[i].failure)
-      return Fault{"packing " + std::to_string(packings[i]), "failed: " + std::string(name_of(failure->reason)),
-                   failure->message};
+      return Fault{test.prefix + "packing " + std::to_string(packings[i]),
+                   "failed: " + std::string(name_of(failure->reason)), failure->message};
     runs.push_back({packings[i], outcomes[i].observables});
   }
   return runs;
 }
 
 /// Root mean square difference of the fitted lengths, as in the search.
-double misfit_mm(const std::vector<CardObservable>& observables) {
+double misfit_mm(Card& card) {
   double squares = 0;
   int fitted = 0;
-  for (const auto& observable : observables) {
-    if (!observable.measured || observable.weight <= 0 || !observable.name.ends_with("_mm")) continue;
-    squares += std::pow(observable.simulated - *observable.measured, 2);
-    ++fitted;
+  for (const auto& test : tests_of(card)) {
+    if (!test.fitted) continue;
+    for (const auto& observable : test.observables) {
+      if (!observable.measured || observable.weight <= 0 || !observable.name.ends_with("_mm")) continue;
+      squares += std::pow(observable.simulated - *observable.measured, 2);
+      ++fitted;
+    }
   }
   return fitted > 0 ? std::sqrt(squares / fitted) : 0;
 }
 
 }  // namespace
 
-Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
+Result<Card> with_measured_bias(const Card& given, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
   // Fillings that no search has seen: seeds of a search are small or derived from its own seed.
   std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
   std::iota(packings.begin(), packings.end(), 70'001);
-  auto old_runs = runs_of(before, packings, engine, options.threads);
-  if (!old_runs.ok()) return old_runs.faults();
-  auto new_runs = runs_of(after, packings, engine, options.threads);
-  if (!new_runs.ok()) return new_runs.faults();
+  Card before = given;
+  const auto old_tests = tests_of(before), new_tests = tests_of(after);
+  for (std::size_t t = 0; t < new_tests.size(); ++t) {
+    auto old_runs = runs_of(before, old_tests[t], packings, engine, options.threads);
+    if (!old_runs.ok()) return old_runs.faults();
+    auto new_runs = runs_of(after, new_tests[t], packings, engine, options.threads);
+    if (!new_runs.ok()) return new_runs.faults();
 
-  after.observables.clear();
-  for (const auto& [name, value] : new_runs.value()[0].observables.all()) {
-    const auto old_sample = sample_of(column_of(old_runs.value(), name));
-    const auto sample = sample_of(column_of(new_runs.value(), name));
-    CardObservable observable;
-    for (const auto& known : before.observables)
-      if (known.name == name) observable = known;
-    observable.name = name;
-    observable.simulated = sample.mean;
-    observable.simulated_standard_deviation = sample.standard_deviation;
-    after.observables.push_back(observable);
-    after.rescaled.back().bias.push_back(
-        {name, old_sample.mean, sample.mean,
-         std::hypot(old_sample.standard_deviation, sample.standard_deviation) / std::sqrt(count)});
+    new_tests[t].observables.clear();
+    for (const auto& [name, value] : new_runs.value()[0].observables.all()) {
+      const auto old_sample = sample_of(column_of(old_runs.value(), name));
+      const auto sample = sample_of(column_of(new_runs.value(), name));
+      CardObservable observable;
+      for (const auto& known : old_tests[t].observables)
+        if (known.name == name) observable = known;
+      observable.name = name;
+      observable.simulated = sample.mean;
+      observable.simulated_standard_deviation = sample.standard_deviation;
+      observable.band.reset();
+      new_tests[t].observables.push_back(observable);
+      after.rescaled.back().bias.push_back(
+          {new_tests[t].prefix + name, old_sample.mean, sample.mean,
+           std::hypot(old_sample.standard_deviation, sample.standard_deviation) / std::sqrt(count)});
+    }
+    new_tests[t].baseline = {engine.program, engine.machine, std::move(new_runs).value()};
   }
   auto& confirmation = after.confirmation;
   confirmation.packings = packings;
   confirmation.fresh = true;
-  confirmation.misfit_mm = misfit_mm(after.observables);
+  confirmation.misfit_mm = misfit_mm(after);
   confirmation.meets_laboratory = confirmation.misfit_mm <= confirmation.tolerance_mm;
-  after.baseline = {engine.program, engine.machine, std::move(new_runs).value()};
   return after;
 }
 

@@ -6,11 +6,7 @@
 namespace pastefit {
 
 Study with_coarse_grains(Study study) {
-  for (StudyTest& test : study.tests) {
-    GrainSizes& grains = test.lab.test.grains;
-    for (double* length : {&grains.radius_m, &grains.standard_deviation_m, &grains.smallest_m, &grains.largest_m})
-      *length *= coarse_radius_ratio;
-  }
+  for (StudyTest& test : study.tests) test.lab.test.grains = enlarged(test.lab.test.grains, coarse_radius_ratio);
   return study;
 }
 

@@ -2,6 +2,12 @@
 
 namespace pastefit {
 
+GrainSizes enlarged(GrainSizes grains, double k) {
+  for (double* length : {&grains.radius_m, &grains.standard_deviation_m, &grains.smallest_m, &grains.largest_m})
+    *length *= k;
+  return grains;
+}
+
 ContactModel enlarged(ContactModel model, double k) {
   Bridge& bridge = model.bridge;
   bridge.b_n_m *= k;

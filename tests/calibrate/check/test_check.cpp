@@ -106,6 +106,71 @@ TEST_CASE("the band is exceeded as often as it says when nothing has changed") {
   CHECK(unequal_alarms == Approx(kRate * kTrials).margin(4 * std::sqrt(kRate * kTrials)));
 }
 
+TEST_CASE("every test of a card is checked, and a reading of a further one carries its name") {
+  Card card = quick_card({100, 101});
+  CardTest lower;
+  lower.name = "low mould";
+  lower.test = card.test;
+  lower.test.mould.height_m *= 0.9;
+  lower.observables.push_back({.name = "step1.height_axis_mm", .simulated = 50, .simulated_standard_deviation = 1});
+  card.confirmation.packings = {10, 11};
+  card.further.push_back(lower);
+  const double height = card.test.mould.height_m;
+
+  const auto engine_with = [&](double low) {
+    CheckEngine engine = quick_engine("there", {100, 101});
+    engine.run = [=](const SlumpTable& test, const RunOptions&) {
+      const double own = test.mould.height_m < height ? low : 100;
+      Outcome outcome;
+      outcome.observables.set("step1.height_axis_mm", own + static_cast<double>(test.packing_seed - 10));
+      return outcome;
+    };
+    return engine;
+  };
+  CHECK(caught_by_noise(check(card, {}, engine_with(49.5))).empty());
+  CHECK(caught_by_noise(check(card, {}, engine_with(450))) ==
+        std::vector<std::string>{"low mould: step1.height_axis_mm"});
+  CHECK(check(card, {}, engine_with(49.5)).bits == SameBits::not_comparable);
+
+  const auto again = rebaselined(card, "as it should be", 2, {}, engine_with(450));
+  REQUIRE(again.ok());
+  CHECK(again.value().further[0].baseline.runs.size() == 2);
+  CHECK(again.value().rebaselined.back().moved.back().observable == "low mould: step1.height_axis_mm");
+  CHECK(check(again.value(), {}, engine_with(450)).bits == SameBits::same);
+  CHECK(check(again.value(), {}, engine_with(451)).bits == SameBits::other);
+  const auto read = card_from_json(to_json(again.value()));
+  REQUIRE(read.ok());
+  CHECK(read.value().further[0].baseline.runs.size() == 2);
+}
+
+TEST_CASE("a card of several tests is carried to other grains in all of them") {
+  Card card = quick_card({100, 101});
+  CardTest lower;
+  lower.name = "low mould";
+  lower.test = card.test;
+  lower.observables.push_back({.name = "step1.height_axis_mm", .simulated = 50, .measured = 48, .weight = 1});
+  card.further.push_back(lower);
+  const double radius = 1.25 * card.test.grains.radius_m;
+  const auto carried = rescaled(card, radius);
+  REQUIRE(carried.ok());
+  CHECK(carried.value().further[0].test.grains.radius_m == Approx(radius));
+  CHECK(carried.value().further[0].test.contact.bridge.c_n == Approx(1.25 * 1.25 * card.test.contact.bridge.c_n));
+  CHECK(carried.value().further[0].observables.empty());
+
+  CheckEngine engine = quick_engine("here", {});
+  engine.run = [=](const SlumpTable& test, const RunOptions&) {
+    Outcome outcome;
+    outcome.observables.set("step1.height_axis_mm", 50 + 1000 * (test.grains.radius_m - 0.012));
+    return outcome;
+  };
+  const auto measured = with_measured_bias(card, carried.value(), 2, {}, engine);
+  REQUIRE(measured.ok());
+  const Rescaling::Bias bias = measured.value().rescaled.back().bias.back();
+  CHECK(bias.observable == "low mould: step1.height_axis_mm");
+  CHECK(bias.after - bias.before == Approx(3));
+  CHECK(measured.value().confirmation.misfit_mm == Approx(5));
+}
+
 TEST_CASE("readings without scatter may differ by rounding only") {
   const Sample fixed{4, 12.5, 0};
   CHECK(band_of(fixed, {4, 12.5 + 1e-10, 0}, 1e-3) > 1e-10);
