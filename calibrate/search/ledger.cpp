@@ -158,6 +158,15 @@ UnitPoint Ledger::best_point(std::span<const std::uint64_t> packings) const {
   return best.point;
 }
 
+std::optional<Response> Ledger::best_single() const {
+  Response best;
+  for (const Response& single : singles_) {
+    if (is_feasible(single) && is_better(single, best)) best = single;
+  }
+  if (best.point.size() == 0) return std::nullopt;
+  return best;
+}
+
 int Ledger::failures() const {
   return static_cast<int>(
       std::count_if(singles_.begin(), singles_.end(), [](const auto& s) { return !is_feasible(s); }));

@@ -53,6 +53,8 @@ class Ledger : public Objective {
 
   /// Best answer on exactly these packings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
+  /// Best answer of a point on one packing.
+  std::optional<Response> best_single() const;
   const std::vector<Response>& history() const { return history_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
   const std::vector<Response>& coarse_singles() const { return coarse_singles_; }

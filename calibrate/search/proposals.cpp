@@ -54,10 +54,8 @@ bool Proposals::imagine_answers(Surrogate& model) const {
 
 /// The goal as a misfit, by the ratio of both in the best simulation.
 double Proposals::goal_misfit() const {
-  Response best;
-  for (const Response& single : ledger_.singles())
-    if (is_feasible(single) && is_better(single, best)) best = single;
-  return best.misfit_mm > 0 ? best.misfit * std::pow(goal_mm_ / best.misfit_mm, 2) : 0;
+  const auto best = ledger_.best_single();
+  return best && best->misfit_mm > 0 ? best->misfit * std::pow(goal_mm_ / best->misfit_mm, 2) : 0;
 }
 
 bool Proposals::was_asked(const UnitPoint& point) const {

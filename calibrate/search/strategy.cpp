@@ -157,9 +157,17 @@ class Search {
     return ledger_.best_on(common_).has_value();
   }
 
+  /// A point of the screening that reads within the tolerance may do already, and one of its packings is known.
+  void begin_with_what_is_there() {
+    const auto best = ledger_.best_single();
+    if (best && !ledger_.best_on(common_) && best->misfit_mm <= options_.tolerance_mm && may_go_on())
+      ledger_.begin(best->point, common_);
+  }
+
   /// Proposes, and takes the answers in the order of the proposals. Proposal k knows the answers up to k - 1 - lag, of
   /// the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
+    begin_with_what_is_there();
     Proposals proposals(ledger_, coarse_, options_, common_, goal_share * options_.tolerance_mm);
     int fruitless = 0;
     bool nothing_new = false;  // until the next answer
