@@ -5,6 +5,12 @@
 
 namespace pastefit {
 
+std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count) {
+  std::vector<std::uint64_t> packings;
+  for (int k = 0; k < count; ++k) packings.push_back(coarse_packings + seed * 1000 + static_cast<std::uint64_t>(k));
+  return packings;
+}
+
 Study with_coarse_grains(Study study) {
   for (StudyTest& test : study.tests) test.lab.test.grains = enlarged(test.lab.test.grains, coarse_radius_ratio);
   return study;

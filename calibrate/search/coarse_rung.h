@@ -15,6 +15,9 @@ inline constexpr double coarse_radius_ratio = 1.5;
 /// First packing seed of the coarse rung: its simulations can lie in one store with those of the study.
 inline constexpr std::uint64_t coarse_packings = 1ULL << 40;
 
+/// The packings of the coarse rung: the same for every candidate.
+std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count);
+
 /// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
 /// hundred grains in the mould it may not be fit to run: see `validate`.
 Study with_coarse_grains(Study study);

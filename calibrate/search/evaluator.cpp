@@ -49,20 +49,14 @@ Failure stopped(std::string message) {
 
 }  // namespace
 
-/// One simulation that a batch needs, once, however many of its points ask for it.
-struct SimulationObjective::Task {
-  std::size_t index = 0;  // of the test in the study
-  SlumpTable test;
-  StoredEvaluation evaluation;
-};
-
 SimulationObjective::SimulationObjective(const Study& study, Store& store, EvaluatorOptions options)
     : study_(study),
       readings_(readings_of(study)),
       fitted_(tests_of(study, false)),
       store_(store),
-      options_(std::move(options)) {
-  if (options_.threads <= 0) options_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+      options_(std::move(options)),
+      pool_(options_.threads > 0 ? options_.threads
+                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
   if (options_.budget <= 0) options_.budget = study.search.budget_simulations;
   Eigen::Index coordinate = 0;
   for (const auto& parameter : study.parameters) {
@@ -76,6 +70,10 @@ SimulationObjective::SimulationObjective(const Study& study, Store& store, Evalu
       throw std::logic_error("the standard deviation of " + reading.name + " must be positive");
 }
 
+SimulationObjective::~SimulationObjective() {
+  closing_ = true;
+}
+
 int SimulationObjective::parameters() const {
   return free_count(study_);
 }
@@ -85,13 +83,13 @@ int SimulationObjective::residuals() const {
 }
 
 int SimulationObjective::budget_left() const {
-  const std::lock_guard lock(mutex_);
-  return std::max(0, options_.budget - static_cast<int>(asked_.size())) / simulations_each();
+  return std::max(0, options_.budget - asked_) / simulations_each();
 }
 
 bool SimulationObjective::stop_requested() const {
+  if (closing_) return true;
   if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
-  if (options_.wall_budget_s > 0 && seconds_since(begin_) > options_.wall_budget_s) return true;
+  if (options_.wall_budget_s > 0 && seconds_since(start_) > options_.wall_budget_s) return true;
   const std::lock_guard lock(mutex_);
   if (options_.core_budget_s > 0 && counts_.core_s > options_.core_budget_s) return true;
   return !store_faults_.empty();
@@ -107,42 +105,58 @@ Faults SimulationObjective::store_faults() const {
   return store_faults_;
 }
 
-std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
-                                                           std::span<const std::uint64_t> packings,
-                                                           std::span<const std::size_t> tests) {
-  std::map<std::string, Task> tasks;
-  std::vector<std::string> keys;
-  std::vector<Task*> unknown;
+std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<const UnitPoint> points,
+                                                                   std::span<const std::uint64_t> packings,
+                                                                   std::span<const std::size_t> tests) {
+  std::vector<Task*> tasks;
   for (const auto& point : points) {
     if (point.size() != parameters() || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1)
       throw std::logic_error("a candidate must lie in the unit cube over the free parameters");
     const auto values = values_at(study_, point);
     for (const auto seed : packings) {
       for (const auto test : tests) {
-        keys.push_back(key_of(study_, test, values, seed, store_.identity().program));
-        const auto [task, added] = tasks.try_emplace(keys.back());
+        auto key = key_of(study_, test, values, seed, store_.identity().program);
+        const auto [entry, added] = tasks_.try_emplace(key);
+        Task& task = entry->second;
+        tasks.push_back(&task);
         if (!added) continue;
-        if (auto known = store_.find(keys.back())) {
-          task->second.evaluation = std::move(*known);
-          count(task->second.evaluation, test, true);
+        if (auto known = store_.find(key)) {
+          task.evaluation = std::move(*known);
+          task.finished = true;
+          count(task.evaluation, test, true);
           continue;
         }
-        task->second.index = test;
-        task->second.test = test_with(study_.tests[test].lab.test, values, seed);
-        auto& evaluation = task->second.evaluation;
-        evaluation.key = keys.back();
+        task.index = test;
+        auto& evaluation = task.evaluation;
+        evaluation.key = std::move(key);
         evaluation.point.assign(point.begin(), point.end());
         evaluation.values = values;
         evaluation.packing = seed;
         evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
-        unknown.push_back(&task->second);
+        task.done = pool_.submit([this, &task] { run(task); });
       }
     }
   }
-  run_all(unknown);
+  return tasks;
+}
+
+std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
+                                                           std::span<const std::uint64_t> packings,
+                                                           std::span<const std::size_t> tests) {
+  const auto tasks = begun(points, packings, tests);
+  for (const Task* task : tasks)
+    if (task->done.valid()) task->done.wait();
   std::vector<StoredEvaluation> out;
-  for (const auto& key : keys) out.push_back(tasks.at(key).evaluation);
+  for (Task* task : tasks) {
+    if (task->done.valid()) task->done.get();  // throws what the engine threw
+    if (task->finished && !std::exchange(task->asked, true)) ++asked_;
+    out.push_back(task->evaluation);
+  }
   return out;
+}
+
+void SimulationObjective::begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  (void)begun(points, packings, fitted_);
 }
 
 std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
@@ -180,30 +194,8 @@ std::vector<Response> SimulationObjective::earlier() const {
   return responses;
 }
 
-/// A plain pool: candidates are independent and take seconds each, so threads that live for one batch cost nothing.
-void SimulationObjective::run_all(std::vector<Task*>& tasks) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr error;
-  const auto work = [&] {
-    for (std::size_t i; (i = next++) < tasks.size() && !stop_requested();) {
-      try {
-        run(*tasks[i]);
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        error = std::current_exception();
-        next = tasks.size();
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t i = 1; i < std::min<std::size_t>(tasks.size(), static_cast<std::size_t>(options_.threads)); ++i)
-    threads.emplace_back(work);
-  work();
-  for (auto& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
-}
-
 void SimulationObjective::run(Task& task) {
+  if (stop_requested()) return;
   RunOptions options = options_.run;
   if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
@@ -216,7 +208,9 @@ void SimulationObjective::run(Task& task) {
     by_user = by_user || stop_requested();
     return !by_user && seconds_since(start) < options_.wall_limit_s;
   };
-  auto outcome = options_.simulator.run(task.test, options);
+  const auto& values = task.evaluation.values;
+  const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
+  auto outcome = options_.simulator.run(test, options);
   if (by_user) return;
 
   auto& evaluation = task.evaluation;
@@ -226,6 +220,7 @@ void SimulationObjective::run(Task& task) {
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
   evaluation.wall_s = seconds_since(start);
+  task.finished = true;
 
   auto faults = store_.add(evaluation);
   {
@@ -242,7 +237,6 @@ void SimulationObjective::run(Task& task) {
 
 void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t test, bool from_store) {
   const std::lock_guard lock(mutex_);
-  if (!asked_.insert(evaluation.key).second) return;
   ++(from_store ? counts_.answered : counts_.simulated);
   if (const auto failure = failure_of(study_.tests[test], evaluation)) ++counts_.failures[failure->reason];
   if (options_.observer) options_.observer(counts_);

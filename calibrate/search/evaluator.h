@@ -8,10 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "calibrate/search/objective.h"
+#include "calibrate/search/worker_pool.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
@@ -25,7 +25,7 @@ struct Simulator {
   std::function<Outcome(const SlumpTable&, const RunOptions&)> run = simulate;
 };
 
-/// Tally of the evaluations one objective was asked for; each is counted once, however often it was asked.
+/// Tally of the evaluations one objective has begun; each is counted once, when it is known.
 struct EvaluationCounts {
   double core_s = 0;                      ///< processor time of those finished now
   int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
@@ -50,7 +50,7 @@ struct EvaluatorOptions {
 
 /// The objective of a study: candidates are simulated in parallel in every test that is fitted, and every finished
 /// simulation is stored before its answer is used. Known ones are answered from the store, so that a search that runs
-/// again takes the same way.
+/// again takes the same way. Simulations run in the order in which they were begun; the budget counts what was asked.
 ///
 /// The mould of a test is filled once for each packing seed and shared by all candidates: the fill does not depend on
 /// what is fitted.
@@ -71,11 +71,15 @@ struct EvaluatorOptions {
 class SimulationObjective : public Objective {
  public:
   SimulationObjective(const Study& study, Store& store, EvaluatorOptions options);
+  SimulationObjective(const SimulationObjective&) = delete;
+  SimulationObjective& operator=(const SimulationObjective&) = delete;
+  ~SimulationObjective() override;  ///< ends what is under way, as a stop request would
 
   int parameters() const override;
   int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
   int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   int budget_left() const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   std::vector<Response> earlier() const override;
@@ -89,13 +93,22 @@ class SimulationObjective : public Objective {
   Faults store_faults() const;  ///< empty unless an evaluation could not be stored
 
  private:
-  struct Task;
+  /// One simulation, however many answers need it.
+  struct Task {
+    std::size_t index = 0;  // of the test in the study
+    StoredEvaluation evaluation;
+    bool finished = false;  // not cut off by a stop
+    bool asked = false;
+    std::shared_future<void> done;  // none if it is known from the store
+  };
 
-  /// Simulates, or finds, every point on every packing in every one of these tests; in that order.
+  /// Finds, or begins to simulate, every point on every packing in every one of these tests; in that order.
+  std::vector<Task*> begun(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                           std::span<const std::size_t> tests);
+  /// Waits for the same.
   std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                                         std::span<const std::size_t> tests);
   void run(Task& task);
-  void run_all(std::vector<Task*>& tasks);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
   std::shared_ptr<const Packing> packing(std::size_t test, std::uint64_t seed);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
@@ -111,13 +124,17 @@ class SimulationObjective : public Objective {
   std::vector<Known> known_;  // beforehand
   Store& store_;
   EvaluatorOptions options_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::map<std::string, Task> tasks_;  // by their name in the store: all that were ever begun
+  int asked_ = 0;                      // of them
+  std::atomic<bool> closing_ = false;
 
   mutable std::mutex mutex_;  // guards what follows
   std::map<std::pair<std::size_t, std::uint64_t>, std::shared_future<std::shared_ptr<const Packing>>> packings_;
-  std::unordered_set<std::string> asked_;
   EvaluationCounts counts_;
   Faults store_faults_;
+
+  WorkerPool pool_;  // last: its threads use all of the above
 };
 
 }  // namespace pastefit

@@ -129,6 +129,18 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
                      (answers_ - static_cast<double>(n)) * std::log(noise_ratio_);
 }
 
+void GaussianProcess::imagine(const UnitPoint& point, double mean, int answers) {
+  if (signal_variance_ == 0) return;
+  const auto n = values_.size();
+  points_.push_back(point);
+  values_.conservativeResize(n + 1);
+  values_[n] = mean;
+  counts_.conservativeResize(n + 1);
+  counts_[n] = answers;
+  answers_ += answers;
+  set(Eigen::VectorXd(lengths_), noise_ratio_);
+}
+
 GaussianProcess::Prediction GaussianProcess::predict(const UnitPoint& point) const {
   if (signal_variance_ == 0) return {mean_, 0};
   Eigen::VectorXd correlations(static_cast<Eigen::Index>(points_.size()));

@@ -25,6 +25,9 @@ class GaussianProcess {
   /// is how the noise is seen.
   GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values);
 
+  /// Becomes what it would be if a point had answered with this mean of so many answers; lengths and noise ratio stay.
+  void imagine(const UnitPoint& point, double mean, int answers);
+
   Prediction predict(const UnitPoint& point) const;
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 

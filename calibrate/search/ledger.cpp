@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "calibrate/search/coarse_rung.h"
 
 namespace pastefit {
 
@@ -16,7 +19,20 @@ Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::fu
 }
 
 int Ledger::budget_left() const {
-  return std::max(0, budget_ - (at_start_ - objective_.budget_left()) - held_back_);
+  int spent = at_start_ - objective_.budget_left();
+  for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
+  return std::max(0, budget_ - spent - held_back_);
+}
+
+void Ledger::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+  objective_.begin({&point, 1}, packings);
+  under_way_.push_back({point, {packings.begin(), packings.end()}});
+}
+
+Response Ledger::next_answer() {
+  const Asked asked = std::move(under_way_.front());
+  under_way_.pop_front();
+  return evaluate({&asked.point, 1}, asked.packings).at(0);
 }
 
 std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
@@ -122,6 +138,30 @@ std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings)
     if (is_feasible(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
       best = response;
     }
+  }
+  if (best.point.size() == 0) return std::nullopt;
+  return best;
+}
+
+std::vector<Response> Ledger::evidence() const {
+  std::vector<Response> all = corrected(coarse_singles_, singles_);
+  all.insert(all.end(), singles_.begin(), singles_.end());
+  return all;
+}
+
+UnitPoint Ledger::best_point(std::span<const std::uint64_t> packings) const {
+  if (const auto best = best_on(packings)) return best->point;
+  Response best;
+  for (const Response& single : evidence()) {
+    if (is_feasible(single) && is_better(single, best)) best = single;
+  }
+  return best.point;
+}
+
+std::optional<Response> Ledger::best_single() const {
+  Response best;
+  for (const Response& single : singles_) {
+    if (is_feasible(single) && is_better(single, best)) best = single;
   }
   if (best.point.size() == 0) return std::nullopt;
   return best;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -26,9 +27,20 @@ class Ledger : public Objective {
   int residuals() const override { return objective_.residuals(); }
   int readings() const override { return objective_.readings(); }
   bool stop_requested() const override { return objective_.stop_requested(); }
-  int budget_left() const override;  ///< without what is held back
+  int budget_left() const override;  ///< without what is held back or under way
   int simulations_each() const override { return objective_.simulations_each(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+
+  /// Begins to work on a point without waiting; its simulations are spent from now on.
+  void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
+  /// Waits for the earliest point that is under way: answers come in the order of asking, whichever is ready first.
+  Response next_answer();
+  /// Points begun and not yet answered, the earliest first, each with its packings.
+  struct Asked {
+    UnitPoint point;
+    std::vector<std::uint64_t> packings;
+  };
+  const std::deque<Asked>& under_way() const { return under_way_; }
 
   /// Simulates points on a coarse objective and keeps the answers in `coarse_singles`, weighed as all others.
   void evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
@@ -41,9 +53,15 @@ class Ledger : public Objective {
 
   /// Best answer on exactly these packings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
+  /// Best answer of a point on one packing.
+  std::optional<Response> best_single() const;
   const std::vector<Response>& history() const { return history_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
   const std::vector<Response>& coarse_singles() const { return coarse_singles_; }
+  /// What a surrogate learns from: the simulations, and the coarse ones as far as they tell of them.
+  std::vector<Response> evidence() const;
+  /// The best starting point known: on these packings, else on whatever others.
+  UnitPoint best_point(std::span<const std::uint64_t> packings) const;
   int simulations() const { return (at_start_ - objective_.budget_left()) * simulations_each(); }
   int failures() const;
   bool any_feasible() const;
@@ -64,6 +82,7 @@ class Ledger : public Objective {
   std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
   double common_packings_ = 1;
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1
+  std::deque<Asked> under_way_;
   std::vector<Response> history_;
   std::vector<Response> singles_;
   std::vector<Response> coarse_singles_;

@@ -48,6 +48,9 @@ class Objective {
   /// Points outside the unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
                                          std::span<const std::uint64_t> packings) = 0;
+  /// Begins to work on points without waiting for the answers, if it can; `evaluate` waits for them. Changes no answer,
+  /// and counts in the budget only when they are asked for.
+  virtual void begin(std::span<const UnitPoint>, std::span<const std::uint64_t>) {}
   /// Points on a packing still allowed by the budget, each counted once, however often it is asked.
   virtual int budget_left() const = 0;
   /// Simulations behind a point on one packing: one for each test that is fitted.

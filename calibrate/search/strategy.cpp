@@ -11,6 +11,7 @@
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
+#include "calibrate/search/proposals.h"
 #include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
 #include "calibrate/search/surrogate.h"
@@ -20,8 +21,6 @@ namespace {
 
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
 constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
-constexpr double same_point = 0.01;     // proposals closer than this bring nothing new [unit cube]
-constexpr int coarse_tries = 4;         // proposals tried with coarse grains before one is with fine ones
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
 
 std::string number(double value) {
@@ -46,7 +45,7 @@ class Search {
     common_ = fresh_packings(options_.packings);
     ledger_.hold_back(options_.confirmation_packings);
     if (coarse_) screen_coarsely();
-    if (evidence().empty()) screen();
+    if (ledger_.evidence().empty()) screen();
     if (!ledger_.singles().empty() && is_out_of_reach()) {
       ledger_.evaluate({&out_of_reach_->nearest, 1}, common_);
       if (!ledger_.stop_requested() && ledger_.best_on(common_)) confirm();
@@ -71,27 +70,13 @@ class Search {
   bool affordable(std::size_t packings) const { return ledger_.budget_left() >= static_cast<int>(packings); }
   bool may_go_on() const { return !ledger_.stop_requested() && affordable(common_.size()); }
 
-  std::vector<std::uint64_t> packings_of_coarse(int count) const {
-    std::vector<std::uint64_t> packings;
-    for (int k = 0; k < count; ++k)
-      packings.push_back(coarse_packings + options_.seed * 1000 + static_cast<std::uint64_t>(k));
-    return packings;
-  }
-
   void screen_coarsely() {
     ledger_.enter("screening");
     const auto points = screening_points(objective_.parameters(), options_.screening, options_.seed);
-    ledger_.evaluate_coarse(*coarse_, points, packings_of_coarse(1));
+    ledger_.evaluate_coarse(*coarse_, points, packings_of_coarse(options_.seed, 1));
   }
 
-  /// What the surrogate learns from: the simulations, and the coarse ones as far as they tell of them.
-  std::vector<Response> evidence() const {
-    std::vector<Response> all = corrected(ledger_.coarse_singles(), ledger_.singles());
-    all.insert(all.end(), ledger_.singles().begin(), ledger_.singles().end());
-    return all;
-  }
-
-  bool any_evidence() const { return std::ranges::any_of(evidence(), is_feasible); }
+  bool any_evidence() const { return std::ranges::any_of(ledger_.evidence(), is_feasible); }
 
   void screen() {
     ledger_.enter("screening");
@@ -120,22 +105,12 @@ class Search {
     return out_of_reach_.has_value();
   }
 
-  /// The best starting point known, on whatever packings.
-  UnitPoint best_point() const {
-    if (const auto best = ledger_.best_on(common_)) return best->point;
-    Response best;
-    for (const Response& single : evidence()) {
-      if (is_feasible(single) && is_better(single, best)) best = single;
-    }
-    return best.point;
-  }
-
   /// The candidate on the common packings that is likely to be best. The one that reads best is often the luckiest;
   /// what its neighbours read, all of them on packings of their own luck, tells them apart.
   Response likely_best() const {
     Response reads_best = ledger_.best_on(common_).value();
     if (noise() == 0) return reads_best;
-    Surrogate surrogate(evidence());
+    Surrogate surrogate(ledger_.evidence());
     Response best;
     double least = std::numeric_limits<double>::infinity();
     for (const Response& seen : ledger_.history()) {
@@ -177,39 +152,38 @@ class Search {
       nlopt.goal_mm = optimisers_goal_mm();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
-      search_nlopt(ledger_, common_, best_point(), nlopt);
+      search_nlopt(ledger_, common_, ledger_.best_point(common_), nlopt);
     }
     return ledger_.best_on(common_).has_value();
   }
 
-  /// The point of least expected misfit; with a coarse rung the first such point that has been tried there and is
-  /// still as good as any, as far as the noise lets tell.
-  UnitPoint next_candidate() {
-    Surrogate before(evidence());
-    UnitPoint proposal = least_point(before, best_point());
-    for (int tries = 0; coarse_ && tries < coarse_tries && !ledger_.stop_requested(); ++tries) {
-      const std::size_t known = ledger_.coarse_singles().size();
-      ledger_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.packings));
-      if (ledger_.coarse_singles().size() == known) break;
-      Surrogate surrogate(evidence());
-      const UnitPoint better = least_point(surrogate, best_point());
-      const auto misfit = [&](const UnitPoint& point) { return surrogate.evaluate({&point, 1}, common_).at(0).misfit; };
-      if (misfit(proposal) <= misfit(better) + surrogate.noise() / static_cast<double>(common_.size())) break;
-      if (tries + 1 < coarse_tries) proposal = better;
-    }
-    return proposal;
+  /// A point of the screening that reads within the tolerance may do already, and one of its packings is known.
+  void begin_with_what_is_there() {
+    const auto best = ledger_.best_single();
+    if (best && !ledger_.best_on(common_) && best->misfit_mm <= options_.tolerance_mm && may_go_on())
+      ledger_.begin(best->point, common_);
   }
 
+  /// Proposes, and takes the answers in the order of the proposals. Proposal k knows the answers up to k - 1 - lag, of
+  /// the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
+    begin_with_what_is_there();
+    Proposals proposals(ledger_, coarse_, options_, common_, goal_share * options_.tolerance_mm);
     int fruitless = 0;
-    while (!goal_is_met() && may_go_on() && fruitless < fruitless_proposals) {
-      const UnitPoint proposal = next_candidate();
-      const bool known = std::any_of(ledger_.history().begin(), ledger_.history().end(), [&](const Response& seen) {
-        return seen.packings == common_ && (seen.point - proposal).lpNorm<Eigen::Infinity>() < same_point;
-      });
-      if (known) return;
+    bool nothing_new = false;  // until the next answer
+    while (true) {
+      const bool wanted =
+          !nothing_new && !goal_is_met() && may_go_on() && fruitless < fruitless_proposals + options_.lag;
+      if (wanted && std::ssize(ledger_.under_way()) <= options_.lag) {
+        const std::optional<UnitPoint> proposal = proposals.next();
+        if (proposal) ledger_.begin(*proposal, common_);
+        nothing_new = !proposal;
+        continue;
+      }
+      if (ledger_.under_way().empty()) return;
       const auto before = ledger_.best_on(common_);
-      const Response response = ledger_.evaluate({&proposal, 1}, common_).at(0);
+      const Response response = ledger_.next_answer();
+      nothing_new = false;
       const bool better = is_feasible(response) && (!before || response.misfit < before->misfit - noise());
       fruitless = better ? 0 : fruitless + 1;
     }
@@ -235,7 +209,7 @@ class Search {
   double probe_length() const {
     const double infinity = std::numeric_limits<double>::infinity();
     Eigen::ArrayXd least = Eigen::ArrayXd::Constant(objective_.residuals(), infinity), most = -least;
-    for (const Response& single : evidence()) {
+    for (const Response& single : ledger_.evidence()) {
       if (!is_feasible(single)) continue;
       least = least.min(single.residuals.array());
       most = most.max(single.residuals.array());
@@ -258,7 +232,7 @@ class Search {
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
-    search_ceres(ledger_, common_, best_point(), ceres);
+    search_ceres(ledger_, common_, ledger_.best_point(common_), ceres);
   }
 
   /// Asks the candidate on fresh packings; true if it holds. If not, they join the common packings.

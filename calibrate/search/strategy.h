@@ -69,10 +69,12 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      tried there first. What the coarse simulations say is corrected by the bias between the rungs (`coarse_rung.h`)
 ///      and counts in the surrogate as a simulation; nothing else does. They are outside of the budget, and `history`
 ///      does not hold them.
-///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
-///      point of least expected misfit, which is simulated on the common packings, until the goal is met or nothing
-///      new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
-///      screening point, with half of what is left of the budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
+///   2. Search. "default": a point of the screening that reads within the tolerance is tried first. Then a Gaussian
+///      process for each residual learns from all simulations so far; NLopt finds the point of least expected misfit,
+///      which is simulated on the common packings, until the goal is met or nothing new is proposed. Up to `lag`
+///      candidates are under way when the next one is proposed (`proposals.h`). An NLopt algorithm by name: that
+///      algorithm on the simulations themselves, from the best screening point, with half of what is left of the
+///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
 ///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
 ///      packings join the common set, and the search goes on from 2 with what they taught.

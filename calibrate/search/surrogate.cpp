@@ -53,6 +53,17 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
   return responses;
 }
 
+Eigen::VectorXd Surrogate::imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck) {
+  Eigen::VectorXd answer(residuals());
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    const GaussianProcess::Prediction prediction = models_[k].predict(point);
+    answer[static_cast<Eigen::Index>(k)] =
+        prediction.mean + luck[static_cast<Eigen::Index>(k)] * std::sqrt(prediction.variance);
+    models_[k].imagine(point, answer[static_cast<Eigen::Index>(k)], packings);
+  }
+  return answer;
+}
+
 int Surrogate::budget_left() const {
   return std::numeric_limits<int>::max();
 }

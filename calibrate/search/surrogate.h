@@ -25,6 +25,11 @@ class Surrogate : public Objective {
   int budget_left() const override;
   bool stop_requested() const override { return false; }
 
+  /// Goes on as if `point` had answered on so many packings as it may well do: the mean residuals drawn from what is
+  /// known of them, without the noise of the packings; `luck`: standard normal deviates, one for each residual. Returns
+  /// them.
+  Eigen::VectorXd imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck);
+
   /// Likely misfit of a point and of the noise of one simulation: half the sum
   /// of the noise variances.
   double noise() const;

@@ -67,6 +67,7 @@ struct SearchOptions {
   int screening = 12;                ///< space-filling points
   int budget_simulations = 60;       ///< simulations in all, confirmation included
   int packings = 2;                  ///< common random packings per candidate
+  int lag = 1;                       ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< a confirmed misfit below it ends the search

@@ -85,6 +85,7 @@ constexpr std::string_view study_text =
     "screening": 12,             // candidates spread over the bounds at the start
     "budget_simulations": 80,    // in all, confirmation included
     "packings": 2,               // random fillings on which every candidate is tried
+    "lag": 1,                    // candidates under way when the next is proposed; more for more than 4 cores
     "confirmation_packings": 8,  // fresh fillings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     "tolerance_mm": 5,           // good enough

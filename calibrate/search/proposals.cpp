@@ -1,0 +1,69 @@
+#include "calibrate/search/proposals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/search/coarse_rung.h"
+#include "core/random.h"
+
+namespace pastefit {
+namespace {
+
+constexpr int coarse_tries = 4;  // proposals tried with coarse grains before one is with fine ones
+
+}  // namespace
+
+std::optional<UnitPoint> Proposals::next() {
+  Surrogate model(ledger_.evidence());
+  if (imagine_answers(model)) return std::nullopt;
+  const UnitPoint proposal = tried_with_coarse_grains(least_point(model, ledger_.best_point(common_)));
+  if (was_asked(proposal)) return std::nullopt;
+  return proposal;
+}
+
+UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
+  for (int tries = 0; coarse_ && tries < coarse_tries && !ledger_.stop_requested(); ++tries) {
+    const std::size_t known = ledger_.coarse_singles().size();
+    ledger_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
+    if (ledger_.coarse_singles().size() == known) break;
+    Surrogate model(ledger_.evidence());
+    imagine_answers(model);
+    const UnitPoint better = least_point(model, ledger_.best_point(common_));
+    const auto misfit = [&](const UnitPoint& point) { return model.evaluate({&point, 1}, common_).at(0).misfit; };
+    if (misfit(proposal) <= misfit(better) + model.noise() / static_cast<double>(common_.size())) break;
+    if (tries + 1 < coarse_tries) proposal = better;
+  }
+  return proposal;
+}
+
+/// Draws the answers of the candidates under way; true if one of them meets the goal.
+bool Proposals::imagine_answers(Surrogate& model) const {
+  const RandomStream random(options_.seed, "answers of candidates under way");
+  bool met = false;
+  std::uint64_t candidate = ledger_.history().size();  // its place in the history to come
+  for (const Ledger::Asked& asked : ledger_.under_way()) {
+    Eigen::VectorXd luck(ledger_.residuals());
+    for (Eigen::Index k = 0; k < luck.size(); ++k)
+      luck[k] = random.normal(candidate * static_cast<std::uint64_t>(luck.size()) + static_cast<std::uint64_t>(k));
+    const Eigen::VectorXd answer = model.imagine(asked.point, static_cast<int>(asked.packings.size()), luck);
+    met = met || 0.5 * answer.squaredNorm() <= goal_misfit();
+    ++candidate;
+  }
+  return met;
+}
+
+/// The goal as a misfit, by the ratio of both in the best simulation.
+double Proposals::goal_misfit() const {
+  const auto best = ledger_.best_single();
+  return best && best->misfit_mm > 0 ? best->misfit * std::pow(goal_mm_ / best->misfit_mm, 2) : 0;
+}
+
+bool Proposals::was_asked(const UnitPoint& point) const {
+  const auto same = [&](const auto& asked) {
+    return std::ranges::equal(asked.packings, common_) &&
+           (asked.point - point).template lpNorm<Eigen::Infinity>() < same_point;
+  };
+  return std::ranges::any_of(ledger_.history(), same) || std::ranges::any_of(ledger_.under_way(), same);
+}
+
+}  // namespace pastefit

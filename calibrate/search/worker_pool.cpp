@@ -1,0 +1,43 @@
+#include "calibrate/search/worker_pool.h"
+
+#include <utility>
+
+namespace pastefit {
+
+WorkerPool::~WorkerPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+  for (auto& worker : workers_) worker.join();
+}
+
+std::shared_future<void> WorkerPool::submit(std::function<void()> work) {
+  std::packaged_task<void()> task(std::move(work));
+  auto done = task.get_future().share();
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(task));
+    if (waiting_.size() > idle_ && workers_.size() < threads_) workers_.emplace_back([this] { take_work(); });
+  }
+  changed_.notify_one();
+  return done;
+}
+
+void WorkerPool::take_work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    ++idle_;
+    changed_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
+    --idle_;
+    if (closing_) return;
+    auto task = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+}  // namespace pastefit

@@ -1,0 +1,138 @@
+#include "calibrate/search/proposals.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "fake_slump.h"
+#include "virtual_cores.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+SearchOptions options_with(std::uint64_t seed, int lag) {
+  SearchOptions options;
+  options.seed = seed;
+  options.lag = lag;
+  return options;
+}
+
+const std::function<void(const Progress&)> nobody;
+const std::vector<std::uint64_t> common{1001, 1002};
+
+/// A ledger that has screened.
+Ledger screened(Objective& objective, const SearchOptions& options) {
+  Ledger ledger(objective, options, nobody);
+  ledger.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
+  return ledger;
+}
+
+struct Cost {
+  double simulations = 0, time = 0;
+  int confirmed = 0;
+};
+
+Cost cost_of(int lag, int cores, int seeds) {
+  Cost cost;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto random = static_cast<std::uint64_t>(seed);
+    VirtualCores objective(fake_slump(40 + 250 * uniform(random, 77), random), cores);
+    const Calibration calibration = search(objective, options_with(random, lag));
+    cost.simulations += calibration.simulations / static_cast<double>(seeds);
+    cost.time += objective.now / seeds;
+    if (calibration.status == CalibrationStatus::confirmed) ++cost.confirmed;
+  }
+  return cost;
+}
+
+}  // namespace
+
+TEST_CASE("candidates under way together are different ones, and none is one that was answered") {
+  int several = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    Synthetic objective = fake_slump(150, seed);
+    const SearchOptions options = options_with(seed, 3);
+    Ledger ledger = screened(objective, options);
+    Proposals proposals(ledger, nullptr, options, common, 0.1);
+    while (ledger.under_way().size() < 4) {
+      const auto proposal = proposals.next();
+      if (!proposal) break;
+      for (const Ledger::Asked& asked : ledger.under_way())
+        REQUIRE((asked.point - *proposal).lpNorm<Eigen::Infinity>() >= same_point);
+      ledger.begin(*proposal, common);
+    }
+    REQUIRE(!ledger.under_way().empty());
+    if (ledger.under_way().size() > 1) ++several;
+    while (!ledger.under_way().empty()) ledger.next_answer();
+    const auto next = proposals.next();
+    if (!next) continue;
+    for (const Response& seen : ledger.history())
+      if (std::ranges::equal(seen.packings, common))
+        CHECK((seen.point - *next).lpNorm<Eigen::Infinity>() >= same_point);
+  }
+  CHECK(several >= 15);
+}
+
+TEST_CASE("a candidate under way that is likely to meet the goal is waited for") {
+  int waited = 0, waited_for_none = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Synthetic objective = fake_slump(150, seed);
+    const SearchOptions options = options_with(seed, 1);
+    Ledger ledger = screened(objective, options);
+    Proposals generous(ledger, nullptr, options, common, 200), strict(ledger, nullptr, options, common, 1e-3);
+    ledger.begin(generous.next().value(), common);
+    if (!generous.next()) ++waited;
+    if (!strict.next()) ++waited_for_none;
+  }
+  CHECK(waited == 20);
+  CHECK(waited_for_none <= 5);
+}
+
+TEST_CASE("what is under way is spent, and answered in the order of asking") {
+  Synthetic objective = fake_slump(150, 1);
+  objective.budget = 60;
+  Ledger ledger = screened(objective, options_with(1, 3));
+  const int before = ledger.budget_left();
+  const std::vector<UnitPoint> points = screening_points(5, 3, 9);
+  for (const UnitPoint& point : points) ledger.begin(point, common);
+  CHECK(ledger.budget_left() == before - 6);
+  for (const UnitPoint& point : points) CHECK(ledger.next_answer().point == point);
+  CHECK(ledger.budget_left() == before - 6);
+  CHECK(ledger.under_way().empty());
+}
+
+TEST_CASE("with a lag so many candidates more are under way, and no more than the budget allows") {
+  for (const int lag : {0, 1, 3}) {
+    CAPTURE(lag);
+    std::size_t most = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      VirtualCores objective(fake_slump(150, seed), 64);
+      SearchOptions options = options_with(seed, lag);
+      options.tolerance_mm = 0.1;  // no candidate is so good that it is waited for
+      CHECK(search(objective, options).simulations <= 60);
+      most = std::max(most, objective.most_begun);
+    }
+    CHECK(most == static_cast<std::size_t>(lag) + 1);
+  }
+}
+
+TEST_CASE("a lag of one costs few simulations, and no time where there are cores for it") {
+  const int seeds = 100;
+  std::vector<std::vector<Cost>> costs;  // by lag and cores
+  for (const int lag : {0, 1}) {
+    costs.emplace_back();
+    for (const int cores : {2, 4, 8}) {
+      const Cost cost = costs.back().emplace_back(cost_of(lag, cores, seeds));
+      UNSCOPED_INFO("lag " << lag << ", " << cores << " cores: " << cost.simulations << " simulations, " << cost.time
+                           << " units of time");
+      CHECK(cost.confirmed >= 0.95 * seeds);
+    }
+  }
+  CHECK(costs[1][0].simulations == costs[1][2].simulations);  // cores change the time alone
+  CHECK(costs[1][0].simulations < 1.1 * costs[0][0].simulations);
+  CHECK(costs[1][0].time < 1.1 * costs[0][0].time);
+  CHECK(costs[1][1].time < costs[0][1].time);
+  CHECK(costs[1][2].time < costs[0][2].time);
+}
