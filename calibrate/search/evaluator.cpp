@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 
@@ -53,6 +54,7 @@ Failure stopped(std::string message) {
 struct SimulationObjective::Task {
   std::size_t index = 0;  // of the test in the study
   SlumpTable test;
+  std::optional<HeightWindow> window;
   StoredEvaluation evaluation;
 };
 
@@ -109,7 +111,7 @@ Faults SimulationObjective::store_faults() const {
 
 std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
                                                            std::span<const std::uint64_t> packings,
-                                                           std::span<const std::size_t> tests) {
+                                                           std::span<const std::size_t> tests, bool tried) {
   std::map<std::string, Task> tasks;
   std::vector<std::string> keys;
   std::vector<Task*> unknown;
@@ -122,12 +124,14 @@ std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitP
         keys.push_back(key_of(study_, test, values, seed, store_.identity().program));
         const auto [task, added] = tasks.try_emplace(keys.back());
         if (!added) continue;
-        if (auto known = store_.find(keys.back())) {
+        const auto window = tried ? window_of(study_, test) : std::nullopt;
+        if (auto known = find(store_, keys.back(), window)) {
           task->second.evaluation = std::move(*known);
           count(task->second.evaluation, test, true);
           continue;
         }
         task->second.index = test;
+        task->second.window = window;
         task->second.test = test_with(study_.tests[test].lab.test, values, seed);
         auto& evaluation = task->second.evaluation;
         evaluation.key = keys.back();
@@ -141,13 +145,26 @@ std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitP
   }
   run_all(unknown);
   std::vector<StoredEvaluation> out;
-  for (const auto& key : keys) out.push_back(tasks.at(key).evaluation);
+  for (const auto& key : keys) {
+    const auto& [index, test, window, evaluation] = tasks.at(key);
+    out.push_back(window ? seen_through(*window, evaluation) : evaluation);
+  }
   return out;
 }
 
 std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
                                                     std::span<const std::uint64_t> packings) {
-  const auto answered = answers(points, packings, fitted_);
+  return responses_of(points, packings, false);
+}
+
+std::vector<Response> SimulationObjective::try_out(std::span<const UnitPoint> points,
+                                                   std::span<const std::uint64_t> packings) {
+  return responses_of(points, packings, true);
+}
+
+std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoint> points,
+                                                        std::span<const std::uint64_t> packings, bool tried) {
+  const auto answered = answers(points, packings, fitted_, tried);
   std::vector<Response> responses;
   auto next = answered.begin();
   for (const auto& point : points) {
@@ -159,7 +176,7 @@ std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> p
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
+    if (!response.failed && !response.ended_early && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
       counts_.best_misfit_mm = response.misfit_mm;
   if (options_.observer) options_.observer(counts_);
   return responses;
@@ -167,7 +184,7 @@ std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> p
 
 std::vector<StoredEvaluation> SimulationObjective::predict(const UnitPoint& point,
                                                            std::span<const std::uint64_t> packings, std::size_t test) {
-  return answers({&point, 1}, packings, {&test, 1});
+  return answers({&point, 1}, packings, {&test, 1}, false);
 }
 
 std::vector<Response> SimulationObjective::earlier() const {
@@ -207,6 +224,7 @@ void SimulationObjective::run(Task& task) {
   RunOptions options = options_.run;
   if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
+  options.window = task.window;
 
   bool by_user = false;
   const auto start = Clock::now();
@@ -225,6 +243,7 @@ void SimulationObjective::run(Task& task) {
   evaluation.failure = outcome.failure;
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
+  if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.window.value());
   evaluation.wall_s = seconds_since(start);
 
   auto faults = store_.add(evaluation);
@@ -279,9 +298,22 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
   out.point = point;
   out.packing = stored.packing;
   out.failure = stored.failure;
+  out.ended_early = !out.failure && stored.run.ended_early;
   if (!out.failure)
-    for (const auto& reading : readings_) out.observables.push_back(stored.observables.find(reading.name).value());
+    for (const auto& reading : readings_)
+      out.observables.push_back(out.ended_early ? stored.observables.find(reading.name).value_or(std::nan(""))
+                                                : stored.observables.find(reading.name).value());
   return out;
+}
+
+double SimulationObjective::certain_miss(const Response& response, std::size_t reading) const {
+  const auto& [test, name, measurement, weight] = readings_[reading];
+  const double miss = response.observables[static_cast<Eigen::Index>(reading)] - measurement.value;
+  if (std::isnan(miss)) return 0;
+  const auto is_bound = [&](const Evaluation& one) {
+    return one.ended_early && is_upper_bound(study_, test, measurement.observable, one.observables[reading]);
+  };
+  return std::ranges::any_of(response.evaluations, is_bound) ? std::min(miss, 0.0) : miss;
 }
 
 Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) const {
@@ -298,6 +330,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
       failure_factor += 1 / (1 + (std::isfinite(time) ? std::max(0.0, time) : 0.0)) / packings;
       continue;
     }
+    out.ended_early = out.ended_early || evaluation.ended_early;
     for (Eigen::Index i = 0; i < count; ++i)
       out.observables[i] += evaluation.observables[static_cast<std::size_t>(i)] / packings;
   }
@@ -316,7 +349,8 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     if (out.failed)
       out.observables[i] =
           measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test.mould);
-    const double miss = out.observables[i] - measurement.value;
+    double miss = out.observables[i] - measurement.value;
+    if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
     if (weight > 0 && is_length(measurement.observable)) {
       squares_mm += miss * miss;

@@ -61,6 +61,9 @@ struct EvaluatorOptions {
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
+/// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is stored under a name of its
+/// own, so that it never stands in for one that ran to its end.
+///
 /// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
 /// answer that may depend on the machine's load.
@@ -76,6 +79,7 @@ class SimulationObjective : public Objective {
   int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
   int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   int budget_left() const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   std::vector<Response> earlier() const override;
@@ -91,14 +95,19 @@ class SimulationObjective : public Objective {
  private:
   struct Task;
 
-  /// Simulates, or finds, every point on every packing in every one of these tests; in that order.
+  /// Simulates, or finds, every point on every packing in every one of these tests; in that order. `tried`: only as
+  /// long as they are within their window (`early_end.h`).
   std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                                        std::span<const std::size_t> tests);
+                                        std::span<const std::size_t> tests, bool tried);
+  std::vector<Response> responses_of(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                     bool tried);
   void run(Task& task);
   void run_all(std::vector<Task*>& tasks);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
   std::shared_ptr<const Packing> packing(std::size_t test, std::uint64_t seed);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
+  /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
+  double certain_miss(const Response& response, std::size_t reading) const;
   Response response_of(std::vector<Evaluation> evaluations) const;
 
   const Study& study_;

@@ -26,7 +26,7 @@ class Approach {
     const Response* high = nullptr;
     int above = 0;
     for (const Response& single : singles) {
-      if (!is_feasible(single)) continue;
+      if (!is_feasible(single) || !has_reading(single, reading_)) continue;
       points_.push_back(single.point);
       if (!low || value_of(single) < value_of(*low)) low = &single;
       if (!high || value_of(single) > value_of(*high)) high = &single;
@@ -42,7 +42,7 @@ class Approach {
     misses_.resize(static_cast<Eigen::Index>(points_.size()));
     Eigen::Index i = 0;
     for (const Response& single : singles)
-      if (is_feasible(single)) misses_[i++] = side_ * (value_of(single) - measured_);
+      if (is_feasible(single) && has_reading(single, reading_)) misses_[i++] = side_ * (value_of(single) - measured_);
   }
 
   bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
@@ -110,12 +110,25 @@ std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const Uni
   return bounds;
 }
 
+std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint64_t packing) {
+  std::vector<UnitPoint> points;
+  for (const Response& single : singles)
+    if (single.ended_early && single.packings.front() == packing) points.push_back(single.point);
+  return points;
+}
+
 std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const ReachOptions& options, int& probes) {
   const int parameters = ledger.parameters();
   const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
   while (!ledger.stop_requested()) {
     const Approach approach(ledger.singles(), reading, tolerance);
     if (!approach.suspect()) return std::nullopt;
+    // How far they would have gone is what matters here.
+    if (const auto ended = ended_early(ledger.singles(), options.packing); !ended.empty()) {
+      if (ledger.budget_left() < std::ssize(ended)) return std::nullopt;
+      ledger.evaluate(ended, {&options.packing, 1});
+      continue;
+    }
     const GaussianProcess model = approach.model();
     const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
     Miss at_best(model, parameters, sure, approach.least()), likely(model, parameters, 0, approach.least());
