@@ -18,8 +18,8 @@ struct Evaluation {
   UnitPoint point;
   std::uint64_t packing = 0;
   std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
-  bool ended_early = false;         ///< see `Objective::try_out`
   std::optional<Failure> failure;
+  bool ended_early = false;  ///< see `Objective::try_out`
 };
 
 /// What a candidate answers on a set of packings: the mean over them, against the laboratory.

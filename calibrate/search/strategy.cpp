@@ -124,9 +124,8 @@ class Search {
   UnitPoint best_point() const {
     if (const auto best = ledger_.best_on(common_)) return best->point;
     Response best;
-    for (const Response& single : evidence()) {
+    for (const Response& single : evidence())
       if (is_feasible(single) && is_better(single, best)) best = single;
-    }
     return best.point;
   }
 
@@ -292,11 +291,9 @@ class Search {
   Calibration conclude() {
     if (result_.best.point.size() == 0 && ledger_.any_feasible()) {
       result_.search = ledger_.best_on(common_).value_or(Response{});
-      if (result_.search.point.size() == 0) {
-        for (const Response& seen : ledger_.history()) {
+      if (result_.search.point.size() == 0)
+        for (const Response& seen : ledger_.history())
           if (is_whole(seen) && is_better(seen, result_.search)) result_.search = seen;
-        }
-      }
       result_.best = result_.search;
     }
     result_.history = ledger_.history();
