@@ -45,9 +45,9 @@ struct RunOptions {
   std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
   /// Given: a run ends as soon as it is certain to read less, without any reading of step 1, or after step 1 where that
   /// reads beyond it, without step 2; `RunSummary::ended_early` says so. Until then the run is the same, bit for bit.
-  /// Certain means: the highest point lies a grain's radius below it by the ruler. No reading is above the highest point,
-  /// and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould that drags
-  /// them along (by less than half a radius, `tests/bench/README.md`).
+  /// Certain means: the highest point lies a grain's radius below it by the ruler. No reading is above the highest
+  /// point, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould
+  /// that drags them along (by less than half a radius, `tests/bench/README.md`).
   std::optional<HeightWindow> window;
 };
 
@@ -59,9 +59,9 @@ struct RunSummary {
   double time_step_s = 0;     ///< mean over the run
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
-  bool settled = false;     ///< every rest phase ended by its criterion, not by its cap
+  bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
   bool ended_early = false;  ///< the heap left `RunOptions::window`: the later readings were not taken
-  double energy_error = 0;  ///< unexplained energy over energy put in
+  double energy_error = 0;   ///< unexplained energy over energy put in
 };
 
 /// Readings of a run, or the reason why there are none.

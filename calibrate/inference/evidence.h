@@ -18,7 +18,7 @@ struct ReadingEvidence {
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
   double deviation = 0;            ///< standard deviation of one measurement, in the reading's unit
   int repeats = 1;
-  double weight = 0;  ///< in the fit; 0: not fitted
+  double weight = 0;          ///< in the fit; 0: not fitted
   Eigen::VectorXd simulated;  ///< NaN: the simulation ended before it
 
   bool fitted() const { return measured && weight > 0; }

@@ -24,8 +24,8 @@ std::optional<HeightWindow> window_of(const Study& study, std::size_t test) {
     if (one.weights.at(k).weight == 0) continue;
     second_step = second_step || measurement.observable.starts_with("step2.");
     if (measurement.observable != height) continue;
-    const double level = std::max(level_in_tolerances * study.search.tolerance_mm,
-                                  level_in_deviations * measurement.standard_deviation);
+    const double level =
+        std::max(level_in_tolerances * study.search.tolerance_mm, level_in_deviations * measurement.standard_deviation);
     window = HeightWindow{1e-3 * (measurement.value - level), 1e-3 * (measurement.value + level)};
   }
   if (window && !second_step) window->highest_m = HeightWindow{}.highest_m;

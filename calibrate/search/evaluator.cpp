@@ -176,7 +176,8 @@ std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoin
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && !response.ended_early && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
+    if (!response.failed && !response.ended_early &&
+        (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
       counts_.best_misfit_mm = response.misfit_mm;
   if (options_.observer) options_.observer(counts_);
   return responses;

@@ -31,7 +31,9 @@ class Approach {
       if (!low || value_of(single) < value_of(*low)) low = &single;
       if (!high || value_of(single) > value_of(*high)) high = &single;
       above += single.residuals[reading_] > 0 ? 1 : -1;
+      all_bounds_ = all_bounds_ && single.ended_early && single.residuals[reading_] < 0;
     }
+    all_bounds_ = all_bounds_ && low && value_of(*high) == value_of(*low);
     one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
     if (!one_side_) return;
     // A residual is a multiple of the difference to the laboratory.
@@ -46,6 +48,7 @@ class Approach {
   }
 
   bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
+  bool tells_nothing() const { return all_bounds_; }
   double met() const { return met_; }
   double measured() const { return measured_; }
   double side() const { return side_; }
@@ -57,6 +60,7 @@ class Approach {
 
   Eigen::Index reading_;
   bool one_side_ = false;
+  bool all_bounds_ = true;  // every simulation ended early and says only that it read less
   double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
   std::vector<UnitPoint> points_;
   Eigen::VectorXd misses_;
@@ -122,13 +126,14 @@ std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const Rea
   const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
   while (!ledger.stop_requested()) {
     const Approach approach(ledger.singles(), reading, tolerance);
-    if (!approach.suspect()) return std::nullopt;
+    if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
     // How far they would have gone is what matters here.
     if (const auto ended = ended_early(ledger.singles(), options.packing); !ended.empty()) {
-      if (ledger.budget_left() < std::ssize(ended)) return std::nullopt;
+      if (ledger.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
       ledger.evaluate(ended, {&options.packing, 1});
       continue;
     }
+    if (!approach.suspect()) return std::nullopt;
     const GaussianProcess model = approach.model();
     const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
     Miss at_best(model, parameters, sure, approach.least()), likely(model, parameters, 0, approach.least());
@@ -190,8 +195,12 @@ std::string words_of_screening(std::span<const Response> singles, std::span<cons
     const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
     if (std::ranges::none_of(singles, fitted)) continue;
     const Reach& one = reach[k];
+    const bool or_less = std::ranges::any_of(singles, [&](const Response& single) {
+      const auto i = static_cast<Eigen::Index>(k);
+      return single.ended_early && single.residuals[i] < 0 && single.observables[i] == one.lowest;
+    });
     out += (out.empty() ? "" : " ") + name_of(readings, k, "reading ") +
-           format(" went from %.3g to %.3g, ", one.lowest, one.highest);
+           format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);
     if (one.all_above || one.all_below)
       out += std::string("always ") + (one.all_above ? "above" : "below") +
              " the laboratory, which may still be in reach.";

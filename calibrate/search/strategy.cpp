@@ -210,8 +210,7 @@ class Search {
       const auto before = ledger_.best_on(common_);
       Response response = ledger_.try_out({&proposal, 1}, common_).at(0);
       // What it misses at least does not rule it out: its other readings decide.
-      if (is_feasible(response) && response.ended_early && (!before || response.misfit < before->misfit) &&
-          may_go_on())
+      if (is_feasible(response) && response.ended_early && (!before || response.misfit < before->misfit) && may_go_on())
         response = ledger_.evaluate({&proposal, 1}, common_).at(0);
       const bool better = is_whole(response) && (!before || response.misfit < before->misfit - noise());
       fruitless = better ? 0 : fruitless + 1;

@@ -72,8 +72,9 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; NLopt finds the
 ///      point of least expected misfit, which is tried out on the common packings (`Objective::try_out`, as the
 ///      screening), and simulated to its end if the bound that this brings does not rule it out, until the goal is met
-///      or nothing new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the best
-///      screening point, with half of what is left of the budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
+///      or nothing new is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves, from the
+///      best screening point, with half of what is left of the budget; "levenberg_marquardt" and "dogleg": Ceres
+///      likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
 ///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
 ///      packings join the common set, and the search goes on from 2 with what they taught.

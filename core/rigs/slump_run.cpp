@@ -42,8 +42,8 @@ class SlumpRun {
         test_.mould.height_m - height_at_axis(world_.particles, test_.grains.radius_m, test_.reading.probe_diameter_m);
     highest_zero_ = test_.mould.height_m - highest_point(world_.particles);
     if (options_.window)
-      lost_below_ = options_.window->lowest_m - (reads_axis() ? axis_zero_ : highest_zero_) -
-                    kRebound * test_.grains.radius_m;
+      lost_below_ =
+          options_.window->lowest_m - (reads_axis() ? axis_zero_ : highest_zero_) - kRebound * test_.grains.radius_m;
     return {};
   }
 

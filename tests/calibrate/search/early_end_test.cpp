@@ -31,7 +31,8 @@ struct TwoSteps : Laboratory {
     study.search.screening = 12;
     options.budget = 60;
     twist = [this](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
-      const double strength = std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
+      const double strength =
+          std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
       const double noise = 3 * synthetic::normal(test.packing_seed, static_cast<std::uint64_t>(1e6 * strength));
       const double height = 20 + 250 * strength + 10 * test.contact.friction + noise;
       outcome.observables = {};
@@ -96,7 +97,8 @@ TEST_CASE("a simulation that was ended and one that was not answer the same") {
   SimulationObjective ended(cut.study, store_cut, cut.options), run_through(whole.study, store_whole, whole.options);
   int below = 0, within = 0, above = 0;
   for (const UnitPoint& point : ladder()) {
-    const Response a = ended.try_out({&point, 1}, kPackings).at(0), b = run_through.try_out({&point, 1}, kPackings).at(0);
+    const Response a = ended.try_out({&point, 1}, kPackings).at(0),
+                   b = run_through.try_out({&point, 1}, kPackings).at(0);
     CHECK(same(a, b));
     const Response full = run_through.evaluate({&point, 1}, kPackings).at(0);
     CHECK_FALSE(full.ended_early);
@@ -189,8 +191,7 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
     auto store = laboratory.store();
     SimulationObjective objective(laboratory.study, store, laboratory.options);
     Calibration calibration = search(objective, laboratory.study.search);
-    const Evidence evidence =
-        evidence_of(laboratory.study, record_of(laboratory.study, store, calibration.history));
+    const Evidence evidence = evidence_of(laboratory.study, record_of(laboratory.study, store, calibration.history));
     return std::pair{std::move(calibration), evidence};
   };
   TwoSteps undisturbed;

@@ -120,7 +120,9 @@ class Synthetic : public Objective {
     double squares = 0;
     for (int k = 0; k < count; ++k) {
       double miss = response.observables[k] - measured[k];
-      const auto bound = [&](const Evaluation& one) { return one.ended_early && one.observables[0] <= measured[0] - level; };
+      const auto bound = [&](const Evaluation& one) {
+        return one.ended_early && one.observables[0] <= measured[0] - level;
+      };
       if (std::isnan(miss)) miss = 0;
       if (k == 0 && std::ranges::any_of(response.evaluations, bound)) miss = std::min(miss, 0.0);
       response.residuals[k] = miss / standard_deviations[k];

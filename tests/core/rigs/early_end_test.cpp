@@ -6,7 +6,8 @@ using namespace pastefit;
 
 namespace {
 
-/// A paste of coarse grains that slumps to about half, or with `drop` on a drop plate. The ruler reads the highest point.
+/// A paste of coarse grains that slumps to about half, or with `drop` on a drop plate. The ruler reads the highest
+/// point.
 SlumpTable slumping(bool drop) {
   SlumpTable test;
   test.grains.radius_m = 0.014;
