@@ -308,11 +308,12 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
 }
 
 double SimulationObjective::certain_miss(const Response& response, std::size_t reading) const {
-  const auto& [test, name, measurement, weight] = readings_[reading];
-  const double miss = response.observables[static_cast<Eigen::Index>(reading)] - measurement.value;
+  const StudyReading& fitted = readings_[reading];
+  const double miss = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
   if (std::isnan(miss)) return 0;
   const auto is_bound = [&](const Evaluation& one) {
-    return one.ended_early && is_upper_bound(study_, test, measurement.observable, one.observables[reading]);
+    return one.ended_early &&
+           is_upper_bound(study_, fitted.test, fitted.measurement.observable, one.observables[reading]);
   };
   return std::ranges::any_of(response.evaluations, is_bound) ? std::min(miss, 0.0) : miss;
 }
