@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,12 @@ struct Moment {
   const World* world = nullptr;
 };
 
+/// Heights after step 1 (`step1.height_mm`) [m] beyond which the rest of a test is of no use to the caller.
+struct HeightWindow {
+  double lowest_m = 0;
+  double highest_m = std::numeric_limits<double>::infinity();
+};
+
 /// What the caller may ask of a run besides its answer.
 struct RunOptions {
   StepOptions steps;  ///< with a fixed step, if wanted, instead of the one the scene asks for
@@ -36,6 +43,12 @@ struct RunOptions {
   double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
   std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
+  /// Given: a run ends as soon as it is certain to read less, without any reading of step 1, or after step 1 where that
+  /// reads beyond it, without step 2; `RunSummary::ended_early` says so. Until then the run is the same, bit for bit.
+  /// Certain means: the highest point lies a grain's radius below it by the ruler. No reading is above the highest
+  /// point, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould
+  /// that drags them along (by less than half a radius, `tests/bench/README.md`).
+  std::optional<HeightWindow> window;
 };
 
 /// How the run went.
@@ -46,8 +59,9 @@ struct RunSummary {
   double time_step_s = 0;     ///< mean over the run
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
-  bool settled = false;     ///< every rest phase ended by its criterion, not by its cap
-  double energy_error = 0;  ///< unexplained energy over energy put in
+  bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
+  bool ended_early = false;  ///< the heap left `RunOptions::window`: the later readings were not taken
+  double energy_error = 0;   ///< unexplained energy over energy put in
 };
 
 /// Readings of a run, or the reason why there are none.

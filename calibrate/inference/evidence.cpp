@@ -39,13 +39,14 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
   }
   if (good.empty()) return evidence;
   const std::vector<StudyReading> fitted = readings_of(study);
-  for (const Observable& reading : good.front()->observables.all()) {
+  const auto readings = [](const StoredEvaluation* one) { return one->observables.all().size(); };
+  for (const Observable& reading : (*std::ranges::max_element(good, {}, readings))->observables.all()) {
     ReadingEvidence one;
     one.name = reading.name;
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));
     for (std::size_t i = 0; i < good.size(); ++i)
       one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
-    if (!one.simulated.allFinite()) continue;
+    if ((one.simulated.array().isInf()).any()) continue;
     if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
       one.measured = known->measurement.value;
       one.deviation = known->measurement.standard_deviation;
@@ -59,7 +60,17 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
 
 ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence)) {
   if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
-  for (const ReadingEvidence& reading : evidence_.readings) models_.emplace_back(evidence_.points, reading.simulated);
+  for (const ReadingEvidence& reading : evidence_.readings) {
+    std::vector<UnitPoint> points;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < evidence_.points.size(); ++i) {
+      const double value = reading.simulated[static_cast<Eigen::Index>(i)];
+      if (std::isnan(value)) continue;
+      points.push_back(evidence_.points[i]);
+      values.push_back(value);
+    }
+    models_.emplace_back(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+  }
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());

@@ -18,8 +18,8 @@ struct ReadingEvidence {
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
   double deviation = 0;            ///< standard deviation of one measurement, in the reading's unit
   int repeats = 1;
-  double weight = 0;  ///< in the fit; 0: not fitted
-  Eigen::VectorXd simulated;
+  double weight = 0;          ///< in the fit; 0: not fitted
+  Eigen::VectorXd simulated;  ///< NaN: the simulation ended before it
 
   bool fitted() const { return measured && weight > 0; }
   /// Variance of the laboratory's mean: deviation^2/(repeats weight).
@@ -35,7 +35,8 @@ struct Evidence {
   std::vector<ReadingEvidence> readings;
 };
 
-/// Collects the evidence from a record (`search/record.h`). Readings that some simulation lacks are left out.
+/// Collects the evidence from a record (`search/record.h`). A reading that some simulations lack, because they ended
+/// early, is learnt from the others.
 Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations);
 
 /// What a simulation of any candidate is likely to read, learnt from the

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
+#include <tuple>
 
 namespace pastefit {
 
 namespace {
 
-using Asked = std::pair<std::vector<double>, std::uint64_t>;
+using Asked = std::tuple<std::vector<double>, std::uint64_t, bool>;
 
 /// Misfit of the incumbent after each simulation. A misfit on more packings says more than one on fewer, and replaces
 /// it even if it is larger: what was lucky is found out.
@@ -18,10 +18,10 @@ std::vector<double> course_of(const std::vector<Response>& history) {
   double best = -1;
   std::size_t packings = 0;
   for (const Response& response : history) {
-    for (const std::uint64_t packing : response.packings)
-      asked.insert({std::vector<double>(response.point.begin(), response.point.end()), packing});
+    for (const Evaluation& one : response.evaluations)
+      asked.insert({std::vector<double>(response.point.begin(), response.point.end()), one.packing, one.ended_early});
     course.resize(asked.size(), best);
-    if (!is_feasible(response) || response.packings.size() < packings) continue;
+    if (!is_whole(response) || response.packings.size() < packings) continue;
     if (best >= 0 && response.packings.size() == packings && response.misfit_mm >= best) continue;
     best = response.misfit_mm;
     packings = response.packings.size();

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 
@@ -83,7 +84,7 @@ int SimulationObjective::residuals() const {
 }
 
 int SimulationObjective::budget_left() const {
-  return std::max(0, options_.budget - asked_) / simulations_each();
+  return std::max(0, options_.budget - static_cast<int>(asked_.size())) / simulations_each();
 }
 
 bool SimulationObjective::stop_requested() const {
@@ -107,7 +108,7 @@ Faults SimulationObjective::store_faults() const {
 
 std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<const UnitPoint> points,
                                                                    std::span<const std::uint64_t> packings,
-                                                                   std::span<const std::size_t> tests) {
+                                                                   std::span<const std::size_t> tests, bool tried) {
   std::vector<Task*> tasks;
   for (const auto& point : points) {
     if (point.size() != parameters() || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1)
@@ -116,11 +117,13 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
     for (const auto seed : packings) {
       for (const auto test : tests) {
         auto key = key_of(study_, test, values, seed, store_.identity().program);
-        const auto [entry, added] = tasks_.try_emplace(key);
+        const auto window = tried ? window_of(study_, test) : std::nullopt;
+        const auto [entry, added] = tasks_.try_emplace(window ? key_of_ended(key, *window) : key);
         Task& task = entry->second;
+        task.window = window;
         tasks.push_back(&task);
         if (!added) continue;
-        if (auto known = store_.find(key)) {
+        if (auto known = find(store_, key, window)) {
           task.evaluation = std::move(*known);
           task.finished = true;
           count(task.evaluation, test, true);
@@ -142,26 +145,36 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
 
 std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
                                                            std::span<const std::uint64_t> packings,
-                                                           std::span<const std::size_t> tests) {
-  const auto tasks = begun(points, packings, tests);
+                                                           std::span<const std::size_t> tests, bool tried) {
+  const auto tasks = begun(points, packings, tests, tried);
   for (const Task* task : tasks)
     if (task->done.valid()) task->done.wait();
   std::vector<StoredEvaluation> out;
   for (Task* task : tasks) {
     if (task->done.valid()) task->done.get();  // throws what the engine threw
-    if (task->finished && !std::exchange(task->asked, true)) ++asked_;
-    out.push_back(task->evaluation);
+    if (task->finished) asked_.insert(task->evaluation.key);
+    out.push_back(task->window ? seen_through(*task->window, task->evaluation) : task->evaluation);
   }
   return out;
 }
 
 void SimulationObjective::begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  (void)begun(points, packings, fitted_);
+  (void)begun(points, packings, fitted_, true);
 }
 
 std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
                                                     std::span<const std::uint64_t> packings) {
-  const auto answered = answers(points, packings, fitted_);
+  return responses_of(points, packings, false);
+}
+
+std::vector<Response> SimulationObjective::try_out(std::span<const UnitPoint> points,
+                                                   std::span<const std::uint64_t> packings) {
+  return responses_of(points, packings, true);
+}
+
+std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoint> points,
+                                                        std::span<const std::uint64_t> packings, bool tried) {
+  const auto answered = answers(points, packings, fitted_, tried);
   std::vector<Response> responses;
   auto next = answered.begin();
   for (const auto& point : points) {
@@ -173,7 +186,8 @@ std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> p
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
+    if (!response.failed && !response.ended_early &&
+        (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
       counts_.best_misfit_mm = response.misfit_mm;
   if (options_.observer) options_.observer(counts_);
   return responses;
@@ -181,7 +195,7 @@ std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> p
 
 std::vector<StoredEvaluation> SimulationObjective::predict(const UnitPoint& point,
                                                            std::span<const std::uint64_t> packings, std::size_t test) {
-  return answers({&point, 1}, packings, {&test, 1});
+  return answers({&point, 1}, packings, {&test, 1}, false);
 }
 
 std::vector<Response> SimulationObjective::earlier() const {
@@ -199,6 +213,7 @@ void SimulationObjective::run(Task& task) {
   RunOptions options = options_.run;
   if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
+  options.window = task.window;
 
   bool by_user = false;
   const auto start = Clock::now();
@@ -219,6 +234,7 @@ void SimulationObjective::run(Task& task) {
   evaluation.failure = outcome.failure;
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
+  if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.window.value());
   evaluation.wall_s = seconds_since(start);
   task.finished = true;
 
@@ -237,6 +253,7 @@ void SimulationObjective::run(Task& task) {
 
 void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t test, bool from_store) {
   const std::lock_guard lock(mutex_);
+  if (!counted_.insert(evaluation.key).second) return;
   ++(from_store ? counts_.answered : counts_.simulated);
   if (const auto failure = failure_of(study_.tests[test], evaluation)) ++counts_.failures[failure->reason];
   if (options_.observer) options_.observer(counts_);
@@ -273,9 +290,23 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
   out.point = point;
   out.packing = stored.packing;
   out.failure = stored.failure;
+  out.ended_early = !out.failure && stored.run.ended_early;
   if (!out.failure)
-    for (const auto& reading : readings_) out.observables.push_back(stored.observables.find(reading.name).value());
+    for (const auto& reading : readings_)
+      out.observables.push_back(out.ended_early ? stored.observables.find(reading.name).value_or(std::nan(""))
+                                                : stored.observables.find(reading.name).value());
   return out;
+}
+
+double SimulationObjective::certain_miss(const Response& response, std::size_t reading) const {
+  const StudyReading& fitted = readings_[reading];
+  const double miss = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
+  if (std::isnan(miss)) return 0;
+  const auto is_bound = [&](const Evaluation& one) {
+    return one.ended_early &&
+           is_upper_bound(study_, fitted.test, fitted.measurement.observable, one.observables[reading]);
+  };
+  return std::ranges::any_of(response.evaluations, is_bound) ? std::min(miss, 0.0) : miss;
 }
 
 Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) const {
@@ -292,6 +323,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
       failure_factor += 1 / (1 + (std::isfinite(time) ? std::max(0.0, time) : 0.0)) / packings;
       continue;
     }
+    out.ended_early = out.ended_early || evaluation.ended_early;
     for (Eigen::Index i = 0; i < count; ++i)
       out.observables[i] += evaluation.observables[static_cast<std::size_t>(i)] / packings;
   }
@@ -310,7 +342,8 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     if (out.failed)
       out.observables[i] =
           measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test.mould);
-    const double miss = out.observables[i] - measurement.value;
+    double miss = out.observables[i] - measurement.value;
+    if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
     if (weight > 0 && is_length(measurement.observable)) {
       squares_mm += miss * miss;

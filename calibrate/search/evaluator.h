@@ -7,7 +7,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "calibrate/search/objective.h"
@@ -61,6 +63,9 @@ struct EvaluatorOptions {
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
+/// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is stored under a name of its
+/// own, so that it never stands in for one that ran to its end.
+///
 /// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
 /// answer that may depend on the machine's load.
@@ -79,6 +84,7 @@ class SimulationObjective : public Objective {
   int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
   int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   int budget_left() const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
@@ -95,23 +101,28 @@ class SimulationObjective : public Objective {
  private:
   /// One simulation, however many answers need it.
   struct Task {
-    std::size_t index = 0;  // of the test in the study
+    std::size_t index = 0;               // of the test in the study
+    std::optional<HeightWindow> window;  // of a candidate that is only tried out
     StoredEvaluation evaluation;
-    bool finished = false;  // not cut off by a stop
-    bool asked = false;
+    bool finished = false;          // not cut off by a stop
     std::shared_future<void> done;  // none if it is known from the store
   };
 
-  /// Finds, or begins to simulate, every point on every packing in every one of these tests; in that order.
+  /// Finds, or begins to simulate, every point on every packing in every one of these tests; in that order. `tried`:
+  /// only as long as they are within their window (`early_end.h`).
   std::vector<Task*> begun(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                           std::span<const std::size_t> tests);
+                           std::span<const std::size_t> tests, bool tried);
   /// Waits for the same.
   std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                                        std::span<const std::size_t> tests);
+                                        std::span<const std::size_t> tests, bool tried);
+  std::vector<Response> responses_of(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                     bool tried);
   void run(Task& task);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
   std::shared_ptr<const Packing> packing(std::size_t test, std::uint64_t seed);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
+  /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
+  double certain_miss(const Response& response, std::size_t reading) const;
   Response response_of(std::vector<Evaluation> evaluations) const;
 
   const Study& study_;
@@ -125,12 +136,13 @@ class SimulationObjective : public Objective {
   Store& store_;
   EvaluatorOptions options_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::map<std::string, Task> tasks_;  // by their name in the store: all that were ever begun
-  int asked_ = 0;                      // of them
+  std::map<std::string, Task> tasks_;      // by their name in the store: all that were ever begun
+  std::unordered_set<std::string> asked_;  // evaluations that were answered: what has been spent
   std::atomic<bool> closing_ = false;
 
   mutable std::mutex mutex_;  // guards what follows
   std::map<std::pair<std::size_t, std::uint64_t>, std::shared_future<std::shared_ptr<const Packing>>> packings_;
+  std::unordered_set<std::string> counted_;
   EvaluationCounts counts_;
   Faults store_faults_;
 

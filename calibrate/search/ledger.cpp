@@ -32,11 +32,19 @@ void Ledger::begin(const UnitPoint& point, std::span<const std::uint64_t> packin
 Response Ledger::next_answer() {
   const Asked asked = std::move(under_way_.front());
   under_way_.pop_front();
-  return evaluate({&asked.point, 1}, asked.packings).at(0);
+  return try_out({&asked.point, 1}, asked.packings).at(0);
 }
 
 std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  std::vector<Response> responses = objective_.evaluate(points, packings);
+  return ask(&Objective::evaluate, points, packings);
+}
+
+std::vector<Response> Ledger::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  return ask(&Objective::try_out, points, packings);
+}
+
+std::vector<Response> Ledger::ask(Ask how, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  std::vector<Response> responses = (objective_.*how)(points, packings);
   // What a stop cuts off counts as failed; it says nothing about the point.
   if (objective_.stop_requested()) return responses;
   for (Response& response : responses) weigh(response);
@@ -44,7 +52,7 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
     for (const Response& response : responses) keep_single(response, singles_);
   } else {
     for (const std::uint64_t packing : packings) {
-      for (Response& response : objective_.evaluate(points, {&packing, 1})) {
+      for (Response& response : (objective_.*how)(points, {&packing, 1})) {
         weigh(response);
         keep_single(response, singles_);
       }
@@ -52,7 +60,7 @@ std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::s
   }
   history_.insert(history_.end(), responses.begin(), responses.end());
   for (const Response& response : responses) {
-    if (!is_feasible(response) || packings.size() < best_packings_) continue;
+    if (!is_whole(response) || packings.size() < best_packings_) continue;
     if (packings.size() > best_packings_ || response.misfit_mm < best_misfit_mm_) {
       best_misfit_mm_ = response.misfit_mm;
       best_packings_ = packings.size();
@@ -94,9 +102,9 @@ void Ledger::measure_noise() {
   int freedom = 0;
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     std::vector<const Response*> same;
-    bool first = is_feasible(singles_[i]);
+    bool first = is_whole(singles_[i]);
     for (std::size_t j = 0; first && j < singles_.size(); ++j) {
-      if (!is_feasible(singles_[j]) || singles_[j].point != singles_[i].point) continue;
+      if (!is_whole(singles_[j]) || singles_[j].point != singles_[i].point) continue;
       first = j >= i;
       same.push_back(&singles_[j]);
     }
@@ -126,16 +134,19 @@ void Ledger::report(const std::string& note) const {
 }
 
 void Ledger::keep_single(const Response& response, std::vector<Response>& singles) {
-  const bool known = std::any_of(singles.begin(), singles.end(), [&](const Response& single) {
+  const auto known = std::ranges::find_if(singles, [&](const Response& single) {
     return single.packings == response.packings && single.point == response.point;
   });
-  if (!known) singles.push_back(response);
+  if (known == singles.end())
+    singles.push_back(response);
+  else if (known->ended_early && !response.ended_early)
+    *known = response;
 }
 
 std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings) const {
   Response best;
   for (const Response& response : history_) {
-    if (is_feasible(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
+    if (is_whole(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
       best = response;
     }
   }
@@ -161,7 +172,7 @@ UnitPoint Ledger::best_point(std::span<const std::uint64_t> packings) const {
 std::optional<Response> Ledger::best_single() const {
   Response best;
   for (const Response& single : singles_) {
-    if (is_feasible(single) && is_better(single, best)) best = single;
+    if (is_whole(single) && is_better(single, best)) best = single;
   }
   if (best.point.size() == 0) return std::nullopt;
   return best;
@@ -184,7 +195,7 @@ std::vector<Reach> reach_of(std::span<const Response> singles, int readings) {
     double squares = 0;
     int freedom = 0;
     for (const Response& single : singles) {
-      if (!is_feasible(single)) continue;
+      if (!is_feasible(single) || !has_reading(single, k)) continue;
       one.lowest = std::min(one.lowest, single.observables[k]);
       one.highest = std::max(one.highest, single.observables[k]);
       one.all_above = one.all_above && single.residuals[k] > 0;
@@ -193,11 +204,11 @@ std::vector<Reach> reach_of(std::span<const Response> singles, int readings) {
       double sum = 0;
       int count = 0;
       for (const Response& other : singles) {
-        if (!is_feasible(other) || other.point != single.point) continue;
+        if (!is_whole(other) || other.point != single.point) continue;
         sum += other.observables[k];
         ++count;
       }
-      if (count < 2) continue;
+      if (count < 2 || !is_whole(single)) continue;
       squares += std::pow(single.observables[k] - sum / count, 2) * count / (count - 1.0);
       ++freedom;
     }

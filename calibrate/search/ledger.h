@@ -30,6 +30,7 @@ class Ledger : public Objective {
   int budget_left() const override;  ///< without what is held back or under way
   int simulations_each() const override { return objective_.simulations_each(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
 
   /// Begins to work on a point without waiting; its simulations are spent from now on.
   void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
@@ -51,9 +52,9 @@ class Ledger : public Objective {
   /// Tells whoever waits.
   void say(const std::string& note) const { report(note); }
 
-  /// Best answer on exactly these packings.
+  /// Best answer on exactly these packings; one that has all its readings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
-  /// Best answer of a point on one packing.
+  /// Best answer of a point on one packing; one that has all its readings.
   std::optional<Response> best_single() const;
   const std::vector<Response>& history() const { return history_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
@@ -67,6 +68,8 @@ class Ledger : public Objective {
   bool any_feasible() const;
 
  private:
+  using Ask = decltype(&Objective::evaluate);
+  std::vector<Response> ask(Ask how, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
   static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
   void measure_noise();

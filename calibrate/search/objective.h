@@ -17,8 +17,9 @@ using UnitPoint = Eigen::VectorXd;
 struct Evaluation {
   UnitPoint point;
   std::uint64_t packing = 0;
-  std::vector<double> observables;  ///< in the order of the study's measurements; empty after a failure
+  std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
+  bool ended_early = false;  ///< see `Objective::try_out`
 };
 
 /// What a candidate answers on a set of packings: the mean over them, against the laboratory.
@@ -26,13 +27,16 @@ struct Response {
   UnitPoint point;
   std::vector<std::uint64_t> packings;
   std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading
+  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading; NaN: some packing has none
   /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
   /// their standard deviations. Finite; graded if it failed.
   Eigen::VectorXd residuals;
   double misfit = 0;     ///< half the squared norm of the residuals: what is minimised; always finite
   double misfit_mm = 0;  ///< root mean square difference of the fitted lengths [mm]
   bool failed = false;   ///< some packing ended in a failure
+  /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
+  /// bound of that of the whole test, and not one that makes a candidate the best.
+  bool ended_early = false;
 };
 
 /// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
@@ -48,7 +52,12 @@ class Objective {
   /// Points outside the unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
                                          std::span<const std::uint64_t> packings) = 0;
-  /// Begins to work on points without waiting for the answers, if it can; `evaluate` waits for them. Changes no answer,
+  /// The same for candidates that only have to be told from good ones: a simulation may end where they have lost.
+  /// Nothing but what is left out differs from the answer of `evaluate`.
+  virtual std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+    return evaluate(points, packings);
+  }
+  /// Begins to work on points without waiting for the answers, if it can; `try_out` waits for them. Changes no answer,
   /// and counts in the budget only when they are asked for.
   virtual void begin(std::span<const UnitPoint>, std::span<const std::uint64_t>) {}
   /// Points on a packing still allowed by the budget, each counted once, however often it is asked.

@@ -26,12 +26,14 @@ class Approach {
     const Response* high = nullptr;
     int above = 0;
     for (const Response& single : singles) {
-      if (!is_feasible(single)) continue;
+      if (!is_feasible(single) || !has_reading(single, reading_)) continue;
       points_.push_back(single.point);
       if (!low || value_of(single) < value_of(*low)) low = &single;
       if (!high || value_of(single) > value_of(*high)) high = &single;
       above += single.residuals[reading_] > 0 ? 1 : -1;
+      all_bounds_ = all_bounds_ && single.ended_early && single.residuals[reading_] < 0;
     }
+    all_bounds_ = all_bounds_ && low && value_of(*high) == value_of(*low);
     one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
     if (!one_side_) return;
     // A residual is a multiple of the difference to the laboratory.
@@ -42,10 +44,11 @@ class Approach {
     misses_.resize(static_cast<Eigen::Index>(points_.size()));
     Eigen::Index i = 0;
     for (const Response& single : singles)
-      if (is_feasible(single)) misses_[i++] = side_ * (value_of(single) - measured_);
+      if (is_feasible(single) && has_reading(single, reading_)) misses_[i++] = side_ * (value_of(single) - measured_);
   }
 
   bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
+  bool tells_nothing() const { return all_bounds_; }
   double met() const { return met_; }
   double measured() const { return measured_; }
   double side() const { return side_; }
@@ -57,6 +60,7 @@ class Approach {
 
   Eigen::Index reading_;
   bool one_side_ = false;
+  bool all_bounds_ = true;  // every simulation ended early and says only that it read less
   double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
   std::vector<UnitPoint> points_;
   Eigen::VectorXd misses_;
@@ -110,11 +114,25 @@ std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const Uni
   return bounds;
 }
 
+std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint64_t packing) {
+  std::vector<UnitPoint> points;
+  for (const Response& single : singles)
+    if (single.ended_early && single.packings.front() == packing) points.push_back(single.point);
+  return points;
+}
+
 std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const ReachOptions& options, int& probes) {
   const int parameters = ledger.parameters();
   const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
   while (!ledger.stop_requested()) {
     const Approach approach(ledger.singles(), reading, tolerance);
+    if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
+    // How far they would have gone is what matters here.
+    if (const auto ended = ended_early(ledger.singles(), options.packing); !ended.empty()) {
+      if (ledger.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
+      ledger.evaluate(ended, {&options.packing, 1});
+      continue;
+    }
     if (!approach.suspect()) return std::nullopt;
     const GaussianProcess model = approach.model();
     const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
@@ -177,8 +195,12 @@ std::string words_of_screening(std::span<const Response> singles, std::span<cons
     const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
     if (std::ranges::none_of(singles, fitted)) continue;
     const Reach& one = reach[k];
+    const bool or_less = std::ranges::any_of(singles, [&](const Response& single) {
+      const auto i = static_cast<Eigen::Index>(k);
+      return single.ended_early && single.residuals[i] < 0 && single.observables[i] == one.lowest;
+    });
     out += (out.empty() ? "" : " ") + name_of(readings, k, "reading ") +
-           format(" went from %.3g to %.3g, ", one.lowest, one.highest);
+           format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);
     if (one.all_above || one.all_below)
       out += std::string("always ") + (one.all_above ? "above" : "below") +
              " the laboratory, which may still be in reach.";

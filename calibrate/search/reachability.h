@@ -40,7 +40,8 @@ struct ReachOptions {
 /// reading is met (it is within reach), nothing is left that might meet it (it is out of reach, which is the answer),
 /// or the probes are spent (nothing is said). Probes stay in the ledger and serve the search. Limit: three standard
 /// deviations of a model learnt from a dozen simulations; a narrow region of the cube that answers unlike all the rest
-/// can be overlooked.
+/// can be overlooked. Simulations that ended early are run whole before anything is judged by them, or if all have
+/// ended so: how far they would have gone is the question.
 std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options);
 
 /// The answer in words. Names may be missing: "reading 1", "parameter 2".

@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "calibrate/search/early_end.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
@@ -15,11 +16,13 @@ namespace {
 constexpr double rounding = 1e-12;  // of a coordinate that was a value in between
 
 /// The candidate on one packing in all these tests, if the store has it; `before`: only from epochs before this one.
+/// `tried`: as `Objective::try_out` answered.
 std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std::size_t> tests, const Store& store,
-                                        std::span<const double> values, std::uint64_t packing, int before) {
+                                        std::span<const double> values, std::uint64_t packing, int before, bool tried) {
   std::vector<StoredEvaluation> found;
   for (const std::size_t test : tests) {
-    auto evaluation = store.find(key_of(study, test, values, packing, store.identity().program));
+    const auto window = tried ? window_of(study, test) : std::nullopt;
+    auto evaluation = find(store, key_of(study, test, values, packing, store.identity().program), window);
     if (!evaluation || evaluation->epoch >= before) return std::nullopt;
     found.push_back(std::move(*evaluation));
   }
@@ -59,7 +62,7 @@ std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation&
   if (evaluation.failure) return evaluation.failure;
   for (const Measurement& measurement : test.lab.measurements) {
     const auto value = evaluation.observables.find(measurement.observable);
-    if (value && std::isfinite(*value)) continue;
+    if (value ? std::isfinite(*value) : evaluation.run.ended_early) continue;
     Failure failure;
     failure.reason = FailureReason::non_finite;
     failure.phase = "reading";
@@ -80,6 +83,7 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     const StudyTest& test = study.tests.at(tests[i]);
     if (!out.failure) out.failure = failure_of(test, evaluations[i]);
+    out.run.ended_early = out.run.ended_early || evaluations[i].run.ended_early;
     for (const auto& [name, value] : evaluations[i].observables.all())
       out.observables.set(reading_name(test, name), value);
   }
@@ -90,8 +94,11 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
 std::size_t holding(const Study& study, const Store& store) {
   const auto all = store.all();
   return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {
-    for (std::size_t test = 0; test < study.tests.size(); ++test)
-      if (key_of(study, test, one.values, one.packing, store.identity().program) == one.key) return true;
+    for (std::size_t test = 0; test < study.tests.size(); ++test) {
+      const std::string key = key_of(study, test, one.values, one.packing, store.identity().program);
+      const auto window = window_of(study, test);
+      if (key == one.key || (window && key_of_ended(key, *window) == one.key)) return true;
+    }
     return false;
   }));
 }
@@ -104,7 +111,7 @@ std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store)
     if (evaluation.epoch >= store.epoch()) continue;
     const auto point = point_of(study, evaluation.values);
     if (!point) continue;
-    auto found = find_in(study, tests, store, evaluation.values, evaluation.packing, store.epoch());
+    auto found = find_in(study, tests, store, evaluation.values, evaluation.packing, store.epoch(), true);
     if (!found || !known.insert(found->key).second) continue;
     found->point = *point;
     out.push_back(std::move(*found));
@@ -123,8 +130,8 @@ std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, 
   for (const StoredEvaluation& evaluation : record) known.insert(evaluation.key);
   for (const Response& response : history) {
     const std::vector<double> values = values_at(study, response.point);
-    for (const std::uint64_t packing : response.packings) {
-      auto found = find_in(study, tests, store, values, packing, std::numeric_limits<int>::max());
+    for (const Evaluation& one : response.evaluations) {
+      auto found = find_in(study, tests, store, values, one.packing, std::numeric_limits<int>::max(), one.ended_early);
       if (!found || !known.insert(found->key).second) continue;
       found->point.assign(response.point.begin(), response.point.end());
       record.push_back(std::move(*found));

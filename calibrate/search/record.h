@@ -21,7 +21,8 @@ SlumpTable filled_test(const Study& study, std::size_t test, std::uint64_t packi
 std::string key_of(const Study& study, std::size_t test, std::span<const double> values, std::uint64_t packing,
                    std::string_view program);
 
-/// Why an evaluation cannot be used by the study: its own failure, or a measured reading that is missing or no number.
+/// Why an evaluation cannot be used by the study: its own failure, or a measured reading that is missing (though it did
+/// not end early) or no number.
 std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation);
 
 /// A candidate on one packing in several tests as one evaluation: the readings under their names in the study, and the

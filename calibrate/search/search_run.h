@@ -49,9 +49,21 @@ inline bool is_feasible(const Response& response) {
          response.residuals.allFinite();
 }
 
-/// True if `candidate` should replace `best`: feasible beats failed, then less misfit wins. An empty `best` loses.
+/// True if it is feasible and has all its readings.
+inline bool is_whole(const Response& response) {
+  return is_feasible(response) && !response.ended_early;
+}
+
+/// True unless reading k was not taken, because a simulation ended early.
+inline bool has_reading(const Response& response, Eigen::Index k) {
+  return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
+}
+
+/// True if `candidate` should replace `best`: one with all its readings beats one without, feasible beats failed, then
+/// less misfit wins. An empty `best` loses.
 inline bool is_better(const Response& candidate, const Response& best) {
   if (best.point.size() == 0) return true;
+  if (is_whole(candidate) != is_whole(best)) return is_whole(candidate);
   if (is_feasible(candidate) != is_feasible(best)) return is_feasible(candidate);
   return candidate.misfit < best.misfit;
 }

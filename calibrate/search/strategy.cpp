@@ -89,7 +89,7 @@ class Search {
       const int count = std::min(missing, ledger_.budget_left());
       if (count < 1 || asked > options_.budget_simulations / objective_.simulations_each() / 2) return;
       const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
-      ledger_.evaluate(std::span(points).last(static_cast<std::size_t>(count)), first);
+      ledger_.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
     }
   }
@@ -114,7 +114,7 @@ class Search {
     Response best;
     double least = std::numeric_limits<double>::infinity();
     for (const Response& seen : ledger_.history()) {
-      if (!is_feasible(seen) || seen.packings != common_) continue;
+      if (!is_whole(seen) || seen.packings != common_) continue;
       const double likely = surrogate.evaluate({&seen.point, 1}, common_).at(0).misfit;
       if (likely >= least) continue;
       least = likely;
@@ -182,9 +182,12 @@ class Search {
       }
       if (ledger_.under_way().empty()) return;
       const auto before = ledger_.best_on(common_);
-      const Response response = ledger_.next_answer();
+      Response response = ledger_.next_answer();
       nothing_new = false;
-      const bool better = is_feasible(response) && (!before || response.misfit < before->misfit - noise());
+      // What it misses at least does not rule it out: its other readings decide.
+      if (is_feasible(response) && response.ended_early && (!before || response.misfit < before->misfit) && may_go_on())
+        response = ledger_.evaluate({&response.point, 1}, common_).at(0);
+      const bool better = is_whole(response) && (!before || response.misfit < before->misfit - noise());
       fruitless = better ? 0 : fruitless + 1;
     }
   }
@@ -196,7 +199,7 @@ class Search {
     const auto& singles = ledger_.singles();
     for (std::size_t i = 0; i < singles.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (!is_feasible(singles[i]) || !is_feasible(singles[j]) || singles[i].point != singles[j].point) continue;
+        if (!is_whole(singles[i]) || !is_whole(singles[j]) || singles[i].point != singles[j].point) continue;
         squares += (singles[i].residuals - singles[j].residuals).squaredNorm() / 2;
         ++freedom;
       }
@@ -262,11 +265,9 @@ class Search {
   Calibration conclude() {
     if (result_.best.point.size() == 0 && ledger_.any_feasible()) {
       result_.search = ledger_.best_on(common_).value_or(Response{});
-      if (result_.search.point.size() == 0) {
-        for (const Response& seen : ledger_.history()) {
-          if (is_feasible(seen) && is_better(seen, result_.search)) result_.search = seen;
-        }
-      }
+      if (result_.search.point.size() == 0)
+        for (const Response& seen : ledger_.history())
+          if (is_whole(seen) && is_better(seen, result_.search)) result_.search = seen;
       result_.best = result_.search;
     }
     result_.history = ledger_.history();
@@ -309,6 +310,8 @@ class Search {
     } else if (!ledger_.any_feasible()) {
       result_.status = CalibrationStatus::failed;
       result_.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
+    } else if (result_.best.point.size() == 0) {
+      result_.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
     } else {
       result_.status = CalibrationStatus::unconfirmed;
       const Response& told = result_.confirmation.point.size() > 0 ? result_.confirmation : result_.best;
@@ -324,6 +327,8 @@ class Search {
         }
         result_.reason += ".";
       }
+      if (std::ranges::any_of(ledger_.singles(), &Response::ended_early))
+        result_.reason += " Simulations that ended early count as what was certain of them.";
     }
   }
 

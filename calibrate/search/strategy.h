@@ -71,7 +71,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      does not hold them.
 ///   2. Search. "default": a point of the screening that reads within the tolerance is tried first. Then a Gaussian
 ///      process for each residual learns from all simulations so far; NLopt finds the point of least expected misfit,
-///      which is simulated on the common packings, until the goal is met or nothing new is proposed. Up to `lag`
+///      which is tried out on the common packings (`Objective::try_out`, as the screening), and simulated to its end if
+///      the bound that this brings does not rule it out, until the goal is met or nothing new is proposed. Up to `lag`
 ///      candidates are under way when the next one is proposed (`proposals.h`). An NLopt algorithm by name: that
 ///      algorithm on the simulations themselves, from the best screening point, with half of what is left of the
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.

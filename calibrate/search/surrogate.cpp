@@ -15,21 +15,27 @@ const std::vector<std::uint64_t> no_packing{0};
 }  // namespace
 
 Surrogate::Surrogate(std::span<const Response> seen) : parameters_(static_cast<int>(seen.front().point.size())) {
-  std::vector<UnitPoint> all, feasible;
-  std::vector<Eigen::VectorXd> residuals;
+  std::vector<UnitPoint> all;
+  std::vector<const Response*> feasible;
   Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
   for (const Response& response : seen) {
     failed[static_cast<Eigen::Index>(all.size())] = is_feasible(response) ? 0 : 1;
     all.push_back(response.point);
     if (!is_feasible(response)) continue;
-    feasible.push_back(response.point);
-    residuals.push_back(response.residuals);
+    feasible.push_back(&response);
     worst_ = std::max(worst_, response.misfit);
   }
-  Eigen::VectorXd values(static_cast<Eigen::Index>(feasible.size()));
-  for (Eigen::Index k = 0; k < residuals.front().size(); ++k) {
-    for (std::size_t i = 0; i < residuals.size(); ++i) values[static_cast<Eigen::Index>(i)] = residuals[i][k];
-    models_.emplace_back(feasible, values);
+  for (Eigen::Index k = 0; k < feasible.front()->residuals.size(); ++k) {
+    std::vector<UnitPoint> points;
+    std::vector<double> values;
+    for (const Response* response : feasible) {
+      if (!has_reading(*response, k)) continue;
+      points.push_back(response->point);
+      values.push_back(response->residuals[k]);
+    }
+    models_.emplace_back();
+    if (points.empty()) continue;
+    models_.back().emplace(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
   }
   if (failed.sum() > 0) failures_ = std::make_unique<GaussianProcess>(all, failed);
 }
@@ -42,7 +48,7 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
     response.residuals.resize(residuals());
     double variance = 0;
     for (std::size_t k = 0; k < models_.size(); ++k) {
-      const GaussianProcess::Prediction prediction = models_[k].predict(point);
+      const auto prediction = models_[k] ? models_[k]->predict(point) : GaussianProcess::Prediction{};
       response.residuals[static_cast<Eigen::Index>(k)] = prediction.mean;
       variance += prediction.variance;
     }
@@ -70,7 +76,7 @@ int Surrogate::budget_left() const {
 
 double Surrogate::noise() const {
   double variance = 0;
-  for (const GaussianProcess& model : models_) variance += model.noise_variance();
+  for (const auto& model : models_) variance += model ? model->noise_variance() : 0;
   return 0.5 * variance;
 }
 

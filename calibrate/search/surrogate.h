@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace pastefit {
 /// point are likely to be. The misfit is the expected one, half the sum of
 /// squared means and variances, plus the largest misfit seen times the likely
 /// share of failures, so that its minimum lies where something is known and
-/// little fails. It never fails.
+/// little fails. It never fails. Each residual is learnt from the simulations
+/// that took its reading; one that none took is expected to be met.
 class Surrogate : public Objective {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them
@@ -37,7 +39,7 @@ class Surrogate : public Objective {
  private:
   int parameters_ = 0;
   double worst_ = 0;
-  std::vector<GaussianProcess> models_;  // one for each residual
+  std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
   std::unique_ptr<GaussianProcess> failures_;
 };
 

@@ -51,6 +51,7 @@ ordered_json to_json(const RunSummary& run, double wall_s) {
           {"simulated_s", number_to_json(run.simulated_s)},
           {"wall_s", number_to_json(wall_s)},
           {"settled", run.settled},
+          {"ended_early", run.ended_early},
           {"energy_error", number_to_json(run.energy_error)}};
 }
 
@@ -89,6 +90,7 @@ RunSummary run_from_json(const json& in) {
   out.time_step_s = number_from_json(in.at("time_step_s"));
   out.simulated_s = number_from_json(in.at("simulated_s"));
   out.settled = in.at("settled").get<bool>();
+  out.ended_early = in.at("ended_early").get<bool>();
   out.energy_error = number_from_json(in.at("energy_error"));
   return out;
 }

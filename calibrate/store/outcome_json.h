@@ -17,7 +17,8 @@ double number_from_json(const nlohmann::json& in);
 nlohmann::ordered_json to_json(const Observables& observables);
 /// {"reason", "phase", "step", "time_s", "grain", "value", "limit", "message"}, or null.
 nlohmann::ordered_json to_json(const std::optional<Failure>& failure);
-/// {"particles", "steps", "particle_steps", "time_step_s", "simulated_s", "wall_s", "settled", "energy_error"}.
+/// {"particles", "steps", "particle_steps", "time_step_s", "simulated_s", "wall_s", "settled", "ended_early",
+/// "energy_error"}.
 nlohmann::ordered_json to_json(const RunSummary& run, double wall_s);
 
 /// The inverses. Errors: throw nlohmann::json::exception or std::invalid_argument when the text is not what the

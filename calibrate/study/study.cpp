@@ -99,6 +99,7 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
     reader.integer("examination_simulations", search.examination_simulations, 0, most, Need::optional);
     reader.number("tolerance_mm", search.tolerance_mm, {0, 1000}, Need::optional);
     reader.flag("coarse_first", search.coarse_first, Need::optional);
+    reader.flag("end_early", search.end_early, Need::optional);
     reader.integer("seed", search.seed, Need::optional);
     const int least = (search.packings + search.confirmation_packings) * fitted_tests;
     if (search.budget_simulations < least)

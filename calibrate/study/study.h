@@ -72,6 +72,7 @@ struct SearchOptions {
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< a confirmed misfit below it ends the search
   bool coarse_first = false;         ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
+  bool end_early = true;             ///< candidates need not run to their end (`calibrate/search/early_end.h`)
   std::uint64_t seed = 1;
 };
 

@@ -90,6 +90,7 @@ constexpr std::string_view study_text =
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     "tolerance_mm": 5,           // good enough
     "coarse_first": false,       // true: look with grains 1.5 times as large first; fewer simulations, confirmed as ever
+    "end_early": true,           // candidates that are far off end early; false: every simulation runs to its end
     "seed": 1
   }
 }

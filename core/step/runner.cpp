@@ -138,9 +138,10 @@ std::optional<Failure> Runner::run_until_rest(std::string_view phase, double lon
   return wait_for_rest(phase, longest_s, free, done).failure;
 }
 
-std::optional<Failure> Runner::settle(std::string_view phase, double cap_s) {
-  const Wait wait = wait_for_rest(phase, cap_s);
-  if (wait.failure || wait.rested) return wait.failure;
+std::optional<Failure> Runner::settle(std::string_view phase, double cap_s,
+                                      const std::function<bool(const World&)>& done) {
+  const Wait wait = wait_for_rest(phase, cap_s, {}, done);
+  if (wait.failure || wait.rested || (done && done(world_))) return wait.failure;
   summary_.settled = false;
   const double limit = kStillFlowing * world_.reference_radius;
   if (wait.change < limit) return {};

@@ -25,9 +25,10 @@ class Runner {
                                         const std::function<bool(const World&)>& free,
                                         const std::function<bool(const World&)>& done);
 
-  /// Steps until the heap is at rest, for `cap_s` at most; at the cap the run goes on, marked as not settled, unless
-  /// the heap still moves fast enough that its readings mean nothing.
-  std::optional<Failure> settle(std::string_view phase, double cap_s);
+  /// Steps until the heap is at rest or `done` says so, for `cap_s` at most; at the cap the run goes on, marked as not
+  /// settled, unless the heap still moves fast enough that its readings mean nothing.
+  std::optional<Failure> settle(std::string_view phase, double cap_s,
+                                const std::function<bool(const World&)>& done = {});
 
   /// As `settle`, but it does not matter whether rest is reached within the time.
   std::optional<Failure> relax(std::string_view phase, double cap_s);

@@ -114,6 +114,38 @@ TEST_CASE("the default strategy meets two heights and a noisy sag at once", "[ca
   CHECK(confirmed >= 36);
 }
 
+TEST_CASE("ending candidates early leaves the answer as good, and the best is always a whole one", "[campaign]") {
+  for (const double level : {24.0, 40.0}) {
+    int confirmed = 0, confirmed_whole = 0, ended = 0, asked = 0, simulations = 0, simulations_whole = 0;
+    double off = 0, off_whole = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      CAPTURE(seed, level);
+      const double height = 60 + 5.5 * static_cast<double>(seed);
+      Synthetic objective = fake_slump(height, seed), whole = fake_slump(height, seed);
+      objective.level = level;
+      const Calibration calibration = search(objective, options_with(seed)), other = search(whole, options_with(seed));
+      CHECK_FALSE(calibration.best.ended_early);
+      CHECK_FALSE(calibration.search.ended_early);
+      CHECK_FALSE(calibration.confirmation.ended_early);
+      confirmed += calibration.status == CalibrationStatus::confirmed;
+      confirmed_whole += other.status == CalibrationStatus::confirmed;
+      off += std::abs(mean_height(calibration.best.point) - height) / 40;
+      off_whole += std::abs(mean_height(other.best.point) - height) / 40;
+      simulations += objective.simulations;
+      simulations_whole += whole.simulations;
+      for (const Response& one : objective.answered) {
+        ++asked;
+        ended += one.ended_early;
+      }
+    }
+    CAPTURE(level, confirmed, confirmed_whole, off, off_whole, simulations, simulations_whole, ended, asked);
+    CHECK(confirmed >= confirmed_whole - 2);
+    CHECK(off < off_whole + 0.7);
+    CHECK(simulations < 1.1 * simulations_whole);
+    CHECK(ended > asked / 10);
+  }
+}
+
 TEST_CASE("every algorithm by name goes the whole way within the budget", "[campaign]") {
   for (const std::string_view name : strategy_names()) {
     int confirmed = 0;

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <set>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "calibrate/search/objective.h"
@@ -48,6 +49,9 @@ class Synthetic : public Objective {
   /// Residuals of what is known beforehand.
   std::function<std::vector<double>(const UnitPoint&)> known = [](const UnitPoint&) { return std::vector<double>{}; };
   FailureKind failure_kind = FailureKind::graded;
+  /// A try whose first reading is off by more ends early: below it reads the level and nothing else, above it lacks the
+  /// other readings. 0: every one runs to its end.
+  double level = 0;
   int budget = std::numeric_limits<int>::max();
   std::function<bool()> stop = [] { return false; };
 
@@ -63,14 +67,30 @@ class Synthetic : public Objective {
   bool stop_requested() const override { return stop(); }
 
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
+    return answers(points, packings, false);
+  }
+  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
+    return answers(points, packings, level > 0);
+  }
+
+ private:
+  std::vector<Response> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                bool tried) {
     std::vector<Response> responses;
-    for (const UnitPoint& point : points) responses.push_back(answer(point, packings));
+    for (const UnitPoint& point : points) responses.push_back(answer(point, packings, tried));
     answered.insert(answered.end(), responses.begin(), responses.end());
     return responses;
   }
 
- private:
-  Response answer(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+  void end_early(Evaluation& evaluation) const {
+    const double miss = evaluation.observables[0] - measured[0];
+    evaluation.ended_early = miss < -level || (miss > level && evaluation.observables.size() > 1);
+    if (!evaluation.ended_early) return;
+    std::fill(evaluation.observables.begin() + 1, evaluation.observables.end(), std::nan(""));
+    evaluation.observables[0] = std::max(evaluation.observables[0], measured[0] - level);
+  }
+
+  Response answer(const UnitPoint& point, std::span<const std::uint64_t> packings, bool tried) {
     if (point.size() != dimension || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1) {
       throw std::logic_error("a point outside the unit cube was asked");
     }
@@ -80,15 +100,17 @@ class Synthetic : public Objective {
     response.packings.assign(packings.begin(), packings.end());
     response.observables = Eigen::VectorXd::Zero(count);
     for (const std::uint64_t packing : packings) {
-      if (known_.insert({digest(point), packing}).second) ++simulations;
       Evaluation evaluation{point, packing, {}, std::nullopt};
       if (fails(point, packing)) {
         evaluation.failure = Failure{};
         response.failed = true;
       } else {
         evaluation.observables = observe(point, packing);
+        if (tried) end_early(evaluation);
+        response.ended_early = response.ended_early || evaluation.ended_early;
         for (int k = 0; k < count; ++k) response.observables[k] += evaluation.observables[k];
       }
+      if (known_.insert({digest(point), packing, evaluation.ended_early}).second) ++simulations;
       response.evaluations.push_back(std::move(evaluation));
     }
     response.observables /= static_cast<double>(packings.size());
@@ -97,8 +119,14 @@ class Synthetic : public Objective {
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
     double squares = 0;
     for (int k = 0; k < count; ++k) {
-      response.residuals[k] = (response.observables[k] - measured[k]) / standard_deviations[k];
-      squares += std::pow(response.observables[k] - measured[k], 2);
+      double miss = response.observables[k] - measured[k];
+      const auto bound = [&](const Evaluation& one) {
+        return one.ended_early && one.observables[0] <= measured[0] - level;
+      };
+      if (std::isnan(miss)) miss = 0;
+      if (k == 0 && std::ranges::any_of(response.evaluations, bound)) miss = std::min(miss, 0.0);
+      response.residuals[k] = miss / standard_deviations[k];
+      squares += miss * miss;
     }
     if (response.failed) response.residuals.setConstant(failure_value(point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
@@ -120,7 +148,7 @@ class Synthetic : public Objective {
     return 0;
   }
 
-  std::set<std::pair<std::uint64_t, std::uint64_t>> known_;
+  std::set<std::tuple<std::uint64_t, std::uint64_t, bool>> known_;
 };
 
 /// Residuals x - target: a bowl.

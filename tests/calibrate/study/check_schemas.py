@@ -68,6 +68,7 @@ SPOILED = {
         (["weights", "step1.height_mm"], -1),
         (["search", "packings"], 2.5),
         (["search", "packings"], 0),
+        (["search", "end_early"], 1),
         (["contact", "formation"], "both"),
     ],
     "card": [

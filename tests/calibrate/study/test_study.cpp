@@ -240,7 +240,11 @@ TEST_CASE("the inputs of a study change with what decides the search, not with i
   document["title"] = "another";
   document["search"] = {{"budget_simulations", 333}};
   CHECK(inputs_of(desk.read(document).value()) == first);
-  document["search"]["seed"] = 2;
+  CHECK(desk.read(document).value().search.end_early);
+  document["search"]["end_early"] = false;
+  CHECK_FALSE(desk.read(document).value().search.end_early);
+  CHECK(inputs_of(desk.read(document).value()) != first);
+  document["search"] = {{"seed", 2}};
   CHECK(inputs_of(desk.read(document).value()) != first);
   desk.folder().write("lab.json", test::with(template_text("lab").value(), "148", "149"));
   CHECK(inputs_of(desk.read(Desk::study()).value()) != first);

@@ -1,0 +1,228 @@
+#include "calibrate/search/early_end.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/inference/evidence.h"
+#include "calibrate/search/record.h"
+#include "calibrate/search/search_run.h"
+#include "calibrate/search/strategy.h"
+#include "calibrate/search/surrogate.h"
+#include "tests/calibrate/search/fake_slump.h"
+#include "tests/calibrate/search/laboratory.h"
+
+using namespace pastefit;
+using namespace pastefit::test;
+
+namespace {
+
+/// The two-step slump test of the fake slumps in the engine's place: 100 mm are measured, and 80 mm after the drop. The
+/// level is 40 mm. A heap is certain to be lost 10 mm below the window only, as with a real ruler.
+struct TwoSteps : Laboratory {
+  bool heeds_window = true;
+  std::atomic<int> ended = 0;
+
+  TwoSteps() {
+    study.tests[0].lab.measurements = {
+        {"step1.height_mm", 100, 4, 3}, {"step1.spread_mm", 400, 10, 1}, {"step2.height_mm", 80, 4, 3}};
+    study.tests[0].weights = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}, {"step2.height_mm", 1}};
+    study.search.budget_simulations = 60;
+    study.search.packings = 2;
+    study.search.screening = 12;
+    options.budget = 60;
+    twist = [this](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
+      const double strength =
+          std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
+      const double noise = 3 * synthetic::normal(test.packing_seed, static_cast<std::uint64_t>(1e6 * strength));
+      const double height = 20 + 250 * strength + 10 * test.contact.friction + noise;
+      outcome.observables = {};
+      outcome.observables.set("fill.mass_kg", 9);
+      const double lowest = run.window ? 1e3 * run.window->lowest_m : 0;
+      const double highest = run.window ? 1e3 * run.window->highest_m : 1e9;
+      outcome.run.ended_early = heeds_window && height < lowest - 10;
+      if (!outcome.run.ended_early) {
+        outcome.observables.set("step1.height_mm", height);
+        outcome.observables.set("step1.spread_mm", 600 - height);
+        outcome.run.ended_early = heeds_window && (height < lowest || height > highest);
+      }
+      if (outcome.run.ended_early) {
+        ++ended;
+        return;
+      }
+      outcome.observables.set("step2.height_mm", 0.85 * height - 20 * (test.contact.friction - 0.5));
+    };
+  }
+};
+
+/// Points from the weakest to the strongest.
+std::vector<UnitPoint> ladder() {
+  std::vector<UnitPoint> points;
+  for (int k = 0; k <= 20; ++k) points.push_back(at(0.05 * k, 0.5));
+  return points;
+}
+
+/// The same numbers, missing ones included.
+bool same(const Response& a, const Response& b) {
+  if (a.ended_early != b.ended_early || a.misfit != b.misfit || a.residuals != b.residuals) return false;
+  for (Eigen::Index k = 0; k < a.observables.size(); ++k)
+    if (a.observables[k] != b.observables[k] && !(std::isnan(a.observables[k]) && std::isnan(b.observables[k])))
+      return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("the window lies about the laboratory's height, as wide as tolerance and deviation ask") {
+  TwoSteps laboratory;
+  Study& study = laboratory.study;
+  auto window = window_of(study, 0);
+  REQUIRE(window);
+  CHECK(window->lowest_m == Approx(0.060));
+  CHECK(window->highest_m == Approx(0.140));
+  study.tests[0].lab.measurements[0].standard_deviation = 15;
+  CHECK(window_of(study, 0)->lowest_m == Approx(0.040));
+  study.tests[0].weights[2].weight = 0;  // step 2 is not fitted
+  CHECK(std::isinf(window_of(study, 0)->highest_m));
+  study.tests[0].weights[0].weight = 0;
+  CHECK_FALSE(window_of(study, 0));
+  study.tests[0].weights[0].weight = 1;
+  study.search.end_early = false;
+  CHECK_FALSE(window_of(study, 0));
+}
+
+TEST_CASE("a simulation that was ended and one that was not answer the same") {
+  TwoSteps cut, whole;
+  whole.heeds_window = false;
+  auto store_cut = cut.store(), store_whole = whole.store();
+  SimulationObjective ended(cut.study, store_cut, cut.options), run_through(whole.study, store_whole, whole.options);
+  int below = 0, within = 0, above = 0;
+  for (const UnitPoint& point : ladder()) {
+    const Response a = ended.try_out({&point, 1}, kPackings).at(0),
+                   b = run_through.try_out({&point, 1}, kPackings).at(0);
+    CHECK(same(a, b));
+    const Response full = run_through.evaluate({&point, 1}, kPackings).at(0);
+    CHECK_FALSE(full.ended_early);
+    CHECK(a.misfit <= full.misfit);
+    if (full.observables[0] < 55) {
+      ++below;
+      CHECK(a.observables[0] == Approx(60));
+      CHECK(std::isnan(a.observables[2]));
+    } else if (full.observables[0] > 145) {
+      ++above;
+      CHECK(a.observables[0] == full.observables[0]);
+      CHECK(std::isnan(a.observables[2]));
+    } else if (full.observables[0] > 65 && full.observables[0] < 135) {
+      ++within;
+      CHECK(same(a, full));
+    }
+  }
+  CHECK(below > 2);
+  CHECK(within > 2);
+  CHECK(above > 2);
+  CHECK(cut.ended > 10);
+}
+
+TEST_CASE("a candidate that meets the laboratory is not ended") {
+  TwoSteps laboratory;
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  const Response response = objective.try_out(std::vector<UnitPoint>{at(0.30, 0.5)}, kPackings).at(0);
+  CHECK(response.observables[0] == Approx(100).margin(6));
+  CHECK_FALSE(response.ended_early);
+  CHECK(laboratory.ended == 0);
+}
+
+TEST_CASE("an evaluation that ended early never stands in for a whole one, and a whole one serves both") {
+  TwoSteps laboratory;
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  const std::vector<UnitPoint> low{at(0.05, 0.5)}, lower{at(0.02, 0.5)};
+  CHECK(objective.try_out(low, kPackings).at(0).ended_early);
+  CHECK(laboratory.runs == 2);
+  CHECK(objective.counts().best_misfit_mm < 0);
+  const Response whole = objective.evaluate(low, kPackings).at(0);
+  CHECK(laboratory.runs == 4);
+  CHECK_FALSE(whole.ended_early);
+  CHECK(whole.observables.allFinite());
+  CHECK(store.size() == 4);
+
+  (void)objective.evaluate(lower, kPackings);
+  CHECK(objective.try_out(lower, kPackings).at(0).ended_early);
+  CHECK(laboratory.runs == 6);
+}
+
+TEST_CASE("an answer that ended early is never better than one that has all its readings") {
+  Response ended, whole;
+  ended.point = whole.point = at(0.5, 0.5);
+  ended.residuals = Eigen::Vector2d(1, 0);
+  whole.residuals = Eigen::Vector2d(9, 9);
+  ended.misfit = 0.5;
+  whole.misfit = 81;
+  CHECK(is_better(ended, whole));
+  ended.ended_early = true;
+  CHECK_FALSE(is_better(ended, whole));
+  CHECK(is_better(whole, ended));
+}
+
+TEST_CASE("the surrogate learns a reading from the simulations that took it") {
+  std::vector<Response> seen;
+  for (int k = 0; k <= 10; ++k) {
+    Response one;
+    one.point = at(0.1 * k, 0.5);
+    one.packings = {1};
+    one.ended_early = k < 5;
+    one.observables = Eigen::Vector2d(k, k < 5 ? std::nan("") : 5.0);
+    one.residuals = Eigen::Vector2d(k - 5, k < 5 ? 0.0 : 3.0);
+    one.misfit = 0.5 * one.residuals.squaredNorm();
+    seen.push_back(one);
+  }
+  Surrogate surrogate(seen);
+  const std::vector<UnitPoint> points{at(0.1, 0.5), at(0.8, 0.5)};
+  for (const Response& response : surrogate.evaluate(points, {})) CHECK(response.residuals[1] == Approx(3));
+  for (Response& one : seen) {
+    one.ended_early = true;
+    one.observables[1] = std::nan("");
+  }
+  CHECK(Surrogate(seen).evaluate(points, {}).at(1).residuals[1] == 0);
+}
+
+TEST_CASE("a search that ends candidates early, killed and resumed, brings the same, and its inference too") {
+  const auto calibrate = [](TwoSteps& laboratory) {
+    auto store = laboratory.store();
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    Calibration calibration = search(objective, laboratory.study.search);
+    const Evidence evidence = evidence_of(laboratory.study, record_of(laboratory.study, store, calibration.history));
+    return std::pair{std::move(calibration), evidence};
+  };
+  TwoSteps undisturbed;
+  undisturbed.options.threads = 1;
+  const auto [first, evidence] = calibrate(undisturbed);
+  CHECK(first.status == CalibrationStatus::confirmed);
+  CHECK(undisturbed.ended > 4);
+  CHECK_FALSE(first.best.ended_early);
+  CHECK_FALSE(first.confirmation.ended_early);
+  for (const ReadingEvidence& reading : evidence.readings)
+    if (reading.name == "step2.height_mm") CHECK(reading.simulated.array().isNaN().any());
+
+  for (const int killed_after : {3, 9, 17}) {
+    TwoSteps killed;
+    killed.options.threads = 1;
+    std::atomic<bool> stop = false;
+    killed.options.stop = &stop;
+    const auto honest = killed.twist;
+    killed.twist = [&](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
+      honest(test, run, outcome);
+      if (killed.runs == killed_after) stop = true;
+    };
+    (void)calibrate(killed);
+    stop = false;
+    const auto [second, its_evidence] = calibrate(killed);
+    CHECK(second.reason == first.reason);
+    CHECK(same(second.best, first.best));
+    CHECK(second.simulations == first.simulations);
+    REQUIRE(its_evidence.points.size() == evidence.points.size());
+    CHECK(its_evidence.points == evidence.points);
+    // The one that the stop hit runs again.
+    CHECK(killed.runs <= undisturbed.runs + 1);
+  }
+}
