@@ -48,6 +48,7 @@ struct RunSummary {
   double simulated_s = 0;
   bool settled = false;     ///< every rest phase ended by its criterion, not by its cap
   double energy_error = 0;  ///< unexplained energy over energy put in
+  double asleep_share = 0;  ///< of the particle steps after the fill; `StepOptions::sleep`
 };
 
 /// Readings of a run, or the reason why there are none.
