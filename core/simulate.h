@@ -62,6 +62,7 @@ struct RunSummary {
   bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
   bool ended_early = false;  ///< the heap left `RunOptions::window`: the later readings were not taken
   double energy_error = 0;   ///< unexplained energy over energy put in
+  double asleep_share = 0;   ///< of the particle steps after the fill; `StepOptions::sleep`
 };
 
 /// Readings of a run, or the reason why there are none.

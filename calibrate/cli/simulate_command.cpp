@@ -32,6 +32,7 @@ struct SimulateOptions {
   std::optional<double> vtk_interval_s;
   std::optional<double> time_step_s;
   int threads = 1;
+  bool sleep = false;
 };
 
 const std::string kResult = "outcome.json";
@@ -60,6 +61,7 @@ nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
                 {"time_step_s", run.time_step_s},
                 {"advised_step_s", run.advised_step_s},
                 {"energy_error", run.energy_error},
+                {"asleep_share", run.asleep_share},
                 {"simulated_s", run.simulated_s},
                 {"wall_s", wall_s},
                 {"particle_steps_per_s", wall_s > 0 ? static_cast<double>(run.particle_steps) / wall_s : 0},
@@ -120,6 +122,7 @@ int simulate_file(const SimulateOptions& options) {
   RunOptions run;
   run.steps.fixed_step_s = options.time_step_s;
   run.steps.threads = options.threads;
+  run.steps.sleep = options.sleep;
   Faults unwritten;
   if (series) {
     run.watch_interval_s = *options.vtk_interval_s;
@@ -171,6 +174,8 @@ Command add_simulate(CLI::App& verb) {
       ->type_name("SECONDS");
   add_threads(verb, options->threads,
               "threads that share the grains of the simulation (1); the result does not change");
+  verb.add_flag("--sleep", options->sleep,
+                "grains at rest sleep until something reaches them: faster where much rests for long, other bits");
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")

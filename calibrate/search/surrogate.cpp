@@ -62,10 +62,12 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
 Eigen::VectorXd Surrogate::imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck) {
   Eigen::VectorXd answer(residuals());
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const GaussianProcess::Prediction prediction = models_[k].predict(point);
-    answer[static_cast<Eigen::Index>(k)] =
-        prediction.mean + luck[static_cast<Eigen::Index>(k)] * std::sqrt(prediction.variance);
-    models_[k].imagine(point, answer[static_cast<Eigen::Index>(k)], packings);
+    const auto place = static_cast<Eigen::Index>(k);
+    answer[place] = 0;
+    if (!models_[k]) continue;
+    const GaussianProcess::Prediction prediction = models_[k]->predict(point);
+    answer[place] = prediction.mean + luck[place] * std::sqrt(prediction.variance);
+    models_[k]->imagine(point, answer[place], packings);
   }
   return answer;
 }

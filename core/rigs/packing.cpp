@@ -214,7 +214,9 @@ double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n)
 
 std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& asked) {
   RunOptions options = asked;
-  options.steps.fixed_step_s.reset();  // a fixed step is meant for the test; the fill is always run at its own
+  // A fixed step and sleep are meant for the test; the fill is always the same.
+  options.steps.fixed_step_s.reset();
+  options.steps.sleep = false;
   auto packing = std::make_shared<Packing>();
   pour(test, *packing);
   let_fall(test, options, *packing);

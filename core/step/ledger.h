@@ -20,11 +20,12 @@ struct Ledger {
   double heat_rolling = 0;
   double heat_bridges = 0;     ///< bridges that formed across a gap: work it will take to part them
   double heat_drag = 0;        ///< of the phases that have drag
+  double heat_sleep = 0;       ///< speed that grains had when they fell asleep
   double work_of_walls = 0;    ///< on the grains
   double effort_of_walls = 0;  ///< the same without sign
 
   double mechanical() const { return kinetic + stored + height; }
-  double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag; }
+  double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag + heat_sleep; }
   double error() const { return mechanical() + heat() - start - work_of_walls; }
   /// What drove the run: fall, walls, speed and overlaps at the start, and attraction set free by bridges.
   double put_in() const {

@@ -15,7 +15,8 @@ constexpr double kLeastShare = 0.5;  // of the leeway a grain would be given tha
 
 }  // namespace
 
-Lists::Lists(World& world, double skin, Team& team) : world_(world), skin_(skin), team_(team) {
+Lists::Lists(World& world, double skin, Team& team, Sleepers* sleepers)
+    : world_(world), skin_(skin), team_(team), sleepers_(sleepers) {
   selections_.resize(team.size());
 }
 
@@ -24,7 +25,10 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   const bool walls_due = wall_way_ > wall_leeway_;
   if (valid_ && !walls_due && std::find(strayed_.begin(), strayed_.end(), true) == strayed_.end()) return {};
   const double duration = dt * kStepsPerSelection;
-  if (valid_) take_along();
+  if (valid_) {
+    take_along();
+    let_sleep();
+  }
   const bool relisted = !valid_ || !give_leeway(duration);
   if (relisted) {
     list_candidates();
@@ -54,6 +58,13 @@ void Lists::take_along() {
   });
 }
 
+void Lists::let_sleep() {
+  if (!sleepers_) return;
+  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+    if (strayed_[b]) sleepers_->fall_asleep(world_, b);
+  });
+}
+
 void Lists::list_candidates() {
   Particles& particles = world_.particles;
   rebuild(particles, world_.pairs, world_.walls.size(), world_.reach(), skin_);
@@ -62,6 +73,7 @@ void Lists::list_candidates() {
   leeway_.rooms.resize(particles.count());
   leeway_.own.assign(particles.count(), 0.0);
   strayed_.assign(world_.pairs.blocks.size(), true);
+  if (sleepers_) sleepers_->take_place(world_);
   valid_ = true;
 }
 
@@ -70,11 +82,12 @@ bool Lists::give_leeway(double duration) {
   const std::vector<Motion>& motion = world_.particles.motion;
   const double least = kSmallestLeeway * world_.reference_radius, most = kLargestLeeway * world_.reference_radius;
   const auto blocks = static_cast<int>(pairs.blocks.size());
+  const auto sleeps = [&](std::int32_t i) { return sleepers_ && sleepers_->is_asleep(world_.particles.identity[i]); };
   team_.each(blocks, [&](int b, int) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      leeway_.own[i] = std::clamp(norm(motion[i].velocity) * duration, least, most);
-      leeway_.rooms[i] = {motion[i].position, leeway_.own[i]};
+      leeway_.own[i] = sleeps(i) ? 0 : std::clamp(norm(motion[i].velocity) * duration, least, most);
+      leeway_.rooms[i] = {motion[i].position, std::max(leeway_.own[i], least)};
     }
   });
   in_two_rounds(team_, blocks, [&](int b, int) {
@@ -109,9 +122,10 @@ Deepest Lists::select_pairs() {
   std::vector<Deepest> deepest(blocks.size());
   team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
     const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
-    if (strayed_[b] || next_strayed)
-      deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b],
-                                          world_.particles.count() + b, selections_[member], world_.reach(), leeway_);
+    if (!strayed_[b] && !next_strayed) return;
+    deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b],
+                                        world_.particles.count() + b, selections_[member], world_.reach(), leeway_);
+    if (sleepers_) sleepers_->note_chosen(b);
   });
   return *std::max_element(deepest.begin(), deepest.end(),
                            [](const Deepest& a, const Deepest& b) { return a.overlap < b.overlap; });

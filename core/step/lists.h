@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/step/sleepers.h"
 #include "core/team.h"
 #include "core/world/world.h"
 
@@ -11,8 +12,8 @@ namespace pastefit {
 /// left its leeway, and for their neighbours that share pairs with them. What is calm is left alone.
 class Lists {
  public:
-  /// `skin`: of the candidates [m].
-  Lists(World& world, double skin, Team& team);
+  /// `skin`: of the candidates [m]. `sleepers`: none where no grain may sleep.
+  Lists(World& world, double skin, Team& team, Sleepers* sleepers);
 
   /// To be called after the world was changed from outside.
   void forget() { valid_ = false; }
@@ -28,6 +29,7 @@ class Lists {
 
  private:
   void take_along();
+  void let_sleep();
   void list_candidates();
   /// Gives the grains of the strayed blocks a new leeway; false if one has too little of its skin left.
   bool give_leeway(double duration);
@@ -37,6 +39,7 @@ class Lists {
   World& world_;
   double skin_;
   Team& team_;
+  Sleepers* sleepers_;
   std::vector<Selection> selections_;  ///< one for each member of the team
   Leeway leeway_;
   std::vector<Vec3> listed_;   ///< where the grains were when the candidates were listed

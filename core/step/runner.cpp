@@ -70,6 +70,7 @@ std::optional<Failure> Runner::run(std::string_view phase, double duration_s, co
     }
     ++summary_.steps;
     summary_.particle_steps += world_.particles.count();
+    asleep_steps_ += stepper_.sleeping();
     if (summary_.steps >= options_.step_limit)
       return Failure{FailureReason::step_limit,
                      std::string(phase),
@@ -162,6 +163,8 @@ std::optional<Failure> Runner::relax(std::string_view phase, double cap_s) {
 const RunSummary& Runner::summary() {
   summary_.simulated_s = world_.time;
   summary_.energy_error = energy_error();
+  summary_.asleep_share =
+      static_cast<double>(asleep_steps_) / static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
   summary_.advised_step_s = stepper_.smallest_advised_step();
   summary_.time_step_s = summary_.steps > 0 ? world_.time / static_cast<double>(summary_.steps) : 0;
   return summary_;

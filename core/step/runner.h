@@ -57,6 +57,7 @@ class Runner {
   Stepper stepper_;
   RunSummary summary_;
   double next_watch_ = 0;
+  std::int64_t asleep_steps_ = 0;  ///< of a grain
 };
 
 }  // namespace pastefit

@@ -8,13 +8,14 @@ struct KernelTable;
 
 /// How steps are taken.
 struct StepOptions {
-  std::optional<double> fixed_step_s;    ///< empty: the step follows from stiffness, impacts and bridges
-  double safety = 0.8;                   ///< share of the stable step
-  double impact_resolution = 18;         ///< steps in the shortest Hertz collision that loses all its energy
-  double bridge_resolution = 10;         ///< steps in which the fastest grain crosses a bridge
-  double overlap_limit = 0.5;            ///< largest overlap over the smaller radius; beyond it the run is invalid
-  double skin = 0.8;                     ///< skin of the candidate list over the mean radius
-  int threads = 1;                       ///< that share the work of a step; the bits do not depend on it
+  std::optional<double> fixed_step_s;  ///< empty: the step follows from stiffness, impacts and bridges
+  double safety = 0.8;                 ///< share of the stable step
+  double impact_resolution = 18;       ///< steps in the shortest Hertz collision that loses all its energy
+  double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
+  double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
+  double skin = 0.8;                   ///< skin of the candidate list over the mean radius
+  bool sleep = false;                  ///< grains at rest sleep (core/step/sleepers.h): another heap, the same readings
+  int threads = 1;                     ///< that share the work of a step; the bits do not depend on it
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 

@@ -66,7 +66,8 @@ Stepper::Stepper(World& world, const StepOptions& options)
       options_(options),
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
       team_(options.threads),
-      lists_(world, options.skin * world.reference_radius, team_) {
+      sleepers_(options.sleep ? std::make_optional<Sleepers>() : std::nullopt),
+      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
@@ -140,6 +141,7 @@ void Stepper::compute_forces() {
   for (EnergySums& energy : energy_) energy.forget(EnergySums::stored);
   act_on_pairs();
   for (std::size_t w = 0; w < world_.walls.size(); ++w) act_on_wall(w);
+  if (sleepers_) balance_sleepers();
 }
 
 void Stepper::act_on_pairs() {
@@ -150,12 +152,18 @@ void Stepper::act_on_pairs() {
     KernelTask mine = all;
     mine.energy = &energy_[b];
     mine.contacts = block.contacts.batches.data();
-    mine.stretch = {0, block.contacts.near / kBatch, block.contacts.batch_count()};
+    mine.stretch = {0, block.contacts.near / kBatch, block.contacts.awake / kBatch};
     kernels_.pair[attraction][rolling](mine);
-    if (block.bridges.count == 0) return;
     mine.bridges = block.bridges.batches.data();
-    mine.stretch = {0, 0, block.bridges.batch_count()};
-    kernels_.bridge[attraction](mine);
+    mine.stretch = {0, 0, block.bridges.awake / kBatch};
+    if (block.bridges.awake > 0) kernels_.bridge[attraction](mine);
+    if (sleepers_) sleepers_->hold(world_, b, mine, kernels_.pair[attraction][rolling], kernels_.bridge[attraction]);
+  });
+}
+
+void Stepper::balance_sleepers() {
+  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+    if (sleepers_->balance(world_, b)) lists_.note_strayed(b);
   });
 }
 
@@ -259,6 +267,7 @@ void Stepper::look_at_energy(double dt) {
   ledger_.heat_sliding = total(energy_, EnergySums::sliding);
   ledger_.heat_rolling = total(energy_, EnergySums::rolling);
   ledger_.heat_bridges = total(energy_, EnergySums::bridges);
+  if (sleepers_) sleepers_->enter(ledger_);
   if (looked_) return;
   looked_ = true;
   ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;

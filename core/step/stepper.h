@@ -26,7 +26,10 @@ class Stepper {
   std::optional<Failure> step(const std::function<void(World&, double)>& drive);
 
   /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
-  void forget_lists() { lists_.forget(); }
+  void forget_lists() {
+    lists_.forget();
+    if (sleepers_) sleepers_->wake_all();
+  }
 
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
@@ -34,6 +37,8 @@ class Stepper {
   /// As of the last step that was a multiple of `kLedgerInterval`.
   const Ledger& ledger() const { return ledger_; }
   static constexpr std::int64_t kLedgerInterval = 32;
+  /// Grains asleep in the last step.
+  std::int64_t sleeping() const { return sleepers_ ? sleepers_->count() : 0; }
 
  private:
   /// What a block does to a wall.
@@ -47,6 +52,7 @@ class Stepper {
   void act_on_pairs();
   KernelTask task(const PairConstants& pair);
   void act_on_wall(std::size_t wall);
+  void balance_sleepers();
   std::int32_t find_wall(const Wall& wall, WallContacts& touching) const;
   void add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum);
   void account_walls(double dt);
@@ -58,6 +64,7 @@ class Stepper {
   StepOptions options_;
   const KernelTable& kernels_;
   Team team_;
+  std::optional<Sleepers> sleepers_;  ///< where grains may sleep
   Lists lists_;
 
   double dt_ = 0;              ///< step that led to the present positions; 0 before the first

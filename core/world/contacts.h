@@ -29,6 +29,7 @@ class BatchList {
  public:
   Column<Batch> batches;
   std::int32_t count = 0;  ///< pairs, the padding among them once it is there
+  std::int32_t awake = 0;  ///< of them those that act in every step; those of two sleepers come last
 
   void clear() { count = 0; }
   /// Puts those of another list after them; both are padded.
@@ -51,10 +52,11 @@ class BatchList {
   }
 };
 
-/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch.
+/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch, then from
+/// `awake` on the dormant ones.
 class ContactList : public BatchList<ContactBatch> {
  public:
-  std::int32_t near = 0;  ///< a multiple of kBatch, as `count` is of a padded list
+  std::int32_t near = 0;  ///< a multiple of kBatch, as `awake` and `count` are of padded lists
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
   void pad(std::int32_t dummy);

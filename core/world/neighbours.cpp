@@ -212,12 +212,21 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   block->candidates_end = candidates.size();
 }
 
+void Selection::clear() {
+  for (ContactList* list : {&contacts, &near, &dormant}) list->clear();
+  for (BridgeList* list : {&bridges, &dormant_bridges}) list->clear();
+  near_candidates.clear();
+  dormant_candidates.clear();
+}
+
+void Selection::pad(std::int32_t dummy) {
+  for (ContactList* list : {&contacts, &near, &dormant}) list->pad(dummy);
+  for (BridgeList* list : {&bridges, &dormant_bridges}) list->pad(dummy);
+}
+
 Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
                      Selection& chosen, const AttractionReach& reach, const Leeway& leeway) {
-  chosen.contacts.clear();
-  chosen.near.clear();
-  chosen.bridges.clear();
-  chosen.near_candidates.clear();
+  chosen.clear();
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
   for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
@@ -230,11 +239,18 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
                          : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
                                                      : 0.0;
     const double near = touch + leeway.rooms[i].distance + leeway.rooms[j].distance;
+    const bool dormant = leeway.own[i] == 0 && leeway.own[j] == 0;
     if (square >= near * near) {
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
       candidates.set_place(c, Candidates::kNone);
       if (square >= range * range) continue;
+      if (dormant) {
+        chosen.dormant_candidates.push_back(c);
+        candidates.set_place(c, Candidates::place_of_bridge(chosen.dormant_bridges.count));
+        chosen.dormant_bridges.add(i, j, scale, alive);
+        continue;
+      }
       candidates.set_place(c, Candidates::place_of_bridge(chosen.bridges.count));
       chosen.bridges.add(i, j, scale, alive);
       continue;
@@ -244,7 +260,14 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
     if (square < touch * touch) {
       const double overlap = (touch - std::sqrt(square)) / std::min(a.radius, b.radius);
       if (overlap > deepest.overlap) deepest = {overlap, i};
-    } else if (pair.root_contact_radius == 0) {
+    }
+    if (dormant) {
+      candidates.set_place(c, chosen.dormant.count);
+      chosen.dormant.add(i, j, pair);
+      chosen.dormant_candidates.push_back(c);
+      continue;
+    }
+    if (square >= touch * touch && pair.root_contact_radius == 0) {
       candidates.set_place(c, chosen.near.count);
       chosen.near.add(i, j, pair);
       chosen.near_candidates.push_back(c);
@@ -253,18 +276,24 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
     candidates.set_place(c, chosen.contacts.count);
     chosen.contacts.add(i, j, pair);
   }
-  chosen.contacts.pad(dummy);
-  chosen.near.pad(dummy);
-  chosen.bridges.pad(dummy);
-  for (const std::size_t c : chosen.near_candidates)
-    candidates.set_place(c, chosen.contacts.count + candidates.place(c));
+  chosen.pad(dummy);
+  const std::int32_t near = chosen.contacts.count, awake = near + chosen.near.count;
+  for (const std::size_t c : chosen.near_candidates) candidates.set_place(c, near + candidates.place(c));
+  for (const std::size_t c : chosen.dormant_candidates) {
+    const std::int32_t place = candidates.place(c);
+    candidates.set_place(c, place >= 0 ? awake + place : place - chosen.bridges.count);
+  }
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.
   block.contacts.clear();
   block.contacts.append(chosen.contacts);
-  block.contacts.near = block.contacts.count;
   block.contacts.append(chosen.near);
+  block.contacts.append(chosen.dormant);
+  block.contacts.near = near;
+  block.contacts.awake = awake;
   block.bridges.clear();
   block.bridges.append(chosen.bridges);
+  block.bridges.append(chosen.dormant_bridges);
+  block.bridges.awake = chosen.bridges.count;
   return deepest;
 }
 

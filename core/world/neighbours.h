@@ -86,7 +86,7 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
 /// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
 struct Leeway {
   std::vector<Room> rooms;
-  std::vector<double> own;  ///< what each grain by itself would be given [m]
+  std::vector<double> own;  ///< what each grain by itself would be given; nothing, if it is asleep [m]
 };
 
 /// The deepest overlap of two grains over the smaller radius, and one of them.
@@ -97,13 +97,17 @@ struct Deepest {
 
 /// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
 struct Selection {
-  ContactList contacts, near, at_wall;  ///< apart, because a list keeps the room it has once had
-  BridgeList bridges;
-  std::vector<std::size_t> near_candidates;
+  ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
+  BridgeList bridges, dormant_bridges;
+  std::vector<std::size_t> near_candidates, dormant_candidates;
+
+  void clear();
+  void pad(std::int32_t dummy);  ///< but for `at_wall`
 };
 
 /// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
-/// those that may touch, bridges the rest. `dummy`: the block's own, for padding.
+/// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
+/// for padding.
 Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
                      Selection& selection, const AttractionReach& reach, const Leeway& leeway);
 

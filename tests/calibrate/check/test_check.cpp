@@ -112,7 +112,11 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
   lower.name = "low mould";
   lower.test = card.test;
   lower.test.mould.height_m *= 0.9;
-  lower.observables.push_back({.name = "step1.height_axis_mm", .simulated = 50, .simulated_standard_deviation = 1});
+  CardObservable low;
+  low.name = "step1.height_axis_mm";
+  low.simulated = 50;
+  low.simulated_standard_deviation = 1;
+  lower.observables.push_back(low);
   card.confirmation.packings = {10, 11};
   card.further.push_back(lower);
   const double height = card.test.mould.height_m;
@@ -148,7 +152,11 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   CardTest lower;
   lower.name = "low mould";
   lower.test = card.test;
-  lower.observables.push_back({.name = "step1.height_axis_mm", .simulated = 50, .measured = 48, .weight = 1});
+  CardObservable low;
+  low.name = "step1.height_axis_mm";
+  low.measured = 48;
+  low.weight = 1;
+  lower.observables.push_back(low);
   card.further.push_back(lower);
   const double radius = 1.25 * card.test.grains.radius_m;
   const auto carried = rescaled(card, radius);

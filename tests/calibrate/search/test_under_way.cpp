@@ -39,7 +39,7 @@ TEST_CASE("what is begun runs while nobody waits, several candidates at once, ea
   CHECK(comes_true([&] { return laboratory.runs == 6; }));
   CHECK(objective.budget_left() == 20);  // nobody has asked yet
   released = true;
-  CHECK(objective.evaluate(points, kPackings).size() == 3);
+  CHECK(objective.try_out(points, kPackings).size() == 3);
   CHECK(objective.budget_left() == 14);
   CHECK(laboratory.runs == 6);
   CHECK(objective.counts().simulated == 6);
@@ -53,7 +53,7 @@ TEST_CASE("simulations start in the order in which they were begun") {
   laboratory.twist = [&](const SlumpTable& test, auto&&...) { order.push_back(test.contact.friction); };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   for (const double friction : {0.5, 0.2, 0.9, 0.1}) begin(objective, at(0.5, friction));
-  (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.1)}, kPackings);
+  (void)objective.try_out(std::vector<UnitPoint>{at(0.5, 0.1)}, kPackings);
   CHECK(order == std::vector<double>{0.5, 0.5, 0.2, 0.2, 0.9, 0.9, 0.1, 0.1});
 }
 

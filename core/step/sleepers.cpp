@@ -1,0 +1,140 @@
+#include "core/step/sleepers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kSlow = 0.001;  // of the fall speed sqrt(g R): a thirtieth of `RestCriterion::speed_over_fall`
+constexpr double kFallAsleepLoad = 0.05, kWakeLoad = 0.2;  // of a grain's weight
+constexpr std::int64_t kStepsPerLook = 8;
+constexpr std::uint8_t kLooks = 12;             // in a row that find a grain calm before it may sleep
+constexpr std::int64_t kStepsPerChoice = 16;    // after which pairs are chosen anew for grains that woke
+constexpr std::int64_t kStepsPerBedtime = 128;  // after which they are for grains that are calm
+
+double square(double value) {
+  return value * value;
+}
+
+/// Whether what acts on a grain leaves over less than this share of its weight, as a force or at its surface.
+bool is_balanced(const World& world, std::int32_t i, double share) {
+  const Load& load = world.particles.load[i];
+  const double weight = world.particles.mass(i) * world.gravity, radius = world.particles.motion[i].radius;
+  const Vec3 left = load.force - Vec3{0, 0, weight};
+  return dot(left, left) < square(share * weight) && dot(load.torque, load.torque) < square(share * weight * radius);
+}
+
+void add(Load& load, const Load& other) {
+  load.force += other.force;
+  load.torque += other.torque;
+  load.damping += other.damping;
+  load.stiffness += other.stiffness;
+}
+
+}  // namespace
+
+void Sleepers::take_place(const World& world) {
+  const std::size_t blocks = world.pairs.blocks.size();
+  calm_.resize(world.particles.count(), 0);
+  for (std::vector<Load>& held : held_) held.assign(world.particles.load.size(), {});
+  if (energy_.size() < blocks) energy_.resize(blocks);
+  for (EnergySums& energy : energy_) energy.forget(EnergySums::stored);
+  chosen_.assign(blocks, false);
+  woken_.assign(blocks, false);
+  asleep_.assign(blocks, 0);
+  if (heat_.size() < blocks) heat_.resize(blocks);
+}
+
+void Sleepers::fall_asleep(World& world, std::size_t block) {
+  woken_[block] = false;
+  Particles& particles = world.particles;
+  for (std::int32_t i = world.pairs.blocks[block].grains; i < world.pairs.blocks[block].grains_end; ++i) {
+    std::uint8_t& calm = calm_[particles.identity[i]];
+    if (calm < kLooks || calm == kAsleep) continue;
+    calm = kAsleep;
+    Motion& motion = particles.motion[i];
+    Spin& spin = particles.spin[i];
+    const double mass = particles.mass(i);
+    heat_[block] += 0.5 * mass * dot(motion.velocity, motion.velocity) +
+                    0.2 * mass * square(motion.radius) * dot(spin.velocity, spin.velocity);
+    motion.velocity = spin.velocity = {};
+  }
+}
+
+void Sleepers::hold(const World& world, std::size_t b, KernelTask task, Kernel pair_kernel, Kernel bridge_kernel) {
+  const std::vector<Block>& blocks = world.pairs.blocks;
+  const bool woken = woken_[b] || (b + 1 < blocks.size() && woken_[b + 1]);
+  if (!chosen_[b] && !woken) return;
+  chosen_[b] = false;
+  std::vector<Load>& held = held_[b % 2];
+  const std::int32_t end = blocks[std::min(b + 1, blocks.size() - 1)].grains_end;
+  std::fill(held.begin() + blocks[b].grains, held.begin() + end, Load{});
+  energy_[b].forget(EnergySums::stored);
+  task.load = held.data();
+  task.energy = &energy_[b];
+  task.with_stored = true;
+  const ContactList& contacts = blocks[b].contacts;
+  task.stretch = {contacts.awake / kBatch, contacts.batch_count(), contacts.batch_count()};
+  pair_kernel(task);
+  const BridgeList& bridges = blocks[b].bridges;
+  if (bridges.count == bridges.awake) return;
+  task.stretch = {bridges.awake / kBatch, 0, bridges.batch_count()};
+  bridge_kernel(task);
+}
+
+bool Sleepers::balance(World& world, std::size_t block) {
+  Particles& particles = world.particles;
+  const bool look = world.step % kStepsPerLook == 0;
+  bool drowsy = false;
+  asleep_[block] = 0;
+  for (std::int32_t i = world.pairs.blocks[block].grains; i < world.pairs.blocks[block].grains_end; ++i) {
+    std::uint8_t& calm = calm_[particles.identity[i]];
+    Load& load = particles.load[i];
+    if (calm == kAsleep || woken_[block]) {
+      add(load, held_[0][i]);
+      add(load, held_[1][i]);
+    }
+    if (calm == kAsleep) {
+      if (!is_balanced(world, i, kWakeLoad)) {
+        calm = 0;
+        woken_[block] = true;
+        continue;
+      }
+      // Held up by just its weight it stays where it is, but for the last bit of the speed it is given in a step.
+      load.force = {0, 0, particles.mass(i) * world.gravity};
+      load.torque = {};
+      particles.motion[i].velocity = particles.spin[i].velocity = {};
+      ++asleep_[block];
+    } else if (look) {
+      calm = is_calm(world, i) ? std::min<std::uint8_t>(calm + 1, kLooks) : 0;
+      drowsy |= calm == kLooks;
+    }
+  }
+  return (woken_[block] && world.step % kStepsPerChoice == 0) || (drowsy && world.step % kStepsPerBedtime == 0);
+}
+
+bool Sleepers::is_calm(const World& world, std::int32_t i) const {
+  const Motion& motion = world.particles.motion[i];
+  const Vec3& spin = world.particles.spin[i].velocity;
+  const double slow = square(kSlow) * world.gravity * world.reference_radius;
+  return dot(motion.velocity, motion.velocity) < slow && square(motion.radius) * dot(spin, spin) < slow &&
+         is_balanced(world, i, kFallAsleepLoad);
+}
+
+std::int64_t Sleepers::count() const {
+  return std::accumulate(asleep_.begin(), asleep_.end(), std::int64_t{0});
+}
+
+void Sleepers::enter(Ledger& ledger) const {
+  ledger.stored += total(energy_, EnergySums::stored);
+  ledger.heat_normal += total(energy_, EnergySums::normal_damping);
+  ledger.heat_sliding += total(energy_, EnergySums::sliding);
+  ledger.heat_rolling += total(energy_, EnergySums::rolling);
+  ledger.heat_bridges += total(energy_, EnergySums::bridges);
+  ledger.heat_sleep = std::accumulate(heat_.begin(), heat_.end(), 0.0);
+}
+
+}  // namespace pastefit
