@@ -121,10 +121,10 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
   card.further.push_back(lower);
   const double height = card.test.mould.height_m;
 
-  const auto engine_with = [&](double low) {
+  const auto engine_with = [&](double read) {
     CheckEngine engine = quick_engine("there", {100, 101});
     engine.run = [=](const SlumpTable& test, const RunOptions&) {
-      const double own = test.mould.height_m < height ? low : 100;
+      const double own = test.mould.height_m < height ? read : 100;
       Outcome outcome;
       outcome.observables.set("step1.height_axis_mm", own + static_cast<double>(test.packing_seed - 10));
       return outcome;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -276,4 +277,22 @@ TEST_CASE("a store whose folder does not exist is a fault, not an exception") {
   const auto store = Store::open("/nowhere/evaluations.sqlite", kIdentity);
   REQUIRE_FALSE(store.ok());
   CHECK_THAT(store.faults()[0].where, Catch::Contains("/nowhere"));
+}
+
+// Depends on the disk, so it is run by hand: test_calibrate "[overhead]" -s
+TEST_CASE("to store an evaluation and to find it again takes less than a hundredth of the quickest simulation",
+          "[.][overhead]") {
+  constexpr double kQuickestSimulation_s = 0.2;  // 10 mm grains, one step
+  constexpr int kEvaluations = 500;
+  const Folder folder;
+  Store store = opened(folder.path / "evaluations.sqlite");
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kEvaluations; ++i) {
+    const StoredEvaluation one = evaluation(0.001 * i);
+    REQUIRE(store.add(one).empty());
+    REQUIRE(store.find(one.key));
+  }
+  const double each_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kEvaluations;
+  INFO(1e3 * each_s << " ms each");
+  CHECK(each_s < 0.01 * kQuickestSimulation_s);
 }
