@@ -54,7 +54,7 @@ class Search {
     while (any_evidence() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
-      if (ledger_.stop_requested() || confirm()) break;
+      if (ledger_.stop_requested() || candidates().empty() || confirm()) break;
     }
     return conclude();
   }
@@ -108,14 +108,12 @@ class Search {
   /// The candidate on the common packings that is likely to be best. The one that reads best is often the luckiest;
   /// what its neighbours read, all of them on packings of their own luck, tells them apart.
   Response likely_best() const {
-    Response reads_best = ledger_.best_on(common_).value();
-    if (noise() == 0) return reads_best;
-    Surrogate surrogate(ledger_.evidence());
+    std::optional<Surrogate> surrogate;
+    if (noise() > 0) surrogate.emplace(ledger_.evidence());
     Response best;
     double least = std::numeric_limits<double>::infinity();
-    for (const Response& seen : ledger_.history()) {
-      if (!is_whole(seen) || seen.packings != common_) continue;
-      const double likely = surrogate.evaluate({&seen.point, 1}, common_).at(0).misfit;
+    for (const Response& seen : candidates()) {
+      const double likely = surrogate ? surrogate->evaluate({&seen.point, 1}, common_).at(0).misfit : seen.misfit;
       if (likely >= least) continue;
       least = likely;
       best = seen;
@@ -123,9 +121,20 @@ class Search {
     return best;
   }
 
+  /// What was simulated on the common packings and has not failed a confirmation.
+  std::vector<Response> candidates() const {
+    std::vector<Response> found;
+    for (const Response& seen : ledger_.history()) {
+      const bool is_out = std::ranges::any_of(refuted_, [&](const UnitPoint& one) { return one == seen.point; });
+      if (is_whole(seen) && seen.packings == common_ && !is_out) found.push_back(seen);
+    }
+    return found;
+  }
+
   bool goal_is_met() const {
-    const auto best = ledger_.best_on(common_);
-    return best && best->misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(*best);
+    return std::ranges::any_of(candidates(), [&](const Response& one) {
+      return one.misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(one);
+    });
   }
 
   bool agrees_with_priors(const Response& response) const {
@@ -238,7 +247,8 @@ class Search {
     search_ceres(ledger_, common_, ledger_.best_point(common_), ceres);
   }
 
-  /// Asks the candidate on fresh packings; true if it holds. If not, they join the common packings.
+  /// Asks the candidate on fresh packings; true if it holds. If not, some of them join the common packings, as many as
+  /// there are: the luck that misled is halved, and further candidates stay affordable.
   bool confirm() {
     ledger_.enter("confirmation");
     ledger_.hold_back(0);
@@ -257,7 +267,10 @@ class Search {
       result_.confirmation = confirmation;
     }
     confirmed_ = holds;
-    if (!holds) common_ = joined;
+    if (!holds) {
+      common_.assign(joined.begin(), joined.begin() + std::min(std::ssize(joined), 2 * std::ssize(common_)));
+      refuted_.push_back(candidate.point);
+    }
     ledger_.hold_back(options_.confirmation_packings);
     return holds;
   }
@@ -339,6 +352,7 @@ class Search {
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
   std::vector<std::uint64_t> common_;  // every candidate is compared on these
+  std::vector<UnitPoint> refuted_;     // candidates that a confirmation has judged
   std::uint64_t packings_used_ = 0;
   bool confirmed_ = false;
   Calibration result_;

@@ -78,7 +78,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
 ///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
-///      packings join the common set, and the search goes on from 2 with what they taught.
+///      candidate is out, some of the packings join the common set, which doubles, and the search goes on from 2 with
+///      what all of them taught.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),
