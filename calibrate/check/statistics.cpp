@@ -20,6 +20,11 @@ double rounding(const Sample& first, const Sample& second) {
 
 }  // namespace
 
+double widening(int readings) {
+  constexpr double kOutside = 0.05, kNormalQuantile = 1.959963984540054;
+  return readings > 1 ? quantile(readings - 1, kOutside) / kNormalQuantile : 1;
+}
+
 Sample sample_of(std::span<const double> values) {
   Sample out;
   out.count = static_cast<int>(values.size());

@@ -25,4 +25,10 @@ double band_of(const Sample& first, const Sample& second, double false_alarm);
 /// laboratory. The deviation of a sample of one reading counts as known.
 double unequal_band_of(const Sample& first, const Sample& second, double false_alarm);
 
+/// How much wider than a known one a deviation has to be taken that was estimated from so many readings, so that their
+/// mean lies within 1.96 of its standard errors of the truth with a probability of 0.95:
+///     t(0.975; n - 1)/1.96.
+/// 1 for a single reading: its deviation counts as known.
+double widening(int readings);
+
 }  // namespace pastefit

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calibrate/check/statistics.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
@@ -51,6 +52,7 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
       one.measured = known->measurement.value;
       one.deviation = known->measurement.standard_deviation;
       one.repeats = known->measurement.repeats;
+      one.widening = widening(one.repeats);
       one.weight = known->weight;
     }
     evidence.readings.push_back(std::move(one));

@@ -18,12 +18,13 @@ struct ReadingEvidence {
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
   double deviation = 0;            ///< standard deviation of one measurement, in the reading's unit
   int repeats = 1;
+  double widening = 1;        ///< of the deviation, where it was estimated from the repeats (`check/statistics.h`)
   double weight = 0;          ///< in the fit; 0: not fitted
   Eigen::VectorXd simulated;  ///< NaN: the simulation ended before it
 
   bool fitted() const { return measured && weight > 0; }
-  /// Variance of the laboratory's mean: deviation^2/(repeats weight).
-  double variance() const { return deviation * deviation / (repeats * weight); }
+  /// Variance of the laboratory's mean: (widening deviation)^2/(repeats weight).
+  double variance() const { return widening * widening * deviation * deviation / (repeats * weight); }
 };
 
 /// All that finished simulations say about a study.

@@ -106,6 +106,24 @@ TEST_CASE("the band is exceeded as often as it says when nothing has changed") {
   CHECK(unequal_alarms == Approx(kRate * kTrials).margin(4 * std::sqrt(kRate * kTrials)));
 }
 
+TEST_CASE("a deviation estimated from five readings is widened until the mean covers the truth in 95 %") {
+  const RandomStream noise(8, "widening");
+  constexpr int kTrials = 20'000, kReadings = 5;
+  int covered = 0, without = 0;
+  std::uint64_t n = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> readings;
+    for (int i = 0; i < kReadings; ++i) readings.push_back(noise.normal(n++));
+    const Sample sample = sample_of(readings);
+    const double reach = 1.96 * sample.standard_deviation / std::sqrt(kReadings);
+    covered += std::abs(sample.mean) <= widening(kReadings) * reach;
+    without += std::abs(sample.mean) <= reach;
+  }
+  CHECK(covered == Approx(0.95 * kTrials).margin(4 * std::sqrt(0.05 * 0.95 * kTrials)));
+  CHECK(without < 0.9 * kTrials);
+  CHECK(widening(1) == 1);
+}
+
 TEST_CASE("every test of a card is checked, and a reading of a further one carries its name") {
   Card card = quick_card({100, 101});
   CardTest lower;
