@@ -88,14 +88,13 @@ void write_report(std::ostream& out, const std::vector<TwinResult>& results, con
   std::vector<std::pair<std::string, Tally>> tallies;
   Tally all;
   std::size_t judged = 0, confirmed = 0, matched = 0, determined = 0, close = 0;
-  std::vector<double> simulations, wall, errors;
+  std::vector<double> simulations, errors;
   for (const TwinResult& result : results) {
     if (result.parameters.empty()) continue;
     ++judged;
     confirmed += result.status == "confirmed" ? 1 : 0;
     matched += result.worst_miss <= allowed_miss ? 1 : 0;
     simulations.push_back(result.simulations);
-    wall.push_back(result.wall_s);
     if (result.determined > 0) {
       ++determined;
       errors.push_back(result.lead_error);
@@ -123,10 +122,8 @@ void write_report(std::ostream& out, const std::vector<TwinResult>& results, con
       << " |\n";
   out << "| best determined combination within 5 % of the truth | 90 % | " << share(close, determined) << " |\n";
   out << "| 95 % intervals with an end that hold the truth | 90 to 99 % | " << share(all.covered, all.known) << " |\n";
-  out << format(
-      "\nMedian error of the best determined combination: %.1f %%. Median of simulations %.0f, of wall time %.0f "
-      "s.\n\n",
-      100 * median_of(errors), median_of(simulations), median_of(wall));
+  out << format("\nMedian error of the best determined combination: %.1f %%. Median of simulations %.0f.\n\n",
+                100 * median_of(errors), median_of(simulations));
   out << "| parameter | has an interval | of those, hold the truth | median half width of a closed one | named as not "
          "identified |\n|---|---|---|---|---|\n";
   for (const auto& [name, tally] : tallies)
