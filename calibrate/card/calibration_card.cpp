@@ -137,7 +137,8 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  calibration.search.packings,
                  options.budget_simulations,
                  counts.simulated + counts.answered,
-                 {}};
+                 {},
+                 calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
   card.provenance = {study_file,     study.hash,           first.lab_file,
                      first.lab.hash, first.lab.provenance, store.identity().program};

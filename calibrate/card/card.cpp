@@ -154,6 +154,7 @@ ordered_json to_json(const Card& card) {
                    {"simulations", search.simulations}};
   out["search"]["failures"] = ordered_json::object();
   for (const auto& [reason, count] : search.failures) out["search"]["failures"][reason] = count;
+  if (search.coarse_simulations > 0) out["search"]["coarse_simulations"] = search.coarse_simulations;
   const auto& provenance = card.provenance;
   out["provenance"] = {{"study_file", provenance.study_file},       {"study_hash", provenance.study_hash},
                        {"lab_file", provenance.lab_file},           {"lab_hash", provenance.lab_hash},

@@ -67,6 +67,7 @@ struct SearchRecord {
   int budget = 0;                       ///< simulations allowed
   int simulations = 0;                  ///< finished, those known from an earlier run included
   std::map<std::string, int> failures;  ///< of them, by reason
+  int coarse_simulations = 0;           ///< with coarse grains, besides
 };
 
 /// From what and with what the card was made.

@@ -130,6 +130,7 @@ void read_search(ObjectReader& reader, SearchRecord& search) {
   reader.integers("packings", search.packings, kRequired);
   reader.integer("budget", search.budget, 0, kMany, kRequired);
   reader.integer("simulations", search.simulations, 0, kMany, kRequired);
+  reader.integer("coarse_simulations", search.coarse_simulations, 0, kMany, kOptional);
   reader.object("failures", kRequired, [&](ObjectReader& failures) {
     for (int reason = 0; reason <= static_cast<int>(FailureReason::stopped); ++reason) {
       const auto name = name_of(static_cast<FailureReason>(reason));

@@ -92,6 +92,7 @@ std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = card.title + "\n\n" + bridge_lines(card.test) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
+  if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
