@@ -1,4 +1,3 @@
-#include <unistd.h>
 
 #include <bit>
 #include <catch2/catch.hpp>
@@ -13,6 +12,7 @@
 #include "calibrate/card/rescale.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
+#include "tests/calibrate/folder.h"
 
 using namespace pastefit;
 
@@ -128,9 +128,8 @@ TEST_CASE("a card without its test, and another kind of file, are faults") {
 }
 
 TEST_CASE("a file is replaced whole, and stays as it was when that fails") {
-  std::string name = (std::filesystem::temp_directory_path() / "pastefit-card-XXXXXX").string();
-  REQUIRE(mkdtemp(name.data()) != nullptr);
-  const std::filesystem::path folder = name;
+  const test::Folder temporary;
+  const std::filesystem::path& folder = temporary.path();
   CHECK(write_atomically(folder / "card.json", "old").empty());
   CHECK(write_atomically(folder / "card.json", "new").empty());
   CHECK(content(folder / "card.json") == "new");
@@ -140,7 +139,6 @@ TEST_CASE("a file is replaced whole, and stays as it was when that fails") {
   int files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++files;
   CHECK(files == 2);  // nothing is left beside them
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("the verdict says whether the material meets the laboratory, and whether that was confirmed") {

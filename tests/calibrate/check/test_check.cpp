@@ -210,22 +210,22 @@ TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction droppe
   const auto engine = engine_of(card);
   const CheckOptions options;
 
-  const auto shown = [](const char* change, const CardCheck& check) { SUCCEED(text_of({change, check})); };  // with -s
+  const auto told = [](const char* change, const CardCheck& check) { UNSCOPED_INFO(text_of({change, check})); };
 
   const auto stronger = check(card, options, with_stronger_bridges(engine, 1.2));
-  shown("bridges 20 % stronger", stronger);
+  told("bridges 20 % stronger", stronger);
   CHECK(stronger.verdict == CheckVerdict::disagrees);
   CHECK_FALSE(caught_by_noise(stronger).empty());
   CHECK_FALSE(law_agrees(stronger));
 
   const auto slippery = check(card, options, without_friction(engine));
-  shown("friction dropped", slippery);
+  told("friction dropped", slippery);
   CHECK(slippery.verdict == CheckVerdict::disagrees);
   CHECK(caught_by_noise(slippery).size() >= 3);
   CHECK(law_agrees(slippery));
 
   const auto twice = check(card, options, with_plate_dropped_twice(engine));
-  shown("plate dropped twice", twice);
+  told("plate dropped twice", twice);
   CHECK(twice.verdict == CheckVerdict::disagrees);
   const auto caught = caught_by_noise(twice);
   REQUIRE_FALSE(caught.empty());

@@ -1,10 +1,10 @@
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
 
 #include "calibrate/report/vtk.h"
+#include "tests/calibrate/folder.h"
 
 using namespace pastefit;
 
@@ -18,9 +18,8 @@ TEST_CASE("a frame holds its numbers as the format asks: size and bytes in one b
 }
 
 TEST_CASE("a series lists its frames with their times after every frame") {
-  std::string name = (std::filesystem::temp_directory_path() / "pastefit-vtk-XXXXXX").string();
-  REQUIRE(mkdtemp(name.data()) != nullptr);
-  VtkSeries series(name, "grains");
+  const test::Folder folder;
+  VtkSeries series(folder.path(), "grains");
   CHECK(series.add({0, {}, {}, {}}).empty());
   CHECK(series.add({0.25, {{1, 2, 3}}, {{0, 0, 0}}, {1}}).empty());
   std::ifstream in(series.index());
@@ -28,7 +27,6 @@ TEST_CASE("a series lists its frames with their times after every frame") {
   text << in.rdbuf();
   CHECK_THAT(text.str(), Catch::Contains("timestep=\"0\" file=\"grains_000000.vtp\"") &&
                              Catch::Contains("timestep=\"0.25\" file=\"grains_000001.vtp\""));
-  CHECK(std::filesystem::exists(std::filesystem::path(name) / "grains_000001.vtp"));
+  CHECK(std::filesystem::exists(folder.path() / "grains_000001.vtp"));
   CHECK_FALSE(VtkSeries("/nowhere", "grains").add({}).empty());
-  std::filesystem::remove_all(name);
 }

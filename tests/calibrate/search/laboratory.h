@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -11,13 +9,14 @@
 #include "calibrate/search/evaluator.h"
 #include "calibrate/study/parameters.h"
 #include "core/rigs/packing.h"
+#include "tests/calibrate/folder.h"
 
 namespace pastefit::test {
 
 /// A study of two free parameters and three readings, of which the spread is not fitted, with an engine that answers
 /// at once: height = 100 mm + 1 mm per packing seed + 50 mm (friction - 0.5).
 struct Laboratory {
-  std::filesystem::path folder;
+  const test::Folder folder;
   Study study;
   std::atomic<int> fills = 0;
   std::atomic<int> runs = 0;
@@ -25,9 +24,6 @@ struct Laboratory {
   EvaluatorOptions options;
 
   Laboratory() {
-    std::string name = (std::filesystem::temp_directory_path() / "pastefit-evaluator-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    folder = name;
     for (const auto& kind : parameter_kinds())
       study.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
     for (auto& parameter : study.parameters) {
@@ -57,10 +53,9 @@ struct Laboratory {
       return outcome;
     };
   }
-  ~Laboratory() { std::filesystem::remove_all(folder); }
 
   Store store() const {
-    auto opened = Store::open(folder / "evaluations.sqlite", {"program", "inputs"});
+    auto opened = Store::open(folder.path() / "evaluations.sqlite", {"program", "inputs"});
     REQUIRE(opened.ok());
     return std::move(opened).value();
   }

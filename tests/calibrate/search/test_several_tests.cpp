@@ -114,7 +114,7 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
 TEST_CASE("what was simulated before holds within narrower bounds, and for another reading of the laboratory") {
   Laboratory laboratory;
   const auto stored = [&](const char* inputs) {
-    auto opened = Store::open(laboratory.folder / "evaluations.sqlite", {"program", inputs});
+    auto opened = Store::open(laboratory.folder.path() / "evaluations.sqlite", {"program", inputs});
     REQUIRE(opened.ok());
     return std::move(opened).value();
   };

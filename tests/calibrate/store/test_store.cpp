@@ -15,21 +15,12 @@
 #include <thread>
 
 #include "calibrate/store/store.h"
+#include "tests/calibrate/folder.h"
 
 using namespace pastefit;
+using test::Folder;
 
 namespace {
-
-/// A folder of its own that disappears with the test.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "pastefit-store-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 const StoreIdentity kIdentity{"pastefit 0.1.0 engine abc",
                               R"({"study": {"parameters": {"friction": {"free": [0, 1]}}, "search": {"seed": 1}},
@@ -86,7 +77,7 @@ bool same_bits(double a, double b) {
 
 TEST_CASE("the store returns every bit of an evaluation after it was opened again") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   auto kept = evaluation(0.3);
   kept.point = {-0.0, 5e-324, 0.1, 1 - 0x1p-53};
   kept.packing = std::numeric_limits<std::uint64_t>::max();
@@ -110,7 +101,7 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
 
 TEST_CASE("a failure keeps its reason and its values, finite or not") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   auto kept = evaluation(0.3);
   kept.observables = {};
   kept.failure = Failure{FailureReason::excessive_overlap,
@@ -136,7 +127,7 @@ TEST_CASE("a failure keeps its reason and its values, finite or not") {
 
 TEST_CASE("an evaluation that was added survives kill -9") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
@@ -155,7 +146,7 @@ TEST_CASE("an evaluation that was added survives kill -9") {
 
 TEST_CASE("an evaluation is kept once and found by its key only") {
   const Folder folder;
-  auto store = opened(folder.path / "evaluations.sqlite");
+  auto store = opened(folder.path() / "evaluations.sqlite");
   CHECK(store.add(evaluation(0.5)).empty());
   CHECK(store.add(evaluation(0.5)).empty());
   CHECK(store.size() == 1);
@@ -183,7 +174,7 @@ TEST_CASE("the key tells tests, fillings and programs apart") {
 
 TEST_CASE("threads may add to one store at the same time") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   {
     auto store = opened(file);
     std::vector<std::thread> threads;
@@ -198,7 +189,7 @@ TEST_CASE("threads may add to one store at the same time") {
 
 TEST_CASE("a store of another program is refused, named and left as it was") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   CHECK(opened(file).add(evaluation(0.5)).empty());
   const auto before = content(file);
   const auto other = Store::open(file, {"pastefit 0.2.0", kIdentity.inputs});
@@ -212,7 +203,7 @@ TEST_CASE("a store of another program is refused, named and left as it was") {
 
 TEST_CASE("changed inputs are named, and begin an epoch that keeps what is known") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   CHECK(opened(file).changes().empty());
   CHECK(opened(file).add(evaluation(0.5)).empty());
   auto inputs = nlohmann::json::parse(kIdentity.inputs);
@@ -243,7 +234,7 @@ TEST_CASE("changed inputs are named, and begin an epoch that keeps what is known
 
 TEST_CASE("a file that is not a store is refused and left as it was") {
   const Folder folder;
-  const auto file = folder.path / "evaluations.sqlite";
+  const auto file = folder.path() / "evaluations.sqlite";
   SECTION("text") {
     std::ofstream(file) << std::string(5000, 'x');
   }
@@ -285,7 +276,7 @@ TEST_CASE("to store an evaluation and to find it again takes less than a hundred
   constexpr double kQuickestSimulation_s = 0.2;  // 10 mm grains, one step
   constexpr int kEvaluations = 500;
   const Folder folder;
-  Store store = opened(folder.path / "evaluations.sqlite");
+  Store store = opened(folder.path() / "evaluations.sqlite");
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < kEvaluations; ++i) {
     const StoredEvaluation one = evaluation(0.001 * i);

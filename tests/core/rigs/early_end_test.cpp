@@ -29,6 +29,15 @@ SlumpTable slumping(bool drop) {
   return test;
 }
 
+/// The test without a window.
+Outcome whole_run(const SlumpTable& test, std::shared_ptr<const Packing> packing) {
+  RunOptions options;
+  options.packing = std::move(packing);
+  Outcome whole = simulate(test, options);
+  REQUIRE_FALSE(whole.failure);
+  return whole;
+}
+
 Outcome run(const SlumpTable& test, std::shared_ptr<const Packing> packing, double lowest_mm, double highest_mm = 1e9) {
   RunOptions options;
   options.packing = std::move(packing);
@@ -41,10 +50,7 @@ Outcome run(const SlumpTable& test, std::shared_ptr<const Packing> packing, doub
 TEST_CASE("a heap that has sunk below its window ends early, and only such a one") {
   const SlumpTable test = slumping(false);
   const auto packing = fill_mould(test);
-  RunOptions whole_run;
-  whole_run.packing = packing;
-  const Outcome whole = simulate(test, whole_run);
-  REQUIRE_FALSE(whole.failure);
+  const Outcome whole = whole_run(test, packing);
   const double height = whole.observables.find("step1.height_mm").value();
   REQUIRE(height > 60);
   REQUIRE(height < 170);
@@ -74,9 +80,7 @@ TEST_CASE("no heap that ends early would have read more than the lower end of it
     bridge.b_n_m *= factor;
     bridge.c_n *= factor;
     const auto packing = fill_mould(test);
-    RunOptions options;
-    options.packing = packing;
-    const double height = simulate(test, options).observables.find("step1.height_mm").value();
+    const double height = whole_run(test, packing).observables.find("step1.height_mm").value();
     for (double lowest = 20; lowest < 200; lowest += 20) {
       CAPTURE(strength, height, lowest);
       if (run(test, packing, lowest).run.ended_early) CHECK(height < lowest);
@@ -87,10 +91,7 @@ TEST_CASE("no heap that ends early would have read more than the lower end of it
 TEST_CASE("step 2 is not run where step 1 reads beyond the window on either side") {
   const SlumpTable test = slumping(true);
   const auto packing = fill_mould(test);
-  RunOptions whole_run;
-  whole_run.packing = packing;
-  const Outcome whole = simulate(test, whole_run);
-  REQUIRE_FALSE(whole.failure);
+  const Outcome whole = whole_run(test, packing);
   const double height = whole.observables.find("step1.height_mm").value();
   const Outcome above = run(test, packing, 0, height - 0.001), below = run(test, packing, height + 0.001);
   for (const Outcome& ended : {above, below}) {
