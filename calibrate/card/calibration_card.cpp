@@ -5,6 +5,7 @@
 
 #include "calibrate/card/machine.h"
 #include "calibrate/check/statistics.h"
+#include "calibrate/search/confirmation.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
@@ -129,7 +130,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
     card.further.push_back(further_of(study, i, values, shown.packings, store));
 
   card.confirmation = {shown.packings, fresh, shown.misfit_mm, options.tolerance_mm,
-                       fresh && shown.misfit_mm <= options.tolerance_mm};
+                       fresh && verdict_on(shown, options.tolerance_mm) == Verdict::holds};
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

@@ -54,7 +54,7 @@ struct Confirmation {
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
   double misfit_mm = 0;                 ///< root mean square difference of the fitted lengths, all tests together
   double tolerance_mm = 0;              ///< what the study asked for
-  bool meets_laboratory = false;        ///< on fresh packings, nothing failed, and misfit_mm <= tolerance_mm
+  bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
 };
 
 /// How the material was found.

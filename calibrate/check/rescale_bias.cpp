@@ -6,6 +6,7 @@
 #include "calibrate/card/filling.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/check/statistics.h"
+#include "calibrate/search/confirmation.h"
 
 namespace pastefit {
 
@@ -26,19 +27,26 @@ Result<std::vector<Baseline::Run>> runs_of(const Card& card, const TestOfCard& t
   return runs;
 }
 
-/// Root mean square difference of the fitted lengths, as in the search.
-double misfit_mm(Card& card) {
-  double squares = 0;
+/// Root mean square over the fitted lengths, as in the search, of their difference from the laboratory and of their
+/// standard error.
+struct Misfit {
+  double difference_mm = 0, noise_mm = 0;
+};
+
+Misfit misfit_of(Card& card, double packings) {
+  Misfit squares;
   int fitted = 0;
   for (const auto& test : tests_of(card)) {
     if (!test.fitted) continue;
     for (const auto& observable : test.observables) {
       if (!observable.measured || observable.weight <= 0 || !observable.name.ends_with("_mm")) continue;
-      squares += std::pow(observable.simulated - *observable.measured, 2);
+      squares.difference_mm += std::pow(observable.simulated - *observable.measured, 2);
+      squares.noise_mm += std::pow(observable.simulated_standard_deviation, 2) / packings;
       ++fitted;
     }
   }
-  return fitted > 0 ? std::sqrt(squares / fitted) : 0;
+  if (fitted == 0) return {};
+  return {std::sqrt(squares.difference_mm / fitted), std::sqrt(squares.noise_mm / fitted)};
 }
 
 }  // namespace
@@ -77,8 +85,10 @@ Result<Card> with_measured_bias(const Card& given, Card after, int count, const 
   auto& confirmation = after.confirmation;
   confirmation.packings = packings;
   confirmation.fresh = true;
-  confirmation.misfit_mm = misfit_mm(after);
-  confirmation.meets_laboratory = confirmation.misfit_mm <= confirmation.tolerance_mm;
+  const Misfit misfit = misfit_of(after, count);
+  confirmation.misfit_mm = misfit.difference_mm;
+  confirmation.meets_laboratory =
+      verdict_on(misfit.difference_mm, misfit.noise_mm, confirmation.tolerance_mm) == Verdict::holds;
   return after;
 }
 

@@ -85,6 +85,8 @@ std::string verdict_of(const Card& card) {
   if (!confirmation.fresh)
     return "Not confirmed on fresh packings: " + misfit + ", on packings that the search has seen. " +
            card.search.reason;
+  if (confirmation.misfit_mm <= confirmation.tolerance_mm)
+    return "It is not sure that the material meets the laboratory: " + misfit + ". " + card.search.reason;
   return "The material does not meet the laboratory: " + misfit + ". " + card.search.reason;
 }
 

@@ -10,6 +10,7 @@
 
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
+#include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -335,7 +336,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     const auto& [coordinate, prior] = known_[i];
     out.residuals[count + static_cast<Eigen::Index>(i)] = (out.point[coordinate] - prior.mean) / prior.deviation;
   }
-  double squares_mm = 0;
+  double squares_mm = 0, noise_squares_mm = 0;
   int lengths = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight] = readings_[static_cast<std::size_t>(i)];
@@ -347,11 +348,13 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
     if (weight > 0 && is_length(measurement.observable)) {
       squares_mm += miss * miss;
+      noise_squares_mm += squared_standard_error(out, static_cast<std::size_t>(i));
       ++lengths;
     }
   }
   out.misfit = 0.5 * out.residuals.squaredNorm();
   out.misfit_mm = lengths > 0 ? std::sqrt(squares_mm / lengths) : std::sqrt(2 * out.misfit);
+  out.noise_mm = lengths > 0 ? std::sqrt(noise_squares_mm / lengths) : 0;
   return out;
 }
 

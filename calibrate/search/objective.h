@@ -33,7 +33,10 @@ struct Response {
   Eigen::VectorXd residuals;
   double misfit = 0;     ///< half the squared norm of the residuals: what is minimised; always finite
   double misfit_mm = 0;  ///< root mean square difference of the fitted lengths [mm]
-  bool failed = false;   ///< some packing ended in a failure
+  /// What the noise of the packings makes of `misfit_mm` by itself: root mean square of the standard errors of the
+  /// fitted lengths. 0: a single packing, or a failure.
+  double noise_mm = 0;
+  bool failed = false;  ///< some packing ended in a failure
   /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
   /// bound of that of the whole test, and not one that makes a candidate the best.
   bool ended_early = false;

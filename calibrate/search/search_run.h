@@ -59,6 +59,17 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
   return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
 }
 
+/// Square of the standard error of a mean reading, from its scatter over the packings: sum (x - mean)^2/(n (n - 1)).
+/// 0 for a single packing, a failure, or a reading that was not taken.
+inline double squared_standard_error(const Response& response, std::size_t reading) {
+  const auto packings = static_cast<double>(response.evaluations.size());
+  if (packings < 2 || response.failed) return 0;
+  double mean = 0, squares = 0;
+  for (const Evaluation& one : response.evaluations) mean += one.observables[reading] / packings;
+  for (const Evaluation& one : response.evaluations) squares += std::pow(one.observables[reading] - mean, 2);
+  return std::isfinite(squares) ? squares / packings / (packings - 1) : 0;
+}
+
 /// True if `candidate` should replace `best`: one with all its readings beats one without, feasible beats failed, then
 /// less misfit wins. An empty `best` loses.
 inline bool is_better(const Response& candidate, const Response& best) {

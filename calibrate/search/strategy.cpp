@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/conclusion.h"
+#include "calibrate/search/confirmation.h"
 #include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
 #include "calibrate/search/proposals.h"
@@ -22,12 +23,7 @@ namespace {
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
 constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+constexpr int most_confirmations = 4;   // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
 class Search {
@@ -247,20 +243,29 @@ class Search {
     search_ceres(ledger_, common_, ledger_.best_point(common_), ceres);
   }
 
-  /// Asks the candidate on fresh packings; true if it holds. If not, some of them join the common packings, as many as
-  /// there are: the luck that misled is halved, and further candidates stay affordable.
+  /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds.
+  /// If not, some of them join the common packings, as many as there are: the luck that misled is halved, and further
+  /// candidates stay affordable.
   bool confirm() {
     ledger_.enter("confirmation");
     ledger_.hold_back(0);
     const Response candidate = likely_best();
-    const std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
-    const Response confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+    const auto most = static_cast<std::size_t>(most_confirmations * options_.confirmation_packings);
+    std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
+    Response confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+    Verdict verdict = verdict_on(confirmation, options_.tolerance_mm);
+    while (verdict == Verdict::undecided && fresh.size() < most && affordable(fresh.size()) &&
+           !ledger_.stop_requested()) {
+      std::ranges::copy(fresh_packings(static_cast<int>(fresh.size())), std::back_inserter(fresh));
+      confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+      verdict = verdict_on(confirmation, options_.tolerance_mm);
+    }
     if (ledger_.stop_requested()) return false;
     ++result_.rounds;
     std::vector<std::uint64_t> joined = common_;
     joined.insert(joined.end(), fresh.begin(), fresh.end());
     const Response evidence = ledger_.evaluate({&candidate.point, 1}, joined).at(0);
-    const bool holds = is_feasible(confirmation) && confirmation.misfit_mm <= options_.tolerance_mm;
+    const bool holds = verdict == Verdict::holds;
     if (holds || result_.confirmation.point.size() == 0 || is_better(evidence, result_.best)) {
       result_.best = evidence;
       result_.search = candidate;
@@ -296,53 +301,10 @@ class Search {
         reach.all_below = reach.all_below && residual < 0;
       }
     }
-    explain();
+    Ending ending{confirmed_, ledger_.stop_requested(), ledger_.any_feasible(), coarse_ != nullptr, out_of_reach_};
+    ending.some_ended_early = std::ranges::any_of(ledger_.singles(), &Response::ended_early);
+    explain(result_, ending, options_.tolerance_mm, readings_, parameters_);
     return std::move(result_);
-  }
-
-  std::string reading(std::size_t k) const {
-    return k < readings_.size() ? readings_[k] : "reading " + std::to_string(k + 1);
-  }
-
-  void explain() {
-    const std::string coarse =
-        coarse_ ? " and " + std::to_string(result_.coarse_simulations) + " with coarse grains" : "";
-    const std::string spent = " (" + std::to_string(result_.simulations) + " simulations" + coarse + ").";
-    const std::string packings = std::to_string(options_.confirmation_packings) + " fresh packings";
-    if (confirmed_) {
-      result_.status = CalibrationStatus::confirmed;
-      result_.reason = "The candidate misses the laboratory by " + number(result_.confirmation.misfit_mm) + " mm on " +
-                       packings + ", within the tolerance of " + number(options_.tolerance_mm) + " mm" + spent;
-    } else if (ledger_.stop_requested()) {
-      result_.status = CalibrationStatus::stopped;
-      result_.reason = "The search was stopped; the best so far is given" + spent;
-    } else if (out_of_reach_) {
-      result_.status = CalibrationStatus::out_of_reach;
-      result_.reason = words_of(*out_of_reach_, readings_, parameters_) +
-                       " The search was not begun; the material that comes nearest is given" + spent;
-    } else if (!ledger_.any_feasible()) {
-      result_.status = CalibrationStatus::failed;
-      result_.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
-    } else if (result_.best.point.size() == 0) {
-      result_.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
-    } else {
-      result_.status = CalibrationStatus::unconfirmed;
-      const Response& told = result_.confirmation.point.size() > 0 ? result_.confirmation : result_.best;
-      result_.reason = "The best candidate misses the laboratory by " + number(told.misfit_mm) +
-                       " mm, more than the tolerance of " + number(options_.tolerance_mm) + " mm" + spent;
-      for (std::size_t k = 0; k < result_.reach.size(); ++k) {
-        const Reach& reach = result_.reach[k];
-        result_.reason += " " + reading(k) + " went from " + number(reach.lowest) + " to " + number(reach.highest);
-        if (reach.all_above || reach.all_below) {
-          result_.status = CalibrationStatus::out_of_reach;
-          result_.reason += std::string(", always ") + (reach.all_above ? "above" : "below") +
-                            " the laboratory: the model cannot reach it within these bounds";
-        }
-        result_.reason += ".";
-      }
-      if (std::ranges::any_of(ledger_.singles(), &Response::ended_early))
-        result_.reason += " Simulations that ended early count as what was certain of them.";
-    }
   }
 
   Objective& objective_;

@@ -14,8 +14,8 @@ namespace pastefit {
 
 /// How a calibration ended.
 enum class CalibrationStatus {
-  confirmed,     ///< the best candidate meets the laboratory within the tolerance on fresh packings
-  unconfirmed,   ///< it does not, and the budget is spent or the search is at its end
+  confirmed,     ///< the best candidate meets the laboratory within the tolerance on fresh packings, noise or not
+  unconfirmed,   ///< it does not for certain, and the budget is spent or the search is at its end
   out_of_reach,  ///< some reading lies beyond everything the model did in these bounds
   stopped,       ///< the user or a limit asked for it; the best so far is given
   failed         ///< no candidate could be simulated
@@ -77,9 +77,12 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      algorithm on the simulations themselves, from the best screening point, with half of what is left of the
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
-///   4. Confirmation of the candidate of least misfit on fresh packings. If its misfit is above the tolerance, the
+///   4. Confirmation of the candidate of least misfit on fresh packings, which are doubled up to four times their
+///   number
+///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the
 ///      candidate is out, some of the packings join the common set, which doubles, and the search goes on from 2 with
-///      what all of them taught.
+///      what all of them taught. Limit: a mean that is looked at up to three times is a little kinder than one that is
+///      looked at once.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),

@@ -5,6 +5,7 @@
 
 #include "calibrate/inference/examination.h"
 #include "calibrate/search/screening.h"
+#include "calibrate/search/search_run.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
@@ -21,9 +22,9 @@ double ruler_of(const std::string& reading, const TwinRecipe& recipe) {
   return reading.find("spread") != std::string::npos ? 5 * recipe.ruler_mm : recipe.ruler_mm;
 }
 
-/// How far the best determined combination is off, as a change of its lead: the lead at which the recommended material
-/// would read what the truth reads, against the recommended one.
-double lead_error_of(const Twin& twin, const Store& store, const UnitPoint& recommended, std::size_t lead) {
+/// The best determined combination of the truth, as a value of its lead: the one at which the recommended material
+/// would read what the truth reads.
+double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recommended, std::size_t lead) {
   const ResponseModel model(evidence_of(twin.study, store.all()));
   const auto& readings = model.evidence().readings;
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -42,10 +43,7 @@ double lead_error_of(const Twin& twin, const Store& store, const UnitPoint& reco
     least = squares;
     at = point[static_cast<Eigen::Index>(lead)];
   }
-  const Parameter& parameter = model.evidence().parameters[lead];
-  const double found = value_between(parameter, recommended[static_cast<Eigen::Index>(lead)]);
-  const double right = value_between(parameter, at);
-  return std::abs(right - found) / (parameter.scale == Scale::logarithmic ? found : parameter.upper - parameter.lower);
+  return value_between(model.evidence().parameters[lead], at);
 }
 
 }  // namespace
@@ -115,16 +113,13 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
 
   const bool fresh = calibration.confirmation.point.size() > 0 && is_feasible(calibration.confirmation);
   const Response& shown = fresh ? calibration.confirmation : calibration.best;
-  const auto packings = static_cast<double>(shown.evaluations.size());
   for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
     if (twin.study.tests[0].weights[m].weight == 0) continue;
     const Measurement& measurement = twin.study.tests[0].lab.measurements[m];
     const double mean = shown.observables[static_cast<Eigen::Index>(m)];
-    double squares = 0;
-    for (const Evaluation& one : shown.evaluations) squares += std::pow(one.observables[m] - mean, 2);
-    const double error = std::hypot(measurement.standard_deviation / std::sqrt(measurement.repeats),
-                                    packings > 1 ? std::sqrt(squares / (packings - 1) / packings) : 0.0);
-    result.worst_miss = std::max(result.worst_miss, std::abs(mean - measurement.value) / error);
+    const double error =
+        std::sqrt(std::pow(measurement.standard_deviation, 2) / measurement.repeats + squared_standard_error(shown, m));
+    result.misses.push_back(std::abs(mean - measurement.value) / error);
   }
   for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
     const ParameterInterval& one = inference.intervals[j];
@@ -134,8 +129,13 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   for (const Combination& combination : inference.combinations) result.determined += combination.determined() ? 1 : 0;
   if (result.determined == 0) return result;
   const std::size_t lead = inference.combinations.front().lead;
-  result.lead = inference.intervals[lead].name;
-  result.lead_error = lead_error_of(twin, store.value(), calibration.best.point, lead);
+  const ParameterInterval& interval = inference.intervals[lead];
+  const double truth = true_lead_of(twin, store.value(), calibration.best.point, lead);
+  result.lead = interval.name;
+  result.lead_error =
+      std::abs(truth - interval.recommended) /
+      (interval.scale == Scale::logarithmic ? interval.recommended : interval.bound_upper - interval.bound_lower);
+  result.lead_held = truth >= interval.held_lower && truth <= interval.held_upper;
   return result;
 }
 

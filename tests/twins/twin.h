@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -40,10 +41,14 @@ struct TwinResult {
   std::string status;  ///< of the calibration, or "no twin" with the reason if the truth itself fails
   int simulations = 0;
   double wall_s = 0;
-  double worst_miss = 0;   ///< of the fitted readings, confirmed mean to the truth's, in standard errors of both
-  int determined = 0;      ///< combinations
-  double lead_error = -1;  ///< of the best determined one, as a change of its lead alone; share of it, or of its range
-  std::string lead;
+  std::vector<double> misses;  ///< of the fitted readings, mean on fresh packings to the laboratory's, in standard
+                               ///< errors of both
+  int determined = 0;          ///< combinations
+  std::string lead;            ///< parameter that leads the best determined one
+  double lead_error = -1;      ///< of that, as a change of its lead alone; share of it, or of its range
+  bool lead_held = false;      ///< it lies in the 95 % interval that the calibration states, the others held
+
+  double worst_miss() const { return misses.empty() ? 0 : *std::ranges::max_element(misses); }
   std::vector<TwinParameter> parameters;
 };
 

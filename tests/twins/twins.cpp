@@ -15,7 +15,7 @@ using namespace pastefit;
 int main(int argc, char** argv) {
   TwinRecipe recipe;
   int twins = 50, first = 0, budget = 0;
-  double radius_mm = 0, truth_radius_mm = 0, minutes = 1e9;
+  double radius_mm = 0, truth_radius_mm = 0, tolerance_mm = 0, minutes = 1e9;
   std::string study_file, folder, report_file;
   EvaluatorOptions options;
   CLI::App app{"Twin laboratories: known materials, calibrated and compared with the truth."};
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   app.add_option("--radius-mm", radius_mm, "of the grains of the calibration, instead of the study's");
   app.add_option("--truth-radius-mm", truth_radius_mm, "of the grains of the twin, instead of the calibration's");
   app.add_option("--budget", budget, "simulations of a calibration, instead of the study's");
+  app.add_option("--tolerance-mm", tolerance_mm, "of the confirmation, instead of the study's");
   app.add_option("--threads", options.threads, "simulations at the same time; default: one for each core");
   app.add_option("--minutes", minutes, "no twin starts after this time");
   CLI11_PARSE(app, argc, argv);
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   }
   if (radius_mm > 0) study.tests[0].lab.test.grains.radius_m = radius_mm / 1000;
   if (budget > 0) study.search.budget_simulations = budget;
+  if (tolerance_mm > 0) study.search.tolerance_mm = tolerance_mm;
   recipe.truth_radius_m = truth_radius_mm / 1000;
 
   std::filesystem::create_directories(folder);

@@ -145,6 +145,8 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
   auto material = card();
   CHECK_THAT(verdict_of(material), Catch::Contains("meets the laboratory") && Catch::Contains("1.30 mm"));
   material.confirmation.meets_laboratory = false;
+  CHECK_THAT(verdict_of(material), Catch::Contains("not sure that the material meets"));
+  material.confirmation.misfit_mm = 5.2;
   CHECK_THAT(verdict_of(material), Catch::Contains("does not meet"));
   material.confirmation.fresh = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));

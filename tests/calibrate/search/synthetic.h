@@ -11,6 +11,7 @@
 
 #include "calibrate/search/objective.h"
 #include "calibrate/search/screening.h"
+#include "calibrate/search/search_run.h"
 
 namespace pastefit::synthetic {
 
@@ -117,7 +118,7 @@ class Synthetic : public Objective {
     response.residuals.resize(residuals());
     const auto priors = known(point);
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
-    double squares = 0;
+    double squares = 0, noise_squares = 0;
     for (int k = 0; k < count; ++k) {
       double miss = response.observables[k] - measured[k];
       const auto bound = [&](const Evaluation& one) {
@@ -127,10 +128,12 @@ class Synthetic : public Objective {
       if (k == 0 && std::ranges::any_of(response.evaluations, bound)) miss = std::min(miss, 0.0);
       response.residuals[k] = miss / standard_deviations[k];
       squares += miss * miss;
+      noise_squares += squared_standard_error(response, static_cast<std::size_t>(k));
     }
     if (response.failed) response.residuals.setConstant(failure_value(point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
     response.misfit_mm = response.failed ? response.residuals[0] : std::sqrt(squares / count);
+    response.noise_mm = std::sqrt(noise_squares / count);
     return response;
   }
 

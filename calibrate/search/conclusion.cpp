@@ -1,0 +1,68 @@
+#include "calibrate/search/conclusion.h"
+
+#include <cstdio>
+
+namespace pastefit {
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Why the best candidate does not count as confirmed.
+std::string doubt_about(const Calibration& result, double tolerance_mm, const std::string& spent) {
+  const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
+  const std::string tolerance = "the tolerance of " + number(tolerance_mm) + " mm";
+  std::string words = "The best candidate misses the laboratory by " + number(told.misfit_mm) + " mm";
+  if (told.misfit_mm > tolerance_mm) return words + ", more than " + tolerance + spent;
+  if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
+  return words + " +- " + number(told.noise_mm) + " mm: its packings scatter too much to be sure of " + tolerance +
+         spent + " Allow more simulations.";
+}
+
+}  // namespace
+
+void explain(Calibration& result, const Ending& ending, double tolerance_mm, std::span<const std::string> readings,
+             std::span<const std::string> parameters) {
+  const std::string coarse =
+      ending.with_coarse ? " and " + std::to_string(result.coarse_simulations) + " with coarse grains" : "";
+  const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
+  if (ending.confirmed) {
+    result.status = CalibrationStatus::confirmed;
+    result.reason = "The candidate misses the laboratory by " + number(result.confirmation.misfit_mm) + " mm on " +
+                    std::to_string(result.confirmation.packings.size()) + " fresh packings, within the tolerance of " +
+                    number(tolerance_mm) + " mm" + spent;
+  } else if (ending.stopped) {
+    result.status = CalibrationStatus::stopped;
+    result.reason = "The search was stopped; the best so far is given" + spent;
+  } else if (ending.out_of_reach) {
+    result.status = CalibrationStatus::out_of_reach;
+    result.reason = words_of(*ending.out_of_reach, readings, parameters) +
+                    " The search was not begun; the material that comes nearest is given" + spent;
+  } else if (!ending.any_feasible) {
+    result.status = CalibrationStatus::failed;
+    result.reason = "Every simulation failed" + spent + " Look at the reasons, and move the bounds away from them.";
+  } else if (result.best.point.size() == 0) {
+    result.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
+  } else {
+    result.status = CalibrationStatus::unconfirmed;
+    result.reason = doubt_about(result, tolerance_mm, spent);
+    for (std::size_t k = 0; k < result.reach.size(); ++k) {
+      const Reach& reach = result.reach[k];
+      const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);
+      result.reason += " " + name + " went from " + number(reach.lowest) + " to " + number(reach.highest);
+      if (reach.all_above || reach.all_below) {
+        result.status = CalibrationStatus::out_of_reach;
+        result.reason += std::string(", always ") + (reach.all_above ? "above" : "below") +
+                         " the laboratory: the model cannot reach it within these bounds";
+      }
+      result.reason += ".";
+    }
+    if (ending.some_ended_early) result.reason += " Simulations that ended early count as what was certain of them.";
+  }
+}
+
+}  // namespace pastefit

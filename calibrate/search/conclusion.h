@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "calibrate/search/reachability.h"
+#include "calibrate/search/strategy.h"
+
+namespace pastefit {
+
+/// How a search came to its end.
+struct Ending {
+  bool confirmed = false;     ///< the last confirmation held
+  bool stopped = false;       ///< by the user or a limit
+  bool any_feasible = false;  ///< some simulation did not fail
+  bool with_coarse = false;   ///< coarse grains were simulated too
+  std::optional<OutOfReach> out_of_reach;
+  bool some_ended_early = false;  ///< of the simulations
+};
+
+/// Gives a calibration its status and the reason for it, in sentences for a person. Requirements: everything else in
+/// `result` is there. `readings`, `parameters`: names; may be left empty.
+void explain(Calibration& result, const Ending& ending, double tolerance_mm, std::span<const std::string> readings,
+             std::span<const std::string> parameters);
+
+}  // namespace pastefit

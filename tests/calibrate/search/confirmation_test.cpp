@@ -1,0 +1,111 @@
+#include "calibrate/search/confirmation.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "calibrate/search/strategy.h"
+#include "fake_slump.h"
+
+using namespace pastefit;
+using namespace pastefit::synthetic;
+
+namespace {
+
+/// The fake slump with so much noise in one simulation.
+Synthetic noisy_slump(double height_mm, double noise_mm, std::uint64_t seed) {
+  Synthetic objective = fake_slump(height_mm, seed);
+  const auto calm = objective.observe;
+  objective.observe = [calm, noise_mm](const UnitPoint& x, std::uint64_t packing) {
+    const double mean = mean_height(x);
+    return std::vector<double>{std::clamp(mean + noise_mm / 4 * (calm(x, packing)[0] - mean), 0.0, 300.0)};
+  };
+  return objective;
+}
+
+SearchOptions options_with(std::uint64_t seed) {
+  SearchOptions options;
+  options.seed = seed;
+  options.budget_simulations = 200;
+  options.confirmation_packings = 8;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
+  struct Case {
+    double misfit_mm, noise_mm;
+    Verdict verdict;
+  };
+  const Case cases[] = {
+      {0, 0, Verdict::holds},        {5, 5, Verdict::holds},          {5.01, 0, Verdict::refuted},
+      {0, 5.01, Verdict::undecided}, {6, 3, Verdict::refuted},        {6, 4, Verdict::undecided},
+      {13.01, 12, Verdict::refuted}, {12.99, 12, Verdict::undecided},
+  };
+  for (const Case& one : cases) {
+    CAPTURE(one.misfit_mm, one.noise_mm);
+    CHECK(verdict_on(one.misfit_mm, one.noise_mm, 5) == one.verdict);
+  }
+  Response failed;
+  failed.point = UnitPoint::Constant(2, 0.5);
+  failed.failed = true;
+  CHECK(verdict_on(failed, 5) == Verdict::refuted);
+}
+
+TEST_CASE("the noise of a mean is the scatter of its packings over the root of their number") {
+  Synthetic objective;
+  objective.measured = {100, 50};
+  objective.standard_deviations = {5, 5};
+  objective.observe = [](const UnitPoint&, std::uint64_t packing) {
+    return std::vector<double>{100 + 3.0 * (packing % 2 == 0 ? 1 : -1), 60};
+  };
+  const std::vector<std::uint64_t> four{1, 2, 3, 4}, one{1};
+  const UnitPoint point = UnitPoint::Constant(2, 0.5);
+  // Standard errors sqrt(4 * 9/(4 * 3)) and 0, root mean square of both.
+  CHECK(objective.evaluate({&point, 1}, four).at(0).noise_mm == Approx(std::sqrt(3.0 / 2)));
+  CHECK(objective.evaluate({&point, 1}, one).at(0).noise_mm == 0);
+}
+
+TEST_CASE("where packings scatter, more of them are asked until luck cannot confirm a candidate") {
+  int confirmed = 0, widened = 0, near = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    const double height = 80 + 160 * uniform(seed, 77);
+    Synthetic objective = noisy_slump(height, 20, seed);
+    const Calibration calibration = search(objective, options_with(seed));
+    CHECK(calibration.simulations <= 200);
+    const auto fresh = std::ssize(calibration.confirmation.packings);
+    CHECK((fresh == 8 || fresh == 16 || fresh == 32));
+    CHECK(std::set(calibration.confirmation.packings.begin(), calibration.confirmation.packings.end()).size() ==
+          calibration.confirmation.packings.size());
+    if (calibration.status != CalibrationStatus::confirmed) {
+      CHECK(calibration.status == CalibrationStatus::unconfirmed);
+      continue;
+    }
+    ++confirmed;
+    widened += fresh > 8;
+    near += std::abs(mean_height(calibration.best.point) - height) <= 10;
+    CHECK(calibration.confirmation.noise_mm <= 5);
+  }
+  CAPTURE(confirmed, widened, near);
+  CHECK(confirmed >= 28);
+  CHECK(widened >= 10);
+  CHECK(near >= confirmed - 2);  // a mean is within two of its errors of the truth, 5 mm each
+}
+
+TEST_CASE("a mean within the tolerance that may be luck is told so when the budget is spent") {
+  int luck = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SearchOptions options = options_with(seed);
+    options.budget_simulations = 24;
+    Synthetic objective = noisy_slump(150, 60, seed);
+    const Calibration calibration = search(objective, options);
+    CHECK(calibration.status != CalibrationStatus::confirmed);
+    const Response& told = calibration.confirmation;
+    if (told.point.size() == 0 || told.misfit_mm > 5 || told.noise_mm <= 5) continue;
+    ++luck;
+    CHECK(calibration.reason.find("scatter too much") != std::string::npos);
+    CHECK(calibration.reason.find("more than the tolerance") == std::string::npos);
+  }
+  CHECK(luck >= 3);
+}
