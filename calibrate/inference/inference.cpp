@@ -18,6 +18,7 @@ constexpr double difference_step = 0.05;  // of the response model, which is smo
 constexpr double border = 0.05;           // of a range: where the sample shows whether the data set an end
 constexpr double thin = 0.2;              // density at a bound, over the mean one, below
                                           // which the data set the end
+constexpr double tail = 0.025;            // of the sample beyond each end of an interval
 constexpr double visible = 0.3;           // part of a reading in a combination worth a word
 constexpr double neighbourhood = 0.2;     // of the cube: materials nearer than this are one to a person
 constexpr double two_sided = 1.959964;    // standard deviations of 95 %
@@ -72,14 +73,14 @@ struct Ends {
   bool lower_known = false, upper_known = false;
 };
 
-/// 95 % of the sample: two-sided, or one-sided where the data leave one end to
-/// the bound.
+/// 95 % of the sample, the same share beyond either end; also where the data leave the other end to the bound. The data
+/// choose the ends they set, and an end that was chosen because it looked sharp is sharper than it should be: with
+/// all 5 % beyond a single end 88 % of the intervals of fifty twins held the truth (tests/twins).
 Ends ends_of(std::vector<double> coordinates) {
   std::ranges::sort(coordinates);
   Ends ends;
   ends.lower_known = density_at(coordinates, true) < thin;
   ends.upper_known = density_at(coordinates, false) < thin;
-  const double tail = ends.lower_known && ends.upper_known ? 0.025 : 0.05;
   if (ends.lower_known) ends.lower = quantile(coordinates, tail);
   if (ends.upper_known) ends.upper = quantile(coordinates, 1 - tail);
   return ends;
@@ -101,8 +102,8 @@ std::pair<double, double> held_ends(const ResponseModel& model, UnitPoint point,
   double reached = 0;
   for (int i = 0; i < cells; ++i) {
     const double after = reached + logarithms[static_cast<std::size_t>(i)] / sum;
-    if (reached < 0.025 && after >= 0.025) ends.first = static_cast<double>(i) / cells;
-    if (reached < 0.975 && after >= 0.975) ends.second = static_cast<double>(i + 1) / cells;
+    if (reached < tail && after >= tail) ends.first = static_cast<double>(i) / cells;
+    if (reached < 1 - tail && after >= 1 - tail) ends.second = static_cast<double>(i + 1) / cells;
     reached = after;
   }
   return ends;
