@@ -13,6 +13,7 @@ every evaluation that it held before. Checked at the end: the same card, byte fo
 and the same evaluations; if COMMAND prints "simulated N", that it made no more than were missing.
 """
 
+import contextlib
 import pathlib
 import random
 import re
@@ -30,7 +31,7 @@ def evaluations(folder):
     file = folder / "evaluations.sqlite"
     if not file.exists():
         return set()
-    with sqlite3.connect(file) as store:
+    with contextlib.closing(sqlite3.connect(file)) as store:
         if not store.execute("SELECT count(*) FROM sqlite_master WHERE name = 'evaluations'").fetchone()[0]:
             return set()
         return {key for (key,) in store.execute("SELECT key FROM evaluations")}

@@ -4,6 +4,7 @@ usage: test_command_line.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -188,7 +189,7 @@ class CommandLine(unittest.TestCase):
             self.assertIn(word, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
-        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+        with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
         self.assertEqual(stored, card["search"]["simulations"])
 
@@ -216,7 +217,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex((self.out / "summary.txt").read_text(), r"\d+ simulations and \d+ with coarse grains")
         card = json.loads((self.out / "card.json").read_text())
-        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+        with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             query = "SELECT count(*), sum(packing >= 1 << 40) FROM evaluations"
             stored, coarse = store.execute(query).fetchone()
         self.assertGreaterEqual(coarse, 2)
@@ -321,7 +322,7 @@ class CommandLine(unittest.TestCase):
         named = set(card.get("not_identified", {})) | set(card.get("intervals", {}).get("parameters", {}))
         self.assertEqual(named, {"strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio",
                                  "offset_ratio"})
-        with sqlite3.connect(self.out / "evaluations.sqlite") as store:
+        with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
         self.assertLessEqual(stored, 16)
 
