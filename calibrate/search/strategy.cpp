@@ -127,6 +127,16 @@ class Search {
     return found;
   }
 
+  /// Of them the one that reads best; no point if there is none.
+  Response incumbent() const {
+    Response best;
+    for (const Response& one : candidates())
+      if (is_better(one, best)) best = one;
+    return best;
+  }
+
+  static bool beats(double misfit, const Response& other) { return other.point.size() == 0 || misfit < other.misfit; }
+
   bool goal_is_met() const {
     return std::ranges::any_of(candidates(), [&](const Response& one) {
       return one.misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(one);
@@ -186,13 +196,13 @@ class Search {
         continue;
       }
       if (ledger_.under_way().empty()) return;
-      const auto before = ledger_.best_on(common_);
+      const Response before = incumbent();
       Response response = ledger_.next_answer();
       nothing_new = false;
       // What it misses at least does not rule it out: its other readings decide.
-      if (is_feasible(response) && response.ended_early && (!before || response.misfit < before->misfit) && may_go_on())
+      if (is_feasible(response) && response.ended_early && beats(response.misfit, before) && may_go_on())
         response = ledger_.evaluate({&response.point, 1}, common_).at(0);
-      const bool better = is_whole(response) && (!before || response.misfit < before->misfit - noise());
+      const bool better = is_whole(response) && beats(response.misfit + noise(), before);
       fruitless = better ? 0 : fruitless + 1;
     }
   }
@@ -226,8 +236,17 @@ class Search {
     return noise_step(deviation, 4 * (most - least).maxCoeff());
   }
 
+  /// What the luck of the common packings makes of a candidate's misfit, root mean square over the candidates [mm].
+  double noise_mm() const {
+    double squares = 0;
+    const std::vector<Response> seen = candidates();
+    for (const Response& one : seen) squares += one.noise_mm * one.noise_mm;
+    return seen.empty() ? 0 : std::sqrt(squares / static_cast<double>(seen.size()));
+  }
+
+  /// Descends on what the common packings say, unless that is luck for the most part.
   void refine() {
-    if (goal_is_met() || !may_go_on()) return;
+    if (goal_is_met() || !may_go_on() || noise_mm() > options_.tolerance_mm) return;
     ledger_.enter("refinement");
     descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
   }
