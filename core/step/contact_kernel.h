@@ -201,11 +201,23 @@ PASTEFIT_INLINE bool some_touch(const KernelTask& task, const ContactBatch& c) {
   return touch;
 }
 
-constexpr int kAhead = 2;  // batches; 5 to 10 % in a bed too large for the caches
+constexpr int kAhead = 2;        // batches; 5 to 10 % in a bed too large for the caches
+constexpr int kGrainsAhead = 1;  // batches; a quarter to a third more
 
 PASTEFIT_INLINE void fetch(const ContactBatch* batch) {
   for (std::size_t line = 0; line < sizeof(ContactBatch); line += 64)
     __builtin_prefetch(reinterpret_cast<const char*>(batch) + line, 1);
+}
+
+/// The second grains of a batch lie scattered; the first ones are those of the batch before, or next to them. Of pairs
+/// that may touch mostly the places are looked at.
+PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& batch, bool whole) {
+  for (const std::int32_t j : batch.j) {
+    __builtin_prefetch(task.motion + j);
+    if (!whole) continue;
+    __builtin_prefetch(task.spin + j);
+    __builtin_prefetch(task.load + j, 1);
+  }
 }
 
 template <class Attraction, class Rolling>
@@ -216,6 +228,8 @@ void pair_kernel(const KernelTask& task) {
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k) {
     ContactBatch& batch = task.contacts[k];
     fetch(task.contacts + k + kAhead);
+    const std::int32_t soon = k + kGrainsAhead;
+    if (soon < task.stretch.end) fetch_grains(task, task.contacts[soon], soon < task.stretch.near);
     if (k < task.stretch.near || some_touch(task, batch)) {
       for (int lane = 0; lane < kBatch; lane += kWidth)
         act_on_pairs<Attraction, Rolling>(task, pair, dt, batch, lane, tally);
