@@ -78,24 +78,28 @@ Stepper::Stepper(World& world, const StepOptions& options)
 
 std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& drive) {
   if (auto problem = maintain_lists()) return problem;
-  compute_forces();
+  // All forces before any grain moves: for the first step, which follows from them, and for the ledger. Else a block is
+  // moved while it is in a cache: a tenth faster in a bed too large for it.
+  const bool first = dt_ == 0, forces_first = first || world_.step % kLedgerInterval == 0;
+  double dt = first ? 0 : next_step();
+  compute_forces(forces_first ? std::nullopt : std::make_optional(dt));
   if (pierced_ >= 0)
     return failure(
         FailureReason::grain_lost, world_.particles.identity[pierced_], options_.overlap_limit, options_.overlap_limit,
         "a grain is pressed into a wall by more than the allowed share of its radius; take stiffer grains or a "
         "smaller step");
-  // Later on the stiffness of the step before serves: it is known from moving the grains, and safety has room for it.
-  if (dt_ == 0) stiffest_ = stiffest_grain(world_.particles);
-  const double advised =
-      time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_, stiffest_}, options_));
-  const double dt = options_.fixed_step_s.value_or(advised);
+  if (first) {
+    stiffest_ = stiffest_grain(world_.particles);
+    dt = next_step();
+  }
   if (dt < kSmallestShare * time_step_.first() && !options_.fixed_step_s)
     return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
                    "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
   if (drive) drive(world_, dt);
   account_walls(dt);
   look_at_energy(dt);
-  integrate(dt);
+  if (forces_first) team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) { move_block(b, dt); });
+  note_moved();
   for (Wall& wall : world_.walls) move(wall, dt);
   world_.time += dt;
   ++world_.step;
@@ -124,73 +128,85 @@ std::optional<Failure> Stepper::maintain_lists() {
   return {};
 }
 
-KernelTask Stepper::task(const PairConstants& pair) {
+/// Follows, but for the first one, from the stiffness and the speeds of the step before: they are known from moving the
+/// grains, and safety has room for it.
+double Stepper::next_step() {
+  const double advised =
+      time_step_.next(advised_step(world_, {smallest_radius_, smallest_mass_, fastest_, stiffest_}, options_));
+  return options_.fixed_step_s.value_or(advised);
+}
+
+void Stepper::compute_forces(std::optional<double> dt) {
+  const std::size_t blocks = world_.pairs.blocks.size();
+  if (energy_.size() < blocks) energy_.resize(blocks);
+  for (EnergySums& energy : energy_) energy.forget(EnergySums::stored);
+  wall_shares_.assign(blocks * world_.walls.size(), {});
+  moved_.assign(blocks, {});
+  in_two_rounds(
+      team_, static_cast<int>(blocks), [&](int b, int) { act_on_pairs(b); },
+      [&](int b, int) {
+        act_on_walls(b);
+        if (sleepers_ && sleepers_->balance(world_, b)) lists_.note_strayed(b);
+        if (dt) move_block(b, *dt);
+      });
+  add_up_walls();
+}
+
+KernelTask Stepper::task(const PairConstants& pair, int block) {
   KernelTask task{};
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
   task.pair = pair;
   task.dt = dt_;
+  task.energy = &energy_[block];
   task.with_stored = world_.step % kLedgerInterval == 0;
   return task;
 }
 
-void Stepper::compute_forces() {
-  const std::size_t blocks = world_.pairs.blocks.size();
-  if (energy_.size() < blocks) energy_.resize(blocks);
-  for (EnergySums& energy : energy_) energy.forget(EnergySums::stored);
-  act_on_pairs();
-  for (std::size_t w = 0; w < world_.walls.size(); ++w) act_on_wall(w);
-  if (sleepers_) balance_sleepers();
-}
-
-void Stepper::act_on_pairs() {
+void Stepper::act_on_pairs(int b) {
   const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
-  const KernelTask all = task(world_.grain_pair);
-  in_two_rounds(team_, static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
-    Block& block = world_.pairs.blocks[b];
-    KernelTask mine = all;
-    mine.energy = &energy_[b];
-    mine.contacts = block.contacts.batches.data();
-    mine.stretch = {0, block.contacts.near / kBatch, block.contacts.awake / kBatch};
-    kernels_.pair[attraction][rolling](mine);
-    mine.bridges = block.bridges.batches.data();
-    mine.stretch = {0, 0, block.bridges.awake / kBatch};
-    if (block.bridges.awake > 0) kernels_.bridge[attraction](mine);
-    if (sleepers_) sleepers_->hold(world_, b, mine, kernels_.pair[attraction][rolling], kernels_.bridge[attraction]);
-  });
+  const Kernel pairs = kernels_.pair[attraction][rolling], bridges = kernels_.bridge[attraction];
+  Block& block = world_.pairs.blocks[b];
+  KernelTask mine = task(world_.grain_pair, b);
+  mine.contacts = block.contacts.batches.data();
+  mine.stretch = {0, block.contacts.near / kBatch, block.contacts.awake / kBatch};
+  pairs(mine);
+  mine.bridges = block.bridges.batches.data();
+  mine.stretch = {0, 0, block.bridges.awake / kBatch};
+  if (block.bridges.awake > 0) bridges(mine);
+  if (sleepers_) sleepers_->hold(world_, b, mine, pairs, bridges);
 }
 
-void Stepper::balance_sleepers() {
-  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
-    if (sleepers_->balance(world_, b)) lists_.note_strayed(b);
-  });
+void Stepper::act_on_walls(int b) {
+  for (std::size_t w = 0; w < world_.walls.size(); ++w)
+    if (world_.pairs.blocks[b].walls[w].count > 0) act_on_wall(w, b);
 }
 
-void Stepper::act_on_wall(std::size_t w) {
-  Wall& wall = world_.walls[w];
-  const KernelTask all = task(wall.pair);
+void Stepper::act_on_wall(std::size_t w, int b) {
+  const Wall& wall = world_.walls[w];
+  WallContacts& touching = world_.pairs.blocks[b].walls[w];
+  WallShare& share = wall_shares_[b * world_.walls.size() + w];
+  share.pierced = find_wall(wall, touching);
+  KernelTask mine = task(wall.pair, b);
+  mine.contacts = touching.contacts.batches.data();
+  mine.wall = touching.batches.data();
+  mine.stretch = {0, 0, touching.contacts.batch_count()};
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  const Kernel kernel = kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)];
-  const auto blocks = static_cast<int>(world_.pairs.blocks.size());
-  wall_shares_.assign(blocks, {});
-  team_.each(blocks, [&](int b, int) {
-    WallContacts& touching = world_.pairs.blocks[b].walls[w];
-    if (touching.count == 0) return;
-    wall_shares_[b].pierced = find_wall(wall, touching);
-    KernelTask mine = all;
-    mine.energy = &energy_[b];
-    mine.contacts = touching.contacts.batches.data();
-    mine.wall = touching.batches.data();
-    mine.stretch = {0, 0, touching.contacts.batch_count()};
-    kernel(mine);
-    add_loads(wall, touching, wall_shares_[b]);
-  });
-  wall.force = wall.torque = {};
-  for (const WallShare& share : wall_shares_) {
-    wall.force += share.force;
-    wall.torque += share.torque;
-    if (share.pierced >= 0) pierced_ = share.pierced;
+  kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)](mine);
+  add_loads(wall, touching, share);
+}
+
+void Stepper::add_up_walls() {
+  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
+    Wall& wall = world_.walls[w];
+    wall.force = wall.torque = {};
+    for (std::size_t at = w; at < wall_shares_.size(); at += world_.walls.size()) {
+      const WallShare& share = wall_shares_[at];
+      wall.force += share.force;
+      wall.torque += share.torque;
+      if (share.pierced >= 0) pierced_ = share.pierced;
+    }
   }
 }
 
@@ -276,27 +292,17 @@ void Stepper::look_at_energy(double dt) {
   ledger_.start_elastic = elastic_energy(world_);
 }
 
-void Stepper::integrate(double dt) {
-  const auto blocks = static_cast<int>(world_.pairs.blocks.size());
-  moved_.assign(blocks, {});
+void Stepper::move_block(int b, double dt) {
   Particles& particles = world_.particles;
-  const MoveTask all = {particles.motion.data(),
-                        particles.spin.data(),
-                        particles.load.data(),
-                        lists_.rooms(),
-                        0,
-                        0,
-                        dt,
-                        0.5 * (dt_ + dt),
-                        world_.gravity,
-                        world_.drag};
-  team_.each(blocks, [&](int b, int) {
-    MoveTask mine = all;
-    mine.grains = world_.pairs.blocks[b].grains;
-    mine.grains_end = world_.pairs.blocks[b].grains_end;
-    moved_[b] = kernels_.move(mine);
-    if (moved_[b].strayed) lists_.note_strayed(b);
-  });
+  const Block& block = world_.pairs.blocks[b];
+  moved_[b] = kernels_.move({particles.motion.data(), particles.spin.data(), particles.load.data(), lists_.rooms(),
+                             block.grains, block.grains_end, dt, 0.5 * (dt_ + dt), world_.gravity, world_.drag});
+  if (moved_[b].strayed) lists_.note_strayed(b);
+}
+
+/// What the moved grains of all blocks have in common; the dummies' loads are used up like theirs.
+void Stepper::note_moved() {
+  Particles& particles = world_.particles;
   stiffest_ = 0;
   double fastest_square = 0;
   for (const Moved& moved : moved_) {

@@ -70,6 +70,19 @@ void in_two_rounds(Team& team, int blocks, const Work& work) {
     team.each((blocks + 1 - first) / 2, [&](int task, int member) { work(2 * task + first, member); });
 }
 
+/// The same, and `finish(block, member)` for every block as soon as it and the one before it have been worked on: no
+/// pair touches its grains any more.
+template <class Work, class Finish>
+void in_two_rounds(Team& team, int blocks, const Work& work, const Finish& finish) {
+  in_two_rounds(team, blocks, [&](int block, int member) {
+    work(block, member);
+    if (block == 0) finish(0, member);
+    if (block % 2 == 0) return;
+    finish(block, member);
+    if (block + 1 < blocks) finish(block + 1, member);
+  });
+}
+
 /// How far beyond touching two grains can act on each other.
 struct AttractionReach {
   double formation_gap = 0;  ///< at the reference radius: a bridge may form within it [m]
