@@ -94,14 +94,13 @@ bool Lists::give_leeway(double duration) {
     const bool first = strayed_[b], second = b + 1 < blocks && strayed_[b + 1];
     if (!first && !second) return;
     const Block& block = pairs.blocks[b];
-    for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
-      const std::int32_t i = pairs.candidates.i[c], j = pairs.candidates.j[c];
+    block.candidates.each(block.grains, [&](std::int32_t, std::int32_t i, std::int32_t j) {
       const auto make_room = [&](std::int32_t grain, std::int32_t other) {
         leeway_.rooms[grain].distance = std::max(leeway_.rooms[grain].distance, leeway_.own[other]);
       };
       if (first) make_room(i, j);
       if (j < block.grains_end ? first : second) make_room(j, i);
-    }
+    });
   });
   // Two grains of a candidate may each use half of its skin.
   std::vector<char> enough(blocks, true);
@@ -123,8 +122,8 @@ Deepest Lists::select_pairs() {
   team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
     const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
     if (!strayed_[b] && !next_strayed) return;
-    deepest[b] = pastefit::select_pairs(world_.particles, world_.pairs.candidates, blocks[b],
-                                        world_.particles.count() + b, selections_[member], world_.reach(), leeway_);
+    deepest[b] = pastefit::select_pairs(world_.particles, blocks[b], world_.particles.count() + b, selections_[member],
+                                        world_.reach(), leeway_);
     if (sleepers_) sleepers_->note_chosen(b);
   });
   return *std::max_element(deepest.begin(), deepest.end(),

@@ -32,23 +32,25 @@ double size_scale(double r1, double r2, double reference_radius) {
 /// are never two lists of the whole scene.
 class Remembered {
  public:
-  Remembered(std::vector<Block>& blocks, const Candidates& old, const std::vector<std::int32_t>& new_place,
-             std::int32_t grains)
-      : blocks_(blocks), last_(blocks.size(), -1), first_(grains + 1, 0) {
-    const auto lower = [&](std::size_t c) { return std::min(new_place[old.i[c]], new_place[old.j[c]]); };
-    const auto upper = [&](std::size_t c) { return std::max(new_place[old.i[c]], new_place[old.j[c]]); };
-    for (std::size_t c = 0; c < old.size(); ++c)
-      if (old.place(c) != Candidates::kNone) ++first_[lower(c) + 1];
-    for (std::int32_t i = 0; i < grains; ++i) first_[i + 1] += first_[i];
+  Remembered(std::vector<Block>& blocks, const std::vector<std::int32_t>& new_place)
+      : blocks_(blocks), last_(blocks.size(), -1), first_(new_place.size() + 1, 0) {
+    const auto each = [&](const auto& look) {
+      for (std::size_t b = 0; b < blocks.size(); ++b)
+        blocks[b].candidates.each(blocks[b].grains, [&](std::int32_t c, std::int32_t i, std::int32_t j) {
+          const std::int32_t place = blocks[b].candidates.place(c);
+          if (place != Candidates::kNone) look(b, new_place[i], new_place[j], place);
+        });
+    };
+    each([&](std::size_t, std::int32_t i, std::int32_t j, std::int32_t) { ++first_[std::min(i, j) + 1]; });
+    for (std::size_t i = 0; i < new_place.size(); ++i) first_[i + 1] += first_[i];
     std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
     known_.resize(first_.back());
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      for (std::size_t c = blocks[b].candidates; c < blocks[b].candidates_end; ++c)
-        if (old.place(c) != Candidates::kNone) {
-          last_[b] = std::max(last_[b], lower(c));
-          known_[next[lower(c)]++] = {upper(c), old.place(c), static_cast<std::int32_t>(b),
-                                      new_place[old.i[c]] > new_place[old.j[c]]};
-        }
+    each([&](std::size_t b, std::int32_t i, std::int32_t j, std::int32_t place) {
+      const std::int32_t lower = std::min(i, j);
+      last_[b] = std::max(last_[b], lower);
+      known_[next[lower]++] = {std::max(i, j), place, static_cast<std::int32_t>(b), i > j};
+    });
+    for (Block& block : blocks) block.candidates = {};
   }
 
   /// Gives up what belongs to pairs whose lower index is below `grain`.
@@ -145,21 +147,13 @@ void look_around(const Cells& cells, const std::vector<std::int32_t>& first, std
 }  // namespace
 
 void Candidates::clear() {
-  i.clear();
-  j.clear();
+  ends_.clear();
+  second_.clear();
   place_.clear();
 }
 
-void Candidates::add(std::int32_t a, std::int32_t b, std::int32_t place) {
-  if (i.size() == i.capacity()) {
-    // By an eighth at a time: lists are long, and little is to be kept in vain.
-    const std::size_t room = i.size() + i.size() / 8 + 64;
-    i.reserve(room);
-    j.reserve(room);
-    place_.reserve(room);
-  }
-  i.push_back(a);
-  j.push_back(b);
+void Candidates::add(std::int32_t j, std::int32_t place) {
+  second_.push_back(j);
   place_.push_back(place);
 }
 
@@ -177,9 +171,8 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
   provide_dummies(particles, pairs.blocks.size());
   for (Block& block : pairs.blocks) block.walls.resize(walls);
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
-  Candidates& candidates = pairs.candidates;
-  Remembered remembered(old, candidates, new_place, n);
-  candidates.clear();
+  Remembered remembered(old, new_place);
+  Candidates listed;  // copied to the blocks, which take no more memory than they need
   auto block = pairs.blocks.begin();
   const auto look = [&](std::int32_t i, std::int32_t begin, std::int32_t end) {
     const Motion& a = particles.motion[i];
@@ -190,7 +183,7 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
       if (dot(between, between) >= widest * widest) continue;
       const double range = a.radius + b.radius + farthest * 2 * a.radius * b.radius / (a.radius + b.radius) + skin;
       if (dot(between, between) >= range * range) continue;
-      candidates.add(i, j, remembered.recall(i, j, *block));
+      listed.add(j, remembered.recall(i, j, *block));
     }
   };
   std::int32_t cell = 0;
@@ -200,16 +193,17 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
         const std::int32_t next = x + 1 < cells.row_length() ? cell + 1 : cell;
         for (std::int32_t i = first[cell]; i < first[cell + 1]; ++i) {
           if (i == block->grains_end) {
-            block->candidates_end = candidates.size();
-            (++block)->candidates = candidates.size();
+            (block++)->candidates = listed;
+            listed.clear();
             remembered.forget_before(i);
             block->contacts.reserve(std::prev(block)->contacts.count);
           }
           look(i, i + 1, first[next + 1]);
           look_around(cells, first, x, y, z, [&](std::int32_t begin, std::int32_t end) { look(i, begin, end); });
+          listed.end_grain();
         }
       }
-  block->candidates_end = candidates.size();
+  block->candidates = listed;
 }
 
 void Selection::clear() {
@@ -224,13 +218,14 @@ void Selection::pad(std::int32_t dummy) {
   for (BridgeList* list : {&bridges, &dormant_bridges}) list->pad(dummy);
 }
 
-Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
-                     Selection& chosen, const AttractionReach& reach, const Leeway& leeway) {
+Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dummy, Selection& chosen,
+                     const AttractionReach& reach, const Leeway& leeway) {
+  Candidates& candidates = block.candidates;
   chosen.clear();
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
-  for (std::size_t c = block.candidates; c < block.candidates_end; ++c) {
-    const std::int32_t i = candidates.i[c], j = candidates.j[c], place = candidates.place(c);
+  const auto choose = [&](std::int32_t c, std::int32_t i, std::int32_t j) {
+    const std::int32_t place = candidates.place(c);
     const Motion &a = particles.motion[i], &b = particles.motion[j];
     const Vec3 between = b.position - a.position;
     const double square = dot(between, between), touch = a.radius + b.radius;
@@ -244,16 +239,16 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
       candidates.set_place(c, Candidates::kNone);
-      if (square >= range * range) continue;
+      if (square >= range * range) return;
       if (dormant) {
         chosen.dormant_candidates.push_back(c);
         candidates.set_place(c, Candidates::place_of_bridge(chosen.dormant_bridges.count));
         chosen.dormant_bridges.add(i, j, scale, alive);
-        continue;
+        return;
       }
       candidates.set_place(c, Candidates::place_of_bridge(chosen.bridges.count));
       chosen.bridges.add(i, j, scale, alive);
-      continue;
+      return;
     }
     Contact pair = contact ? block.contacts.contact(place) : new_contact(particles, i, j);
     pair.bridge = alive;
@@ -265,21 +260,22 @@ Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& 
       candidates.set_place(c, chosen.dormant.count);
       chosen.dormant.add(i, j, pair);
       chosen.dormant_candidates.push_back(c);
-      continue;
+      return;
     }
     if (square >= touch * touch && pair.root_contact_radius == 0) {
       candidates.set_place(c, chosen.near.count);
       chosen.near.add(i, j, pair);
       chosen.near_candidates.push_back(c);
-      continue;
+      return;
     }
     candidates.set_place(c, chosen.contacts.count);
     chosen.contacts.add(i, j, pair);
-  }
+  };
+  candidates.each(block.grains, choose);
   chosen.pad(dummy);
   const std::int32_t near = chosen.contacts.count, awake = near + chosen.near.count;
-  for (const std::size_t c : chosen.near_candidates) candidates.set_place(c, near + candidates.place(c));
-  for (const std::size_t c : chosen.dormant_candidates) {
+  for (const std::int32_t c : chosen.near_candidates) candidates.set_place(c, near + candidates.place(c));
+  for (const std::int32_t c : chosen.dormant_candidates) {
     const std::int32_t place = candidates.place(c);
     candidates.set_place(c, place >= 0 ? awake + place : place - chosen.bridges.count);
   }

@@ -10,24 +10,36 @@
 
 namespace pastefit {
 
-/// Pairs near enough that they may meet before the list is made again.
+/// Pairs near enough that they may meet before the list is made again, of a run of grains: one grain after the other,
+/// so that a pair need not name its first one.
 class Candidates {
  public:
-  std::vector<std::int32_t> i, j;
-
-  std::size_t size() const { return i.size(); }
   void clear();
-  void add(std::int32_t a, std::int32_t b, std::int32_t place);
+  /// A pair of the grain at hand with grain `j`.
+  void add(std::int32_t j, std::int32_t place);
+  /// Goes on to the next grain.
+  void end_grain() { ends_.push_back(static_cast<std::int32_t>(second_.size())); }
+
+  /// Calls `look(c, i, j)` for all pairs; the run begins with grain `first`.
+  template <class Look>
+  void each(std::int32_t first, const Look& look) const {
+    std::int32_t c = 0, i = first;
+    for (const std::int32_t end : ends_) {
+      for (; c < end; ++c) look(c, i, second_[c]);
+      ++i;
+    }
+  }
 
   /// Where a pair's memory is kept in the lists of its block: contact k (k), bridge k (-2 - k), nowhere (kNone).
-  std::int32_t place(std::size_t c) const { return place_[c]; }
-  void set_place(std::size_t c, std::int32_t place) { place_[c] = place; }
+  std::int32_t place(std::int32_t c) const { return place_[c]; }
+  void set_place(std::int32_t c, std::int32_t place) { place_[c] = place; }
   static constexpr std::int32_t kNone = -1;
   static std::int32_t place_of_bridge(std::int32_t k) { return -2 - k; }
   static std::int32_t bridge_at(std::int32_t place) { return -2 - place; }
 
  private:
-  std::vector<std::int32_t> place_;
+  std::vector<std::int32_t> ends_;  ///< by grain
+  std::vector<std::int32_t> second_, place_;
 };
 
 /// Contacts of a block's grains with one wall, in the order of the grains.
@@ -41,7 +53,7 @@ struct WallContacts {
 /// lie in the same block or in the next: blocks of the same parity can be worked on at the same time.
 struct Block {
   std::int32_t grains = 0, grains_end = 0;
-  std::size_t candidates = 0, candidates_end = 0;
+  Candidates candidates;
   ContactList contacts;
   BridgeList bridges;
   std::vector<WallContacts> walls;  ///< one for each wall of the world
@@ -51,7 +63,6 @@ struct Block {
 /// do so soon. The sums of a step are taken in the order of the blocks and their lists.
 struct Pairs {
   std::vector<Block> blocks;
-  Candidates candidates;
 };
 
 /// Calls `work(block, member)` so that no two neighbouring blocks are worked on at the same time, and every block of
@@ -112,7 +123,7 @@ struct Deepest {
 struct Selection {
   ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
   BridgeList bridges, dormant_bridges;
-  std::vector<std::size_t> near_candidates, dormant_candidates;
+  std::vector<std::int32_t> near_candidates, dormant_candidates;
 
   void clear();
   void pad(std::int32_t dummy);  ///< but for `at_wall`
@@ -121,8 +132,8 @@ struct Selection {
 /// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
 /// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
 /// for padding.
-Deepest select_pairs(const Particles& particles, Candidates& candidates, Block& block, std::int32_t dummy,
-                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
+Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dummy, Selection& selection,
+                     const AttractionReach& reach, const Leeway& leeway);
 
 /// Lists the block's grains that touch a wall or may do so while they stay within their leeway, and the wall within its
 /// own [m].
