@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "core/world/aligned.h"
@@ -32,12 +33,19 @@ class BatchList {
   std::int32_t awake = 0;  ///< of them those that act in every step; those of two sleepers come last
 
   void clear() { count = 0; }
-  /// Puts those of another list after them; both are padded.
-  void append(const BatchList& others) {
-    for (std::int32_t batch = 0; batch < others.batch_count(); ++batch) {
-      next() = others.batches[batch];
-      count += kBatch - 1;
+  /// Becomes these lists one after the other, all of them padded. Takes little more memory than they need, and gives up
+  /// first what is too short: lists are long, and there is one for each block.
+  void join(std::initializer_list<const BatchList*> parts) {
+    count = 0;
+    for (const BatchList* part : parts) count += part->batch_count() * kBatch;
+    const auto needed = static_cast<std::size_t>(batch_count());
+    if (needed > batches.capacity()) {
+      batches = {};
+      batches.reserve(needed + needed / 32);
     }
+    batches.clear();
+    for (const BatchList* part : parts)
+      batches.insert(batches.end(), part->batches.begin(), part->batches.begin() + part->batch_count());
   }
   void reserve(std::int32_t pairs) { batches.reserve((pairs + kBatch - 1) / kBatch); }
   std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }

@@ -280,15 +280,10 @@ Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dumm
     candidates.set_place(c, place >= 0 ? awake + place : place - chosen.bridges.count);
   }
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.
-  block.contacts.clear();
-  block.contacts.append(chosen.contacts);
-  block.contacts.append(chosen.near);
-  block.contacts.append(chosen.dormant);
+  block.contacts.join({&chosen.contacts, &chosen.near, &chosen.dormant});
   block.contacts.near = near;
   block.contacts.awake = awake;
-  block.bridges.clear();
-  block.bridges.append(chosen.bridges);
-  block.bridges.append(chosen.dormant_bridges);
+  block.bridges.join({&chosen.bridges, &chosen.dormant_bridges});
   block.bridges.awake = chosen.bridges.count;
   return deepest;
 }
@@ -318,8 +313,7 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
   std::visit(choose, wall.shape);
   touching.count = chosen.count;
   chosen.pad(particles.count());
-  touching.contacts.clear();
-  touching.contacts.append(chosen);
+  touching.contacts.join({&chosen});
   touching.batches.assign(touching.contacts.batch_count(), {});
   for (std::int32_t k = touching.count; k < touching.contacts.count; ++k)
     touching.batches.back().overlap[k % kBatch] = -1;
