@@ -53,9 +53,11 @@ double elastic_energy(const World& world) {
     }
   for (const Block& block : world.pairs.blocks)
     for (std::size_t w = 0; w < block.walls.size(); ++w)
-      for (std::int32_t k = 0; k < block.walls[w].count; ++k)
-        sum += spring(world.walls[w].pair, block.walls[w].contacts.root_radius(k),
-                      block.walls[w].batches[k / kBatch].overlap[k % kBatch]);
+      for (std::int32_t k = 0; k < block.walls[w].count; ++k) {
+        const Motion& grain = world.particles.motion[block.walls[w].contacts.first(k)];
+        const double overlap = grain.radius - nearest(world.walls[w].shape, grain.position).distance;
+        sum += spring(world.walls[w].pair, block.walls[w].contacts.root_radius(k), overlap);
+      }
   return sum;
 }
 
@@ -67,7 +69,8 @@ Stepper::Stepper(World& world, const StepOptions& options)
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
       team_(options.threads),
       sleepers_(options.sleep ? std::make_optional<Sleepers>() : std::nullopt),
-      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr) {
+      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr),
+      wall_batches_(team_.size()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
@@ -144,8 +147,8 @@ void Stepper::compute_forces(std::optional<double> dt) {
   moved_.assign(blocks, {});
   in_two_rounds(
       team_, static_cast<int>(blocks), [&](int b, int) { act_on_pairs(b); },
-      [&](int b, int) {
-        act_on_walls(b);
+      [&](int b, int member) {
+        act_on_walls(b, member);
         if (sleepers_ && sleepers_->balance(world_, b)) lists_.note_strayed(b);
         if (dt) move_block(b, *dt);
       });
@@ -178,23 +181,23 @@ void Stepper::act_on_pairs(int b) {
   if (sleepers_) sleepers_->hold(world_, b, mine, pairs, bridges);
 }
 
-void Stepper::act_on_walls(int b) {
+void Stepper::act_on_walls(int b, int member) {
   for (std::size_t w = 0; w < world_.walls.size(); ++w)
-    if (world_.pairs.blocks[b].walls[w].count > 0) act_on_wall(w, b);
+    if (world_.pairs.blocks[b].walls[w].count > 0) act_on_wall(w, b, wall_batches_[member]);
 }
 
-void Stepper::act_on_wall(std::size_t w, int b) {
+void Stepper::act_on_wall(std::size_t w, int b, Column<WallBatch>& batches) {
   const Wall& wall = world_.walls[w];
   WallContacts& touching = world_.pairs.blocks[b].walls[w];
   WallShare& share = wall_shares_[b * world_.walls.size() + w];
-  share.pierced = find_wall(wall, touching);
+  share.pierced = find_wall(wall, touching, batches);
   KernelTask mine = task(wall.pair, b);
   mine.contacts = touching.contacts.batches.data();
-  mine.wall = touching.batches.data();
+  mine.wall = batches.data();
   mine.stretch = {0, 0, touching.contacts.batch_count()};
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
   kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)](mine);
-  add_loads(wall, touching, share);
+  add_loads(wall, touching, batches, share);
 }
 
 void Stepper::add_up_walls() {
@@ -211,11 +214,15 @@ void Stepper::add_up_walls() {
 }
 
 /// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
-std::int32_t Stepper::find_wall(const Wall& wall, WallContacts& touching) const {
+std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const {
+  batches.resize(std::max<std::size_t>(batches.size(), touching.contacts.batch_count()));
+  WallBatch& padded = batches[touching.contacts.batch_count() - 1];
+  padded = {};
+  for (double& overlap : padded.overlap) overlap = -1;
   std::int32_t pierced = -1;
   const auto find = [&](const auto& shape) {
     for (std::int32_t k = 0; k < touching.count; ++k) {
-      WallBatch& batch = touching.batches[k / kBatch];
+      WallBatch& batch = batches[k / kBatch];
       const int lane = k % kBatch;
       const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
       const Nearest point = nearest_on(shape, grain.position);
@@ -232,9 +239,10 @@ std::int32_t Stepper::find_wall(const Wall& wall, WallContacts& touching) const 
 }
 
 /// What the kernel found, on the grains, and summed up on the wall.
-void Stepper::add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum) {
+void Stepper::add_loads(const Wall& wall, const WallContacts& touching, const Column<WallBatch>& batches,
+                        WallShare& sum) {
   for (std::int32_t k = 0; k < touching.count; ++k) {
-    const WallBatch& batch = touching.batches[k / kBatch];
+    const WallBatch& batch = batches[k / kBatch];
     const int lane = k % kBatch;
     const std::int32_t i = touching.contacts.first(k);
     Load& load = world_.particles.load[i];

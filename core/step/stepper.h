@@ -52,12 +52,12 @@ class Stepper {
   /// All forces; where `dt` is given, the grains of a block are moved by it as soon as their forces are complete.
   void compute_forces(std::optional<double> dt);
   void act_on_pairs(int block);
-  void act_on_walls(int block);
-  void act_on_wall(std::size_t wall, int block);
+  void act_on_walls(int block, int member);
+  void act_on_wall(std::size_t wall, int block, Column<WallBatch>& batches);
   KernelTask task(const PairConstants& pair, int block);
   void add_up_walls();
-  std::int32_t find_wall(const Wall& wall, WallContacts& touching) const;
-  void add_loads(const Wall& wall, const WallContacts& touching, WallShare& sum);
+  std::int32_t find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const;
+  void add_loads(const Wall& wall, const WallContacts& touching, const Column<WallBatch>& batches, WallShare& sum);
   void account_walls(double dt);
   void move_block(int block, double dt);
   void note_moved();
@@ -78,8 +78,9 @@ class Stepper {
   std::int32_t runaway_ = -1;  ///< a grain beyond any speed, or with none that is a number
   double smallest_radius_ = 0, smallest_mass_ = 0;
   TimeStep time_step_;
-  std::vector<EnergySums> energy_;      ///< of each block
-  std::vector<WallShare> wall_shares_;  ///< of each block, for each wall
+  std::vector<EnergySums> energy_;               ///< of each block
+  std::vector<Column<WallBatch>> wall_batches_;  ///< of each member of the team: of a block's contacts with a wall
+  std::vector<WallShare> wall_shares_;           ///< of each block, for each wall
   std::vector<Moved> moved_;
   Ledger ledger_;
   bool looked_ = false;  ///< the ledger has its start

@@ -314,9 +314,6 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
   touching.count = chosen.count;
   chosen.pad(particles.count());
   touching.contacts.join({&chosen});
-  touching.batches.assign(touching.contacts.batch_count(), {});
-  for (std::int32_t k = touching.count; k < touching.contacts.count; ++k)
-    touching.batches.back().overlap[k % kBatch] = -1;
 }
 
 }  // namespace pastefit

@@ -45,8 +45,7 @@ class Candidates {
 /// Contacts of a block's grains with one wall, in the order of the grains.
 struct WallContacts {
   ContactList contacts;
-  std::int32_t count = 0;     ///< of them, without padding
-  Column<WallBatch> batches;  ///< beside those of `contacts`
+  std::int32_t count = 0;  ///< of them, without padding
 };
 
 /// A run of grains that are neighbours in space, with the pairs of which it holds the first grain. Their second grains
