@@ -225,7 +225,10 @@ Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dumm
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   Deepest deepest;
   const auto choose = [&](std::int32_t c, std::int32_t i, std::int32_t j) {
-    const std::int32_t place = candidates.place(c);
+    const std::int32_t place = candidates.place(c), ahead = candidates.ahead(c);
+    __builtin_prefetch(&particles.motion[ahead]);
+    __builtin_prefetch(&leeway.rooms[ahead]);
+    __builtin_prefetch(&leeway.own[ahead]);
     const Motion &a = particles.motion[i], &b = particles.motion[j];
     const Vec3 between = b.position - a.position;
     const double square = dot(between, between), touch = a.radius + b.radius;

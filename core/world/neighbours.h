@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,9 @@ class Candidates {
     }
   }
 
+  /// The second grain of the pair some way after this one, or of the last: to be fetched in time.
+  std::int32_t ahead(std::int32_t c) const { return second_[std::min<std::size_t>(c + kAhead, second_.size() - 1)]; }
+
   /// Where a pair's memory is kept in the lists of its block: contact k (k), bridge k (-2 - k), nowhere (kNone).
   std::int32_t place(std::int32_t c) const { return place_[c]; }
   void set_place(std::int32_t c, std::int32_t place) { place_[c] = place; }
@@ -38,6 +42,8 @@ class Candidates {
   static std::int32_t bridge_at(std::int32_t place) { return -2 - place; }
 
  private:
+  static constexpr int kAhead = 12;
+
   std::vector<std::int32_t> ends_;  ///< by grain
   std::vector<std::int32_t> second_, place_;
 };
