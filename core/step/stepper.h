@@ -21,8 +21,9 @@ class Stepper {
  public:
   Stepper(World& world, const StepOptions& options);
 
-  /// One time step. `drive` sets the walls' velocities for it, knowing the loads on them and the step.
-  /// Returns the step [s], or why the run cannot go on.
+  /// One time step. `drive` sets the walls' velocities for it, knowing the loads on them and the step; of the grains it
+  /// knows nothing: they may have been moved by then.
+  /// Returns nothing, or why the run cannot go on.
   std::optional<Failure> step(const std::function<void(World&, double)>& drive);
 
   /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
