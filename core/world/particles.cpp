@@ -10,9 +10,9 @@ namespace {
 constexpr double kFarAway = 1e6;  // [m]; the dummy never comes near a grain
 
 template <class T>
-void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, std::vector<T>& scratch) {
-  scratch = values;
-  for (std::size_t k = 0; k < order.size(); ++k) values[k] = scratch[order[k]];
+void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
+  const std::vector<T> before(values);
+  for (std::size_t k = 0; k < order.size(); ++k) values[k] = before[order[k]];
 }
 
 }  // namespace
@@ -46,14 +46,10 @@ void provide_dummies(Particles& particles, std::size_t count) {
 }
 
 void reorder(Particles& particles, const std::vector<std::int32_t>& order) {
-  std::vector<Motion> motion;
-  std::vector<Spin> spin;
-  std::vector<Load> load;
-  std::vector<std::int32_t> identity;
-  permute(particles.motion, order, motion);
-  permute(particles.spin, order, spin);
-  permute(particles.load, order, load);
-  permute(particles.identity, order, identity);
+  permute(particles.motion, order);
+  permute(particles.spin, order);
+  permute(particles.load, order);
+  permute(particles.identity, order);
 }
 
 }  // namespace pastefit
