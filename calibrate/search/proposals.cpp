@@ -1,6 +1,7 @@
 #include "calibrate/search/proposals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calibrate/search/coarse_rung.h"
@@ -10,6 +11,34 @@ namespace pastefit {
 namespace {
 
 constexpr int coarse_tries = 4;  // proposals tried with coarse grains before one is with fine ones
+constexpr double elsewhere = 3 * same_point;
+
+/// A model that expects nothing good near some points.
+class Avoiding : public Objective {
+ public:
+  Avoiding(Objective& model, std::vector<UnitPoint> avoided) : model_(model), avoided_(std::move(avoided)) {
+    for (const UnitPoint& point : avoided_)
+      penalty_ = std::max(penalty_, model_.evaluate({&point, 1}, no_packing).at(0).misfit);
+  }
+  int parameters() const override { return model_.parameters(); }
+  int residuals() const override { return model_.residuals(); }
+  int budget_left() const override { return model_.budget_left(); }
+  bool stop_requested() const override { return false; }
+
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
+    std::vector<Response> responses = model_.evaluate(points, packings);
+    for (Response& response : responses)
+      for (const UnitPoint& point : avoided_)
+        response.misfit += penalty_ * std::exp(-(response.point - point).squaredNorm() / (elsewhere * elsewhere));
+    return responses;
+  }
+
+ private:
+  static constexpr std::array<std::uint64_t, 1> no_packing{0};
+  Objective& model_;
+  std::vector<UnitPoint> avoided_;
+  double penalty_ = 0;
+};
 
 }  // namespace
 
@@ -17,6 +46,18 @@ std::optional<UnitPoint> Proposals::next() {
   Surrogate model(ledger_.evidence());
   if (imagine_answers(model)) return std::nullopt;
   const UnitPoint proposal = tried_with_coarse_grains(least_point(model, ledger_.best_point(common_)));
+  if (was_asked(proposal)) return std::nullopt;
+  return proposal;
+}
+
+std::optional<UnitPoint> Proposals::next_elsewhere() {
+  Surrogate model(ledger_.evidence());
+  std::vector<UnitPoint> asked;
+  for (const Response& one : ledger_.history())
+    if (std::ranges::equal(one.packings, common_)) asked.push_back(one.point);
+  if (asked.empty()) return std::nullopt;
+  Avoiding avoiding(model, std::move(asked));
+  const UnitPoint proposal = least_point(avoiding, ledger_.best_point(common_));
   if (was_asked(proposal)) return std::nullopt;
   return proposal;
 }

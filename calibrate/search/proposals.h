@@ -35,6 +35,10 @@ class Proposals {
   /// None if nothing new comes to mind before the next answer.
   std::optional<UnitPoint> next();
 
+  /// The point of least expected misfit that is not near one that was asked on the common packings: for when those have
+  /// all been refuted and the surrogate still expects nothing better than them.
+  std::optional<UnitPoint> next_elsewhere();
+
  private:
   UnitPoint tried_with_coarse_grains(UnitPoint proposal);
   bool imagine_answers(Surrogate& model) const;

@@ -23,7 +23,7 @@ namespace {
 constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
 constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
 constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
-constexpr int most_confirmations = 4;   // the fresh packings grow to so many times what the study asks for
+constexpr int most_confirmations = 8;   // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
 class Search {
@@ -190,7 +190,8 @@ class Search {
       const bool wanted =
           !nothing_new && !goal_is_met() && may_go_on() && fruitless < fruitless_proposals + options_.lag;
       if (wanted && std::ssize(ledger_.under_way()) <= options_.lag) {
-        const std::optional<UnitPoint> proposal = proposals.next();
+        std::optional<UnitPoint> proposal = proposals.next();
+        if (!proposal && ledger_.under_way().empty() && candidates().empty()) proposal = proposals.next_elsewhere();
         if (proposal) ledger_.begin(*proposal, common_);
         nothing_new = !proposal;
         continue;

@@ -76,12 +76,15 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      candidates are under way when the next one is proposed (`proposals.h`). An NLopt algorithm by name: that
 ///      algorithm on the simulations themselves, from the best screening point, with half of what is left of the
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
-///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already.
-///   4. Confirmation of the candidate of least misfit on fresh packings, which are doubled up to four times their
+///      Where all candidates on the common packings have been refuted and nothing better is expected, the search goes on
+///      beside them.
+///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already, or the luck of these
+///      packings is more than the tolerance.
+///   4. Confirmation of the candidate of least misfit on fresh packings, which are doubled up to eight times their
 ///   number
 ///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the
 ///      candidate is out, some of the packings join the common set, which doubles, and the search goes on from 2 with
-///      what all of them taught. Limit: a mean that is looked at up to three times is a little kinder than one that is
+///      what all of them taught. Limit: a mean that is looked at up to four times is a little kinder than one that is
 ///      looked at once.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for

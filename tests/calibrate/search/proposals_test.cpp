@@ -75,6 +75,32 @@ TEST_CASE("candidates under way together are different ones, and none is one tha
   CHECK(several >= 15);
 }
 
+TEST_CASE(
+    "beside candidates that were refuted the next one lies apart from all of them, and is expected to do as well") {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    Synthetic objective = fake_slump(150, seed);
+    const SearchOptions options = options_with(seed, 0);
+    Ledger ledger = screened(objective, options);
+    Proposals proposals(ledger, nullptr, options, common, 0.1);
+    CHECK_FALSE(proposals.next_elsewhere());  // nothing was asked on the common packings
+    for (int k = 0; k < 6; ++k) {
+      const auto proposal = proposals.next();
+      if (!proposal) break;
+      ledger.evaluate({&*proposal, 1}, common);
+    }
+    const auto beside = proposals.next_elsewhere();
+    if (!beside) continue;
+    ++found;
+    for (const Response& seen : ledger.history())
+      if (std::ranges::equal(seen.packings, common)) CHECK((seen.point - *beside).norm() >= 2 * same_point);
+    Surrogate model(ledger.evidence());
+    CHECK(std::abs(model.evaluate({&*beside, 1}, common).at(0).residuals[0]) <= 2);  // in the laboratory's deviations
+  }
+  CHECK(found >= 18);
+}
+
 TEST_CASE("a candidate under way that is likely to meet the goal is waited for") {
   int waited = 0, waited_for_none = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
