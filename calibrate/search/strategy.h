@@ -76,8 +76,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      candidates are under way when the next one is proposed (`proposals.h`). An NLopt algorithm by name: that
 ///      algorithm on the simulations themselves, from the best screening point, with half of what is left of the
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
-///      Where all candidates on the common packings have been refuted and nothing better is expected, the search goes on
-///      beside them.
+///      Where all candidates on the common packings have been refuted and nothing better is expected, the search goes
+///      on beside them.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already, or the luck of these
 ///      packings is more than the tolerance.
 ///   4. Confirmation of the candidate of least misfit on fresh packings, which are doubled up to eight times their
