@@ -80,8 +80,7 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      on beside them.
 ///   3. Refinement: Ceres on the residuals on the common packings, unless the goal is met already, or the luck of these
 ///      packings is more than the tolerance.
-///   4. Confirmation of the candidate of least misfit on fresh packings, which are doubled up to eight times their
-///   number
+///   4. Confirmation of the candidate of least misfit on fresh packings, up to eight times as many as the options say
 ///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the
 ///      candidate is out, some of the packings join the common set, which doubles, and the search goes on from 2 with
 ///      what all of them taught. Limit: a mean that is looked at up to four times is a little kinder than one that is
