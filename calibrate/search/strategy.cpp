@@ -20,10 +20,10 @@
 namespace pastefit {
 namespace {
 
-constexpr double goal_share = 0.6;      // of the tolerance, on the common packings
-constexpr double far_from_prior = 2;    // standard deviations at which a candidate contradicts what is known
-constexpr int fruitless_proposals = 4;  // proposals in a row without a better candidate that end the search
-constexpr int most_confirmations = 8;   // the fresh packings grow to so many times what the study asks for
+constexpr double goal_share = 0.6;             // of the tolerance, on the common packings
+constexpr double far_from_prior = 2;           // standard deviations at which a candidate contradicts what is known
+constexpr int fruitless_proposals = 4;         // proposals in a row without a better candidate that end the search
+constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
 class Search {
@@ -270,7 +270,7 @@ class Search {
     ledger_.enter("confirmation");
     ledger_.hold_back(0);
     const Response candidate = likely_best();
-    const auto most = static_cast<std::size_t>(most_confirmations * options_.confirmation_packings);
+    const std::size_t most = most_confirmations * static_cast<std::size_t>(options_.confirmation_packings);
     std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
     Response confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
     Verdict verdict = verdict_on(confirmation, options_.tolerance_mm);
