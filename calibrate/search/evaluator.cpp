@@ -121,9 +121,9 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
         const auto window = tried ? window_of(study_, test) : std::nullopt;
         const auto [entry, added] = tasks_.try_emplace(window ? key_of_ended(key, *window) : key);
         Task& task = entry->second;
-        task.window = window;
         tasks.push_back(&task);
-        if (!added) continue;
+        if (!added) continue;  // and may be under way: nothing of it is touched here
+        task.window = window;
         if (auto known = find(store_, key, window)) {
           task.evaluation = std::move(*known);
           task.finished = true;
