@@ -28,6 +28,20 @@ Ledger screened(Objective& objective, const SearchOptions& options) {
   return ledger;
 }
 
+/// A search that has screened, as its proposals find it.
+struct Screened {
+  Screened(std::uint64_t seed, int lag)
+      : objective(fake_slump(150, seed)),
+        options(options_with(seed, lag)),
+        ledger(screened(objective, options)),
+        proposals(ledger, nullptr, options, common, 0.1) {}
+
+  Synthetic objective;
+  SearchOptions options;
+  Ledger ledger;
+  Proposals proposals;
+};
+
 struct Cost {
   double simulations = 0, time = 0;
   int confirmed = 0;
@@ -52,10 +66,8 @@ TEST_CASE("candidates under way together are different ones, and none is one tha
   int several = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
-    Synthetic objective = fake_slump(150, seed);
-    const SearchOptions options = options_with(seed, 3);
-    Ledger ledger = screened(objective, options);
-    Proposals proposals(ledger, nullptr, options, common, 0.1);
+    Screened search(seed, 3);
+    auto& [objective, options, ledger, proposals] = search;
     while (ledger.under_way().size() < 4) {
       const auto proposal = proposals.next();
       if (!proposal) break;
@@ -80,10 +92,8 @@ TEST_CASE(
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
-    Synthetic objective = fake_slump(150, seed);
-    const SearchOptions options = options_with(seed, 0);
-    Ledger ledger = screened(objective, options);
-    Proposals proposals(ledger, nullptr, options, common, 0.1);
+    Screened search(seed, 0);
+    auto& [objective, options, ledger, proposals] = search;
     CHECK_FALSE(proposals.next_elsewhere());  // nothing was asked on the common packings
     for (int k = 0; k < 6; ++k) {
       const auto proposal = proposals.next();
