@@ -1,26 +1,20 @@
 #include "calibrate/search/conclusion.h"
 
-#include <cstdio>
+#include "calibrate/report/format.h"
 
 namespace pastefit {
 
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 /// Why the best candidate does not count as confirmed.
 std::string doubt_about(const Calibration& result, double tolerance_mm, const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
-  const std::string tolerance = "the tolerance of " + number(tolerance_mm) + " mm";
-  std::string words = "The best candidate misses the laboratory by " + number(told.misfit_mm) + " mm";
+  const std::string tolerance = "the tolerance of " + format("%.3g", tolerance_mm) + " mm";
+  std::string words = "The best candidate misses the laboratory by " + format("%.3g", told.misfit_mm) + " mm";
   if (told.misfit_mm > tolerance_mm) return words + ", more than " + tolerance + spent;
   if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
-  return words + " +- " + number(told.noise_mm) + " mm: its packings scatter too much to be sure of " + tolerance +
-         spent + " Allow more simulations.";
+  return words + " +- " + format("%.3g", told.noise_mm) + " mm: its packings scatter too much to be sure of " +
+         tolerance + spent + " Allow more simulations.";
 }
 
 }  // namespace
@@ -32,9 +26,9 @@ void explain(Calibration& result, const Ending& ending, double tolerance_mm, std
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
   if (ending.confirmed) {
     result.status = CalibrationStatus::confirmed;
-    result.reason = "The candidate misses the laboratory by " + number(result.confirmation.misfit_mm) + " mm on " +
-                    std::to_string(result.confirmation.packings.size()) + " fresh packings, within the tolerance of " +
-                    number(tolerance_mm) + " mm" + spent;
+    result.reason = "The candidate misses the laboratory by " + format("%.3g", result.confirmation.misfit_mm) +
+                    " mm on " + std::to_string(result.confirmation.packings.size()) +
+                    " fresh packings, within the tolerance of " + format("%.3g", tolerance_mm) + " mm" + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;
     result.reason = "The search was stopped; the best so far is given" + spent;
@@ -53,7 +47,8 @@ void explain(Calibration& result, const Ending& ending, double tolerance_mm, std
     for (std::size_t k = 0; k < result.reach.size(); ++k) {
       const Reach& reach = result.reach[k];
       const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);
-      result.reason += " " + name + " went from " + number(reach.lowest) + " to " + number(reach.highest);
+      result.reason +=
+          " " + name + " went from " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
       if (reach.all_above || reach.all_below) {
         result.status = CalibrationStatus::out_of_reach;
         result.reason += std::string(", always ") + (reach.all_above ? "above" : "below") +

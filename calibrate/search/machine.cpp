@@ -1,12 +1,12 @@
 #include "calibrate/search/machine.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <thread>
 
+#include "calibrate/report/format.h"
 #include "core/rigs/packing.h"
 
 namespace pastefit {
@@ -14,12 +14,6 @@ namespace pastefit {
 namespace {
 
 constexpr double kBytesPerGrain = 1000;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 }  // namespace
 
@@ -45,9 +39,9 @@ Faults validate_memory(const SlumpTable& test, int at_once) {
   const double needed = simulations * memory_needed_bytes(test), free = memory_available_bytes();
   if (needed <= free) return {};
   return {{"grains",
-           number(poured_grains(test)) + " grains in " + std::to_string(simulations) +
-               (simulations == 1 ? " simulation" : " simulations at a time") + " need about " + number(needed / 1e9) +
-               " GB of memory, " + number(free / 1e9) + " GB are free",
+           format("%.3g", poured_grains(test)) + " grains in " + std::to_string(simulations) +
+               (simulations == 1 ? " simulation" : " simulations at a time") + " need about " +
+               format("%.3g", needed / 1e9) + " GB of memory, " + format("%.3g", free / 1e9) + " GB are free",
            simulations > 1 && needed / simulations <= free ? "give fewer --threads, or take larger grains"
                                                            : "take larger grains"}};
 }
