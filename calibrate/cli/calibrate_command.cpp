@@ -40,10 +40,7 @@ struct CalibrateOptions {
 
 const std::string kCard = "card.json";
 const std::string kSummary = "summary.txt";
-const std::string kStore = "evaluations.sqlite";
-const std::vector<std::string> kResults = {kCard, kSummary, kStore, kStore + "-wal", kStore + "-shm"};
-
-constexpr std::uintmax_t kSpace = 16u << 20;             // card, summary, SQLite's own files
+const std::vector<std::string> kCalibration = with_store({kCard, kSummary});
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
 
 std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
@@ -127,10 +124,10 @@ int calibrate(const CalibrateOptions& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
-  auto folder = OutputFolder::open(options.out, kResults, earlier,
+  auto folder = OutputFolder::open(options.out, kCalibration, earlier,
                                    kSpace + static_cast<std::uintmax_t>(budget) * kSpaceOfEvaluation);
   if (!folder.ok()) return report(folder.faults());
-  if (options.force) folder.value().clear(kResults);
+  if (options.force) folder.value().clear(kCalibration);
   auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
   if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())

@@ -35,9 +35,7 @@ struct CompareOptions {
 const std::string kTable = "comparison.csv";
 const std::string kCourse = "course.csv";
 const std::string kFigure = "comparison.svg";
-const std::string kStore = "evaluations.sqlite";
-const std::vector<std::string> kResults = {kTable, kCourse, kFigure, kStore, kStore + "-wal", kStore + "-shm"};
-constexpr std::uintmax_t kSpace = 64u << 20;
+const std::vector<std::string> kComparison = with_store({kTable, kCourse, kFigure});
 constexpr std::uint64_t kFirstJudge = 1'000'000'001;  // packings far from those of any search
 
 std::string table_of(const std::vector<StrategyTrial>& trials) {
@@ -116,9 +114,9 @@ int compare(const CompareOptions& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
-  auto folder = OutputFolder::open(options.out, kResults, earlier, kSpace);
+  auto folder = OutputFolder::open(options.out, kComparison, earlier, kSpace);
   if (!folder.ok()) return report(folder.faults());
-  if (options.force) folder.value().clear(kResults);
+  if (options.force) folder.value().clear(kComparison);
   auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
 

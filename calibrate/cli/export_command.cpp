@@ -21,7 +21,6 @@ struct ExportOptions {
 };
 
 const std::string kNotes = "NOTES.txt";
-constexpr std::uintmax_t kSpace = 64u << 20;  // a million grains take some 60 MB
 
 std::string notes_text(const Exporter& exporter, const ExportScene& scene, const Export& written) {
   std::string out = scene.card.title + "\n" + std::string(exporter.meaning) + "\n\n";

@@ -14,6 +14,11 @@ namespace pastefit {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> with_store(std::vector<std::string> names) {
+  for (const char* suffix : {"", "-wal", "-shm"}) names.push_back(kStore + suffix);
+  return names;
+}
+
 Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vector<std::string>& results,
                                         EarlierResult earlier, std::uintmax_t space_bytes) {
   const std::string where = "--out " + folder.string();

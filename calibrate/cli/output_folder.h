@@ -9,6 +9,14 @@
 
 namespace pastefit {
 
+/// Free space that a command asks for: a million exported grains take some 60 MB, a picture of 100,000 some 10 MB.
+inline constexpr std::uintmax_t kSpace = 64u << 20;
+
+/// Where a command keeps its evaluations.
+inline const std::string kStore = "evaluations.sqlite";
+/// `names`, the store's and those of the files that SQLite keeps beside it.
+std::vector<std::string> with_store(std::vector<std::string> names);
+
 /// What to do with the result that a folder already holds.
 enum class EarlierResult { refuse, resume, replace };
 

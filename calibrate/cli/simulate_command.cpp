@@ -37,7 +37,6 @@ struct SimulateOptions {
 
 const std::string kResult = "outcome.json";
 const std::string kSeries = "grains";
-constexpr std::uintmax_t kSpace = 64u << 20;  // a picture of 100,000 grains takes some 10 MB
 
 GrainFrame frame_of(const Moment& moment) {
   GrainFrame frame;

@@ -19,7 +19,7 @@ if "${program_version} < 20210929" then &
   "quit 2"
 )";
 
-const char* const kConventions = R"(#
+const char* const kTableConventions = R"(#
 # Conventions. normal "hertz k e": k = 4/3 E*, force k sqrt(R*) d^1.5. "damping tsuji": LAMMPS turns e into the factor of
 # sqrt(m* k a) by a polynomial; e below is chosen such that the factor is sqrt(5) beta(e of the card), which is the
 # damping 2 sqrt(5/6) beta sqrt(S_n m*). tangential: stiffness 8 G*, damping ratio sqrt(4 G*/E*), friction.
@@ -157,7 +157,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
   const bool attracts = attraction_n(test.contact, {radius, radius, radius}, 1e-12) > 0;
 
-  LammpsLaws laws{kVersionGuard, kConventions, {}, {}, {}, {}, {}, false};
+  LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, {}, {}, false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)
                                      : "pair_style   granular\n";
   const PairConstants grains = grain_pair(test.contact, radius);

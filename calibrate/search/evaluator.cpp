@@ -12,6 +12,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
+#include "core/processor_time.h"
 
 namespace pastefit {
 
@@ -20,13 +21,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so a stop is obeyed at once
-
-/// Processor time of the calling thread.
-double core_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -218,7 +212,7 @@ void SimulationObjective::run(Task& task) {
 
   bool by_user = false;
   const auto start = Clock::now();
-  const double core_start = core_seconds();
+  const double core_start = thread_seconds();
   options.watch_interval_s = kWatchInterval;
   options.watch = [&](const Moment&) {
     by_user = by_user || stop_requested();
@@ -242,7 +236,7 @@ void SimulationObjective::run(Task& task) {
   auto faults = store_.add(evaluation);
   {
     const std::lock_guard lock(mutex_);
-    counts_.core_s += core_seconds() - core_start;
+    counts_.core_s += thread_seconds() - core_start;
   }
   if (!faults.empty()) {
     const std::lock_guard lock(mutex_);

@@ -1,13 +1,12 @@
 #include "calibrate/store/store.h"
 
-#include <sqlite3.h>
-
 #include <algorithm>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "calibrate/store/database.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/content_hash.h"
 #include "calibrate/study/slump_table_json.h"
@@ -18,80 +17,6 @@ namespace {
 
 constexpr int kSchemaVersion = 2;
 constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
-
-using Row = std::vector<std::string>;
-
-/// A connection that closes itself; errors of SQLite travel as exceptions up to the functions of Store.
-class Database {
- public:
-  explicit Database(const std::filesystem::path& file) {
-    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-    const int status = sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr);
-    if (status != SQLITE_OK) {
-      const std::string message = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
-      sqlite3_close(handle_);
-      throw std::runtime_error(message);
-    }
-    sqlite3_busy_timeout(handle_, 2000);
-  }
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
-  ~Database() { sqlite3_close(handle_); }
-
-  /// Runs one statement with text parameters; answers all rows as text.
-  std::vector<Row> run(const std::string& sql, const Row& parameters = {}) {
-    sqlite3_stmt* raw = nullptr;
-    check(sqlite3_prepare_v2(handle_, sql.c_str(), -1, &raw, nullptr));
-    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(raw, sqlite3_finalize);
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      check(sqlite3_bind_text(raw, static_cast<int>(i) + 1, parameters[i].data(),
-                              static_cast<int>(parameters[i].size()), SQLITE_STATIC));
-    std::vector<Row> rows;
-    int status;
-    while ((status = sqlite3_step(raw)) == SQLITE_ROW) {
-      Row row;
-      for (int column = 0; column < sqlite3_column_count(raw); ++column) {
-        const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(raw, column));
-        row.emplace_back(text ? text : "");
-      }
-      rows.push_back(std::move(row));
-    }
-    if (status != SQLITE_DONE) check(status);
-    return rows;
-  }
-
-  int number(const std::string& sql) { return std::stoi(run(sql).at(0).at(0)); }
-
- private:
-  void check(int status) {
-    if (status != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(handle_));
-  }
-  sqlite3* handle_ = nullptr;
-};
-
-/// All or nothing: rolls back unless committed.
-class Transaction {
- public:
-  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-  ~Transaction() {
-    if (committed_) return;
-    try {
-      database_.run("ROLLBACK");
-    } catch (const std::exception&) {
-      // SQLite has rolled back by itself (full disk); there is nothing left to undo.
-    }
-  }
-  void commit() {
-    database_.run("COMMIT");
-    committed_ = true;
-  }
-
- private:
-  Database& database_;
-  bool committed_ = false;
-};
 
 std::string text_of(const std::vector<double>& numbers) {
   auto json = nlohmann::ordered_json::array();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSlow = 0.001;  // of the fall speed sqrt(g R): a thirtieth of `RestCriterion::speed_over_fall`
 constexpr double kFallAsleepLoad = 0.05, kWakeLoad = 0.2;  // of a grain's weight
-constexpr std::int64_t kStepsPerLook = 8;
+constexpr std::int64_t kStepsBetweenLooks = 8;
 constexpr std::uint8_t kLooks = 12;             // in a row that find a grain calm before it may sleep
 constexpr std::int64_t kStepsPerChoice = 16;    // after which pairs are chosen anew for grains that woke
 constexpr std::int64_t kStepsPerBedtime = 128;  // after which they are for grains that are calm
@@ -87,7 +87,7 @@ void Sleepers::hold(const World& world, std::size_t b, KernelTask task, Kernel p
 
 bool Sleepers::balance(World& world, std::size_t block) {
   Particles& particles = world.particles;
-  const bool look = world.step % kStepsPerLook == 0;
+  const bool look = world.step % kStepsBetweenLooks == 0;
   bool drowsy = false;
   asleep_[block] = 0;
   for (std::int32_t i = world.pairs.blocks[block].grains; i < world.pairs.blocks[block].grains_end; ++i) {

@@ -11,6 +11,7 @@
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
+#include "core/processor_time.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -20,12 +21,6 @@ namespace {
 constexpr double kFixedWait = 0.5;                   // [s], as the peers of `test`
 constexpr int kPlainBudget = 4;                      // of the study's
 constexpr double kBelow = 0.005, kFarBelow = 0.040;  // [m]
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Study study_of(const std::string& mix) {
   const auto file = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "data/studies" / ("concrete-mix-" + mix + ".json");

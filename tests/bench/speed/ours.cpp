@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/processor_time.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {
@@ -20,12 +21,6 @@ Wall wall_of(Shape shape, bool cohesive) {
 void take_steps(Stepper& stepper, int steps) {
   for (int n = 0; n < steps; ++n)
     if (const auto problem = stepper.step({})) throw std::runtime_error("our run failed: " + problem->message);
-}
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -55,10 +50,10 @@ OurRun run_ours(const Scene& scene, Bed&& bed) {
   Stepper stepper(world, options);
   take_steps(stepper, scene.warm_steps);
   if (scene.container == Container::mould) world.walls[1].velocity = {0, 0, kLiftSpeed};
-  const double start = processor_seconds();
+  const double start = process_seconds();
   take_steps(stepper, scene.steps);
   OurRun run;
-  run.seconds = processor_seconds() - start;
+  run.seconds = process_seconds() - start;
   run.advised_step_s = stepper.smallest_advised_step();
   for (const Block& block : world.pairs.blocks) {
     run.contacts += static_cast<double>(block.contacts.count) / world.particles.count();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/laws/contact.h"
+#include "core/processor_time.h"
 #include "core/step/kernels.h"
 #include "tests/bench/speed/measure.h"
 #include "tests/bench/speed/scene.h"
@@ -77,12 +78,6 @@ void count_geometry() {
   sink = sums.v + on_other.x.v;
 }
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // Peaks: as many independent chains as hide the latency of an operation, in registers.
 #define PASTEFIT_PEAKS(name, options, type, set, add, mul, root, div, store)   \
   __attribute__((target(options))) double name##_simple(std::int64_t rounds) { \
@@ -121,9 +116,9 @@ PASTEFIT_PEAKS(sse2, "sse2", __m128d, _mm_set1_pd, _mm_add_pd, _mm_mul_pd, _mm_s
 double rate(double (*loop)(std::int64_t), std::int64_t rounds, double operations_per_round) {
   double best = 0;
   for (int n = 0; n < 5; ++n) {
-    const double start = processor_seconds();
+    const double start = process_seconds();
     sink = loop(rounds);
-    best = std::max(best, operations_per_round * static_cast<double>(rounds) / (processor_seconds() - start));
+    best = std::max(best, operations_per_round * static_cast<double>(rounds) / (process_seconds() - start));
   }
   return best;
 }
@@ -133,9 +128,9 @@ double triad_bytes_per_second() {
   std::vector<double> a(kLength, 0.0), b(kLength, 1.0), c(kLength, 2.0);
   double best = 0;
   for (int n = 0; n < 5; ++n) {
-    const double start = processor_seconds();
+    const double start = process_seconds();
     for (std::size_t k = 0; k < kLength; ++k) a[k] = b[k] + 3.0 * c[k];
-    best = std::max(best, 3 * sizeof(double) * static_cast<double>(kLength) / (processor_seconds() - start));
+    best = std::max(best, 3 * sizeof(double) * static_cast<double>(kLength) / (process_seconds() - start));
     sink = a[kLength / 2];
   }
   return best;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kRadius = 0.008;
 constexpr GrainPair kPair{kRadius, kRadius, kRadius};
 
-Card card() {
+Card paste() {
   Card out;
   out.title = "Paste";
   auto values = usual_values();
@@ -49,7 +49,7 @@ std::string text_of(const Export& written) {
 }  // namespace
 
 TEST_CASE("the curve that is exported is the one the engine acts by, for every shape") {
-  ContactModel contact = card().test.contact;
+  ContactModel contact = paste().test.contact;
   auto& bridge = contact.bridge;
   bridge.a_n_m2 = 2000;
   bridge.b_n_m = 40;
@@ -77,14 +77,14 @@ TEST_CASE("the curve that is exported is the one the engine acts by, for every s
 }
 
 TEST_CASE("the work of a bridge is the integral of its force") {
-  const auto contact = card().test.contact;
+  const auto contact = paste().test.contact;
   const auto& b = contact.bridge;
   const double closed = -(b.a_n_m2 * std::pow(b.d_c_m, 3) / 3 + b.b_n_m * b.d_c_m * b.d_c_m / 2 + b.c_n * b.d_c_m);
   CHECK(bridge_work_j(contact, kPair, 0, -b.d_c_m) == Approx(closed).epsilon(1e-9));
 }
 
 TEST_CASE("a force table has a row at rupture and one at touch") {
-  const auto contact = card().test.contact;
+  const auto contact = paste().test.contact;
   const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);
   CHECK(table.size() == 2001);
   CHECK(table[0].overlap_m == contact.bridge.d_c_m);
@@ -112,7 +112,7 @@ TEST_CASE("classes keep the volume of the grains, and one size stays as it is") 
 TEST_CASE("every exporter writes files, and says what it loses") {
   for (const auto& exporter : exporters()) {
     INFO(exporter.name);
-    const auto written = exporter.write(scene(card()));
+    const auto written = exporter.write(scene(paste()));
     REQUIRE(written.ok());
     CHECK(written.value().files.size() >= 3);
     CHECK_FALSE(written.value().notes.empty());
@@ -122,7 +122,7 @@ TEST_CASE("every exporter writes files, and says what it loses") {
 }
 
 TEST_CASE("what LAMMPS as it stands cannot represent is said with a number") {
-  Card material = card();
+  Card material = paste();
   material.test.contact.bridge.offset_m = 0.1 * -material.test.contact.bridge.d_c_m;
   material.test.contact.friction_basis = FrictionBasis::total;
   const auto written = export_lammps_tables(scene(material));
@@ -136,7 +136,7 @@ TEST_CASE("what LAMMPS as it stands cannot represent is said with a number") {
 }
 
 TEST_CASE("a law the target lacks is refused, with a remedy") {
-  Card material = card();
+  Card material = paste();
   material.test.contact.rolling = RollingModel::constant_torque;
   material.test.table_wall.cohesion_factor = 0.5;
   for (const auto write : {&export_lammps_tables, &export_yade}) {
@@ -148,7 +148,7 @@ TEST_CASE("a law the target lacks is refused, with a remedy") {
 }
 
 TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table") {
-  auto several = scene(card());
+  auto several = scene(paste());
   several.packing.radii = {0.006, 0.008, 0.010};
   several.sizes = size_classes(several.packing.radii);
   const auto written = export_lammps_tables(several);
@@ -161,7 +161,7 @@ TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table")
 TEST_CASE("LIGGGHTS's bridge is fitted: a bridge of its own kind is found again") {
   const SoulieBridge truth{kRadius, std::pow(0.4 * kRadius, 3), 2.5};
   // Its curve as a polynomial of second degree through touch, middle and rupture.
-  ContactModel contact = card().test.contact;
+  ContactModel contact = paste().test.contact;
   const double reach = truth.rupture_gap_m();
   const double f0 = truth.force_n(0), f1 = truth.force_n(0.5 * reach), f2 = truth.force_n(reach * (1 - 1e-9));
   contact.bridge.c_n = f0;

@@ -13,7 +13,7 @@ namespace style = pastefit_lammps;
 
 namespace {
 
-constexpr double kRadius = 0.008, kStep = 1e-5;
+constexpr double kGrainRadius = 0.008, kStep = 1e-5;
 
 ContactModel paste(BridgeShape shape) {
   ContactModel model;
@@ -29,7 +29,7 @@ style::Law law_of(const ContactModel& model) {
     return std::string();
   };
   const Bridge& bridge = model.bridge;
-  return {kRadius,
+  return {kGrainRadius,
           model.youngs_modulus_pa,
           model.poissons_ratio,
           model.restitution,
@@ -83,7 +83,7 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
                                      mass, std::min(small, large)},
                                     other, kStep, kStep);
     largest = std::max(largest, norm(force));
-    worst = std::max({worst, norm(force - of(theirs.force)), norm(action.moment - of(theirs.moment)) / kRadius});
+    worst = std::max({worst, norm(force - of(theirs.force)), norm(action.moment - of(theirs.moment)) / kGrainRadius});
     CHECK(memory.bridge == other.bridge);
   }
   return worst / largest;
@@ -98,8 +98,8 @@ void compare(BridgeShape shape) {
       model.rolling = rolling;
       const WallContact wall{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
       const style::WallLaw same{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
-      check(grain_pair(model, kRadius), style::Contact(law_of(model)));
-      check(wall_pair(model, wall, kRadius), style::Contact(law_of(model), same));
+      check(grain_pair(model, kGrainRadius), style::Contact(law_of(model)));
+      check(wall_pair(model, wall, kGrainRadius), style::Contact(law_of(model), same));
     };
     of_law(RollingModel::none, [](const auto& pair, const auto& contact) {
       CHECK(difference<Attraction, NoRolling>(pair, contact, 0.006, 0.010) < 1e-6);
@@ -156,8 +156,8 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
   card.test.contact = paste(BridgeShape::polynomial);
   card.test.drop = DropPlate{};
   ExportScene scene;
-  scene.packing.centres = {{0, 0, kRadius}};
-  scene.packing.radii = {kRadius};
+  scene.packing.centres = {{0, 0, kGrainRadius}};
+  scene.packing.radii = {kGrainRadius};
   scene.card = card;
   scene.sizes = size_classes(scene.packing.radii);
   for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,

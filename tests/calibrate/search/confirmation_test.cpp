@@ -22,9 +22,8 @@ Synthetic noisy_slump(double height_mm, double noise_mm, std::uint64_t seed) {
   return objective;
 }
 
-SearchOptions options_with(std::uint64_t seed) {
-  SearchOptions options;
-  options.seed = seed;
+SearchOptions generous_options(std::uint64_t seed) {
+  SearchOptions options = options_with(seed);
   options.budget_simulations = 200;
   options.confirmation_packings = 8;
   return options;
@@ -72,7 +71,7 @@ TEST_CASE("where packings scatter, more of them are asked until luck cannot conf
     CAPTURE(seed);
     const double height = 80 + 160 * uniform(seed, 77);
     Synthetic objective = noisy_slump(height, 20, seed);
-    const Calibration calibration = search(objective, options_with(seed));
+    const Calibration calibration = search(objective, generous_options(seed));
     CHECK(calibration.simulations <= 200);
     const auto fresh = std::ssize(calibration.confirmation.packings);
     CHECK((fresh == 8 || fresh == 16 || fresh == 32 || fresh == 64));
@@ -98,7 +97,7 @@ TEST_CASE("nothing is refined on packings whose luck is more than the tolerance"
     CAPTURE(seed);
     Synthetic objective = noisy_slump(80 + 160 * uniform(seed, 77), 25, seed);
     std::vector<std::string> phases;
-    search(objective, options_with(seed), [&](const Progress& progress) { phases.emplace_back(progress.phase); });
+    search(objective, generous_options(seed), [&](const Progress& progress) { phases.emplace_back(progress.phase); });
     const auto refinement = std::ranges::find(phases, "refinement"),
                confirmation = std::ranges::find(phases, "confirmation");
     REQUIRE(confirmation != phases.end());
@@ -109,7 +108,7 @@ TEST_CASE("nothing is refined on packings whose luck is more than the tolerance"
 TEST_CASE("a mean within the tolerance that may be luck is told so when the budget is spent") {
   int luck = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SearchOptions options = options_with(seed);
+    SearchOptions options = generous_options(seed);
     options.budget_simulations = 24;
     Synthetic objective = noisy_slump(150, 60, seed);
     const Calibration calibration = search(objective, options);

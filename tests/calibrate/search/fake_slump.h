@@ -6,6 +6,12 @@
 
 namespace pastefit::synthetic {
 
+inline SearchOptions options_with(std::uint64_t seed) {
+  SearchOptions options;
+  options.seed = seed;
+  return options;
+}
+
 /// Remaining height [mm] of a slump test, as a simulation has it: 300 where nothing moves, low where all flows, and in
 /// between mostly a matter of the logarithm of the strength (coordinate 0, 200 to 60,000 Pa); the others matter little.
 inline double mean_height(const UnitPoint& x) {

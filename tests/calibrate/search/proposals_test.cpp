@@ -11,9 +11,8 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-SearchOptions options_with(std::uint64_t seed, int lag) {
-  SearchOptions options;
-  options.seed = seed;
+SearchOptions lagging_options(std::uint64_t seed, int lag) {
+  SearchOptions options = options_with(seed);
   options.lag = lag;
   return options;
 }
@@ -32,7 +31,7 @@ Ledger screened(Objective& objective, const SearchOptions& options) {
 struct Screened {
   Screened(std::uint64_t seed, int lag)
       : objective(fake_slump(150, seed)),
-        options(options_with(seed, lag)),
+        options(lagging_options(seed, lag)),
         ledger(screened(objective, options)),
         proposals(ledger, nullptr, options, common, 0.1) {}
 
@@ -52,7 +51,7 @@ Cost cost_of(int lag, int cores, int seeds) {
   for (int seed = 1; seed <= seeds; ++seed) {
     const auto random = static_cast<std::uint64_t>(seed);
     VirtualCores objective(fake_slump(40 + 250 * uniform(random, 77), random), cores);
-    const Calibration calibration = search(objective, options_with(random, lag));
+    const Calibration calibration = search(objective, lagging_options(random, lag));
     cost.simulations += calibration.simulations / static_cast<double>(seeds);
     cost.time += objective.now / seeds;
     if (calibration.status == CalibrationStatus::confirmed) ++cost.confirmed;
@@ -115,7 +114,7 @@ TEST_CASE("a candidate under way that is likely to meet the goal is waited for")
   int waited = 0, waited_for_none = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic objective = fake_slump(150, seed);
-    const SearchOptions options = options_with(seed, 1);
+    const SearchOptions options = lagging_options(seed, 1);
     Ledger ledger = screened(objective, options);
     Proposals generous(ledger, nullptr, options, common, 200), strict(ledger, nullptr, options, common, 1e-3);
     ledger.begin(generous.next().value(), common);
@@ -129,7 +128,7 @@ TEST_CASE("a candidate under way that is likely to meet the goal is waited for")
 TEST_CASE("what is under way is spent, and answered in the order of asking") {
   Synthetic objective = fake_slump(150, 1);
   objective.budget = 60;
-  Ledger ledger = screened(objective, options_with(1, 3));
+  Ledger ledger = screened(objective, lagging_options(1, 3));
   const int before = ledger.budget_left();
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
   for (const UnitPoint& point : points) ledger.begin(point, common);
@@ -145,7 +144,7 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
     std::size_t most = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       VirtualCores objective(fake_slump(150, seed), 64);
-      SearchOptions options = options_with(seed, lag);
+      SearchOptions options = lagging_options(seed, lag);
       options.tolerance_mm = 0.1;  // no candidate is so good that it is waited for
       CHECK(search(objective, options).simulations <= 60);
       most = std::max(most, objective.most_begun);
@@ -154,7 +153,7 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
   }
 }
 
-TEST_CASE("a lag of one costs few simulations, and no time where there are cores for it") {
+TEST_CASE("a lag of one costs few simulations, and no time where there are cores for it", "[campaign]") {
   const int seeds = 100;
   std::vector<std::vector<Cost>> costs;  // by lag and cores
   for (const int lag : {0, 1}) {

@@ -9,12 +9,12 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-struct Screened {
+struct Screening {
   Synthetic objective;
   SearchOptions options;
   std::function<void(const Progress&)> progress;
   Ledger ledger;
-  explicit Screened(Synthetic made, std::uint64_t seed)
+  explicit Screening(Synthetic made, std::uint64_t seed)
       : objective(std::move(made)), ledger(objective, options, progress) {
     const std::uint64_t packing = 1;
     ledger.try_out(screening_points(5, 12, seed), {&packing, 1});
@@ -40,7 +40,7 @@ const std::vector<std::string> parameters{"strength_pa", "rupture_force_ratio", 
 TEST_CASE("a height below all that the model can do is called out of reach before the search, with the bound") {
   int called = 0, named = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    Screened screened(too_stiff(seed), seed);
+    Screening screened(too_stiff(seed), seed);
     const auto found = find_out_of_reach(screened.ledger, {});
     CHECK(screened.objective.simulations <= 24);
     if (!found) continue;
@@ -64,7 +64,7 @@ TEST_CASE("what some material does is never called out of reach") {
     const double height = seed % 2 == 0 ? 38 + 30 * uniform(seed, 7) : 299 - 15 * uniform(seed, 7);  // near the ends
     Synthetic objective = fake_slump(height, seed);
     objective.level = seed % 3 == 0 ? 40 : 0;  // some end early
-    Screened screened(objective, seed);
+    Screening screened(objective, seed);
     CHECK_FALSE(find_out_of_reach(screened.ledger, {}));
   }
 }
@@ -82,7 +82,7 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
       inside[0] *= 0.5;  // strengths up to the middle of the range
       return wide(inside, packing);
     };
-    Screened screened(weak, seed);
+    Screening screened(weak, seed);
     const auto found = find_out_of_reach(screened.ledger, {});
     if (!found) continue;
     ++called;
@@ -93,7 +93,7 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
 }
 
 TEST_CASE("a tolerance wider than the miss leaves nothing out of reach") {
-  Screened screened(fake_slump(10, 3), 3);
+  Screening screened(fake_slump(10, 3), 3);
   CHECK_FALSE(find_out_of_reach(screened.ledger, {1, 12, 60}));
 }
 

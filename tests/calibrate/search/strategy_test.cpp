@@ -12,12 +12,6 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-SearchOptions options_with(std::uint64_t seed) {
-  SearchOptions options;
-  options.seed = seed;
-  return options;
-}
-
 double target_of(std::uint64_t seed) {
   return 40 + 250 * uniform(seed, 77);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/processor_time.h"
 #include "tests/calibrate/search/laboratory.h"
 
 using namespace pastefit;
@@ -198,12 +199,7 @@ TEST_CASE("core-seconds are counted over all simulations, and spent they are a s
   laboratory.options.core_budget_s = 0.05;
   laboratory.twist = [](auto&&...) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));  // a core that waits is not counted
-    const auto now = [] {
-      timespec time{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    };
-    for (const double start = now(); now() - start < 0.02;) continue;
+    for (const double start = thread_seconds(); thread_seconds() - start < 0.02;) continue;
   };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   (void)objective.evaluate(std::vector<UnitPoint>{at(0.5, 0.5)}, std::vector<std::uint64_t>{1});

@@ -49,20 +49,20 @@ TEST_CASE("tests that differ in one bit differ in their text") {
 TEST_CASE("no cohesion of its own is written as null and read back as none") {
   SlumpTable test = awkward();
   test.contact.cohesion_n.reset();
-  const nlohmann::json json = to_json(test);
-  CHECK(json.at("contact").at("cohesion_n").is_null());
-  const Result<SlumpTable> back = slump_table_from_json(json);
+  const nlohmann::json document = to_json(test);
+  CHECK(document.at("contact").at("cohesion_n").is_null());
+  const Result<SlumpTable> back = slump_table_from_json(document);
   REQUIRE(back.ok());
   CHECK_FALSE(back.value().contact.cohesion_n.has_value());
 }
 
 TEST_CASE("a missing, an unknown and a wrong key are all named") {
-  nlohmann::json json = to_json(awkward());
-  json["mould"].erase("height_m");
-  json["contact"]["bridge"]["shape"] = "cubic";
-  json["drop"] = 3;
-  json["extra"] = 1;
-  const Result<SlumpTable> back = slump_table_from_json(json);
+  nlohmann::json document = to_json(awkward());
+  document["mould"].erase("height_m");
+  document["contact"]["bridge"]["shape"] = "cubic";
+  document["drop"] = 3;
+  document["extra"] = 1;
+  const Result<SlumpTable> back = slump_table_from_json(document);
   REQUIRE_FALSE(back.ok());
   CHECK(back.faults().size() == 4);
   CHECK(test::says(test::at(back.faults(), "mould.height_m"), "missing"));
@@ -72,9 +72,9 @@ TEST_CASE("a missing, an unknown and a wrong key are all named") {
 }
 
 TEST_CASE("a test that cannot be simulated is refused") {
-  nlohmann::json json = to_json(awkward());
-  json["mould"]["height_m"] = -1;
-  CHECK_FALSE(slump_table_from_json(json).ok());
+  nlohmann::json document = to_json(awkward());
+  document["mould"]["height_m"] = -1;
+  CHECK_FALSE(slump_table_from_json(document).ok());
 }
 
 }  // namespace

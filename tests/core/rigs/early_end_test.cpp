@@ -71,7 +71,7 @@ TEST_CASE("a heap that has sunk below its window ends early, and only such a one
   CHECK(kept.observables.find("step1.spread_mm") == whole.observables.find("step1.spread_mm"));
 }
 
-TEST_CASE("no heap that ends early would have read more than the lower end of its window") {
+TEST_CASE("no heap that ends early would have read more than the lower end of its window", "[campaign]") {
   for (const double strength : {500.0, 1500.0, 4000.0, 9000.0}) {
     SlumpTable test = slumping(false);
     Bridge& bridge = test.contact.bridge;

@@ -282,7 +282,7 @@ TEST_CASE("a grain that lands wakes the sleepers it hits and leaves those it doe
   CHECK(std::fabs(stepper.ledger().error()) < 1e-3 * stepper.ledger().put_in());
 }
 
-TEST_CASE("a two-step slump test reads the same with sleep and without, dry and as paste") {
+TEST_CASE("a two-step slump test reads the same with sleep and without, dry and as paste", "[campaign]") {
   for (const double strength_pa : {0.0, 1000.0}) {
     std::vector<double> changes[3];
     double asleep = 0;

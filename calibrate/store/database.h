@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+
+namespace pastefit {
+
+using Row = std::vector<std::string>;
+
+/// A connection to an SQLite file that closes itself. Errors of SQLite travel as `std::runtime_error`.
+class Database {
+ public:
+  explicit Database(const std::filesystem::path& file);
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+  ~Database();
+
+  /// Runs one statement with text parameters; answers all rows as text.
+  std::vector<Row> run(const std::string& sql, const Row& parameters = {});
+
+  int number(const std::string& sql) { return std::stoi(run(sql).at(0).at(0)); }
+
+ private:
+  void check(int status);
+  sqlite3* handle_ = nullptr;
+};
+
+/// All or nothing: rolls back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database);
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  ~Transaction();
+  void commit();
+
+ private:
+  Database& database_;
+  bool committed_ = false;
+};
+
+}  // namespace pastefit
