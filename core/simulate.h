@@ -59,10 +59,10 @@ struct RunSummary {
   double time_step_s = 0;     ///< mean over the run
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
-  bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
-  bool ended_early = false;  ///< the heap left `RunOptions::window`: the later readings were not taken
-  double energy_error = 0;   ///< unexplained energy over energy put in
-  double asleep_share = 0;   ///< of the particle steps after the fill; `StepOptions::sleep`
+  bool settled = false;                ///< every rest phase ended by its criterion, not by its cap
+  bool ended_early = false;            ///< the heap left `RunOptions::window`: the later readings were not taken
+  std::optional<double> energy_error;  ///< unexplained energy over energy put in; none without `StepOptions::ledger`
+  double asleep_share = 0;             ///< of the particle steps after the fill; `StepOptions::sleep`
 };
 
 /// Readings of a run, or the reason why there are none.

@@ -59,7 +59,7 @@ nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
                 {"steps", run.steps},
                 {"time_step_s", run.time_step_s},
                 {"advised_step_s", run.advised_step_s},
-                {"energy_error", run.energy_error},
+                {"energy_error", run.energy_error.value()},
                 {"asleep_share", run.asleep_share},
                 {"simulated_s", run.simulated_s},
                 {"wall_s", wall_s},

@@ -117,6 +117,7 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
         Task& task = entry->second;
         tasks.push_back(&task);
         if (!added) continue;  // and may be under way: nothing of it is touched here
+        task.tried = tried;
         task.window = window;
         if (auto known = find(store_, key, window)) {
           task.evaluation = std::move(*known);
@@ -208,6 +209,7 @@ void SimulationObjective::run(Task& task) {
   RunOptions options = options_.run;
   if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
   if (stop_requested()) return;
+  options.steps.ledger = options.steps.ledger && !task.tried;
   options.window = task.window;
 
   bool by_user = false;

@@ -63,8 +63,8 @@ struct EvaluatorOptions {
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
-/// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is stored under a name of its
-/// own, so that it never stands in for one that ran to its end.
+/// A candidate that is tried out keeps no ledger of energy, and ends early where the study allows it (`early_end.h`).
+/// It is stored under a name of its own, so that it never stands in for one that ran to its end.
 ///
 /// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
@@ -102,7 +102,8 @@ class SimulationObjective : public Objective {
   /// One simulation, however many answers need it.
   struct Task {
     std::size_t index = 0;               // of the test in the study
-    std::optional<HeightWindow> window;  // of a candidate that is only tried out
+    bool tried = false;                  // only tried out
+    std::optional<HeightWindow> window;  // if it is
     StoredEvaluation evaluation;
     bool finished = false;          // not cut off by a stop
     std::shared_future<void> done;  // none if it is known from the store

@@ -52,7 +52,7 @@ ordered_json to_json(const RunSummary& run, double wall_s) {
           {"wall_s", number_to_json(wall_s)},
           {"settled", run.settled},
           {"ended_early", run.ended_early},
-          {"energy_error", number_to_json(run.energy_error)}};
+          {"energy_error", run.energy_error ? number_to_json(*run.energy_error) : ordered_json()}};
 }
 
 Observables observables_from_json(const ordered_json& in) {
@@ -91,7 +91,7 @@ RunSummary run_from_json(const json& in) {
   out.simulated_s = number_from_json(in.at("simulated_s"));
   out.settled = in.at("settled").get<bool>();
   out.ended_early = in.at("ended_early").get<bool>();
-  out.energy_error = number_from_json(in.at("energy_error"));
+  if (const auto& error = in.at("energy_error"); !error.is_null()) out.energy_error = number_from_json(error);
   return out;
 }
 

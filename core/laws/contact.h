@@ -46,6 +46,13 @@ struct Action {
   Real stiffness;  ///< largest stiffness, rotation counted [N/m]
 };
 
+/// How much of a contact's energies is asked for.
+enum class Energies {
+  none,  ///< nobody keeps a ledger
+  heat,  ///< all but the work that living bridges can still do
+  all
+};
+
 namespace detail {
 
 /// Squared lengths and denominators are kept above this before they are divided by; far below anything in a scene, far
@@ -106,8 +113,8 @@ struct ConstantTorqueRolling {
   static constexpr bool elastic = false;
 };
 
-/// Force of one contact or bridge for one time step `dt`; updates its memory. What living bridges can still do is left
-/// out of the energy stored unless it is asked for.
+/// Force of one contact or bridge for one time step `dt`; updates its memory. Energies that are not asked for are
+/// zero; the force does not depend on what is.
 ///
 /// overlap d > 0: Hertz repulsion 4/3 E* sqrt(R*) d^(3/2), constant cohesion against it, damping
 ///   2 sqrt(5/6) beta sqrt(S_n m*), Mindlin spring S_t on the slip, Coulomb limit on spring and damper together,
@@ -127,8 +134,9 @@ struct ConstantTorqueRolling {
 /// more for each of sliding and rolling where a contact of the batch yields; what can be divided together is.
 template <class Attraction, class Rolling, class Real>
 PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt,
-                                 bool with_stored) {
+                                 Energies energies) {
   const Real zero(0.0), one(1.0), half(0.5), floor(detail::kFloor);
+  const bool counted = energies != Energies::none;
   const auto touching = m.overlap > zero;
   const Real depth = larger(m.overlap, zero);
   const Real approach = dot(m.velocity, m.normal);
@@ -177,16 +185,18 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.push = select(touching, repulsion + damper - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
   action.damping = largest_damping;
-  // The damper of a step works along the mean of the velocities before and after it: half of its work is known now, the
-  // other half one step later.
-  action.heat_normal = half * dt * (damper + memory.damper) * approach;
-  memory.damper = damper;
-  action.heat_rolling = action.heat_bridge = zero;
-  action.stored = fused(Real(0.4), repulsion, -cohesion) * depth;
+  action.heat_normal = action.heat_sliding = action.heat_rolling = action.heat_bridge = action.stored = zero;
+  if (counted) {
+    // The damper of a step works along the mean of the velocities before and after it: half of its work is known now,
+    // the other half one step later.
+    action.heat_normal = half * dt * (damper + memory.damper) * approach;
+    memory.damper = damper;
+    action.stored = fused(Real(0.4), repulsion, -cohesion) * depth;
+  }
 
   if constexpr (Attraction::present) {
     const Pull<Real> pull = bridge_pull<Attraction>(k, m.overlap, size_scale, memory.bridge, action.heat_bridge);
-    if (with_stored)
+    if (energies == Energies::all)
       action.stored = fused(-memory.bridge, Attraction::work(k, smaller(m.overlap, zero), size_scale), action.stored);
     action.push = action.push - pull.force;
     action.stiffness = larger(action.stiffness, pull.slope);
@@ -222,19 +232,21 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.traction = -kept * traction;
   const Real old_stiffness_n = Real(k.normal_stiffness) * old_contact_radius;
   const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
-  const Real old_slip_energy = half * old_stiffness_t * (slip_turned.square + slip_turned.lost);
-  const Real slip_energy = half * stiffness_t * kept * kept * dot(slip, slip);
   memory.slip = select(touching, kept, zero) * slip;
-  // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
-  // for three quarters, that of the last for one; not for more where a contact that held is suddenly torn away.
-  const Real drag = kept * damper_t;
-  const Real mean_drag = fused(Real(0.75), drag, Real(0.25) * smaller(memory.drag, Real(1.5) * drag));
-  memory.drag = drag;
-  const Real sliding = dot(velocity_t, velocity_t), back = dot(slip_turned.vector, velocity_t);
-  const Real forth = fused(slip_factor, back, dt * sliding);  // slip . velocity_t
-  const Real spring_work = half * fused(old_stiffness_t, back, kept * stiffness_t * forth);
-  action.heat_sliding = fused(dt, fused(mean_drag, sliding, spring_work), old_slip_energy - slip_energy);
-  action.stored = action.stored + slip_energy;
+  if (counted) {
+    const Real old_slip_energy = half * old_stiffness_t * (slip_turned.square + slip_turned.lost);
+    const Real slip_energy = half * stiffness_t * kept * kept * dot(slip, slip);
+    // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
+    // for three quarters, that of the last for one; not for more where a contact that held is suddenly torn away.
+    const Real drag = kept * damper_t;
+    const Real mean_drag = fused(Real(0.75), drag, Real(0.25) * smaller(memory.drag, Real(1.5) * drag));
+    memory.drag = drag;
+    const Real sliding = dot(velocity_t, velocity_t), back = dot(slip_turned.vector, velocity_t);
+    const Real forth = fused(slip_factor, back, dt * sliding);  // slip . velocity_t
+    const Real spring_work = half * fused(old_stiffness_t, back, kept * stiffness_t * forth);
+    action.heat_sliding = fused(dt, fused(mean_drag, sliding, spring_work), old_slip_energy - slip_energy);
+    action.stored = action.stored + slip_energy;
+  }
 
   if constexpr (Rolling::present) {
     // Inertia of relative rolling about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the
@@ -242,26 +254,29 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
     if constexpr (Rolling::elastic) {
       const Real kept_r = detail::cap(moment_square, roll_limit);
       const Real lever = Real(k.rolling_friction) * radius;
-      const Real old_stiffness_r = Real(2.25) * old_stiffness_n * lever * lever;
-      const Real old_roll_energy = half * old_stiffness_r * (roll_turned.square + roll_turned.lost);
       const Real kept_stiffness = kept_r * stiffness_r;
-      const Real roll_energy = half * kept_stiffness * kept_r * roll_square;
       memory.roll = select(touching, kept_r, zero) * roll;
       // 2 eta sqrt(I_r k_r) with eta = 0.3, braked like the other dampers.
       const Real dashpot = Real(k.roll_damping) * root_impedance * radius * radius * brake_t * inverse_brakes;
       const Real braking = select(kept_r < one, zero, dashpot);
       action.moment = -fused(kept_stiffness, roll, braking * rolling);
-      const Real roll_work =
-          half * fused(old_stiffness_r, dot(roll_turned.vector, rolling), kept_stiffness * dot(roll, rolling));
-      action.heat_rolling = fused(dt, fused(braking, dot(rolling, rolling), roll_work), old_roll_energy - roll_energy);
-      action.stored = action.stored + roll_energy;
+      if (counted) {
+        const Real old_stiffness_r = Real(2.25) * old_stiffness_n * lever * lever;
+        const Real old_roll_energy = half * old_stiffness_r * (roll_turned.square + roll_turned.lost);
+        const Real roll_energy = half * kept_stiffness * kept_r * roll_square;
+        const Real roll_work =
+            half * fused(old_stiffness_r, dot(roll_turned.vector, rolling), kept_stiffness * dot(roll, rolling));
+        action.heat_rolling =
+            fused(dt, fused(braking, dot(rolling, rolling), roll_work), old_roll_energy - roll_energy);
+        action.stored = action.stored + roll_energy;
+      }
     } else {
       const Real gentle =
           Real(0.08) * m.smaller_radius * m.smaller_radius * m.root_mass * m.root_mass / larger(dt, floor);
       const Real resistance = smaller(roll_limit / square_root(moment_square), gentle);
       const BasicVec3<Real> torque = resistance * rolling;
       action.moment = -torque;
-      action.heat_rolling = half * dt * dot(torque + memory.roll, rolling);
+      if (counted) action.heat_rolling = half * dt * dot(torque + memory.roll, rolling);
       memory.roll = torque;
     }
   } else {

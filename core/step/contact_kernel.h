@@ -86,7 +86,8 @@ class Tally {
     Real& lanes = sum_[kind][lane / kWidth];
     lanes = lanes + value;
   }
-  PASTEFIT_INLINE void count(int lane, const Action<Real>& action) {
+  PASTEFIT_INLINE void count(Energies energies, int lane, const Action<Real>& action) {
+    if (energies == Energies::none) return;
     count(EnergySums::normal_damping, lane, action.heat_normal);
     count(EnergySums::sliding, lane, action.heat_sliding);
     count(EnergySums::rolling, lane, action.heat_rolling);
@@ -151,9 +152,9 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
   meeting.neighbour_damping = a.damping_rate + b.damping_rate;
 
   Memory<Real> memory = recall<Rolling>(c, lane);
-  const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
+  const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
   remember<Attraction, Rolling>(c, lane, memory);
-  tally.count(lane, action);
+  tally.count(task.energies, lane, action);
 
   const Vector force = fused(-action.push, meeting.normal, action.traction);
   const Vector turning = cross(meeting.normal, action.traction);
@@ -180,7 +181,7 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& 
   const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
   alive.store(c.bridge + lane);
   tally.count(EnergySums::bridges, lane, spent);
-  if (task.with_stored)
+  if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
   const Vector force = (pull.force / distance) * between;
   const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
@@ -279,9 +280,9 @@ void wall_kernel(const KernelTask& task) {
       meeting.neighbour_damping = a.damping_rate;
 
       Memory<Real> memory = recall<Rolling>(c, lane);
-      const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.with_stored);
+      const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
       remember<Attraction, Rolling>(c, lane, memory);
-      tally.count(lane, action);
+      tally.count(task.energies, lane, action);
 
       store(w.force, lane, action.traction - action.push * meeting.normal);
       store(w.moment, lane, lever * cross(meeting.normal, action.traction) + action.moment);

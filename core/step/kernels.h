@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/laws/constants.h"
+#include "core/laws/contact.h"
 #include "core/rigs/materials.h"
 #include "core/world/batches.h"
 #include "core/world/particles.h"
@@ -39,7 +40,7 @@ struct KernelTask {
   PairConstants pair;
   double dt;
   EnergySums* energy;
-  bool with_stored;  ///< the energy stored is wanted in this step: it costs the work of every bridge
+  Energies energies;
 };
 
 constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it

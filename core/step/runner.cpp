@@ -98,6 +98,7 @@ double Runner::energy_error() const {
 }
 
 std::optional<Failure> Runner::audit(std::string_view phase) {
+  if (!options_.steps.ledger) return {};
   const double error = energy_error();
   if (std::fabs(error) < kEnergyTolerance) return {};
   return Failure{error > 0 ? FailureReason::energy_created : FailureReason::energy_lost,
@@ -162,7 +163,7 @@ std::optional<Failure> Runner::relax(std::string_view phase, double cap_s) {
 
 const RunSummary& Runner::summary() {
   summary_.simulated_s = world_.time;
-  summary_.energy_error = energy_error();
+  if (options_.steps.ledger) summary_.energy_error = energy_error();
   summary_.asleep_share =
       static_cast<double>(asleep_steps_) / static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
   summary_.advised_step_s = stepper_.smallest_advised_step();

@@ -75,7 +75,7 @@ void Sleepers::hold(const World& world, std::size_t b, KernelTask task, Kernel p
   energy_[b].forget(EnergySums::stored);
   task.load = held.data();
   task.energy = &energy_[b];
-  task.with_stored = true;
+  task.energies = Energies::all;
   const ContactList& contacts = blocks[b].contacts;
   task.stretch = {contacts.awake / kBatch, contacts.batch_count(), contacts.batch_count()};
   pair_kernel(task);

@@ -16,6 +16,9 @@ struct StepOptions {
   double skin = 0.8;                   ///< skin of the candidate list over the mean radius
   bool sleep = false;                  ///< grains at rest sleep (core/step/sleepers.h): another heap, the same readings
   int threads = 1;                     ///< that share the work of a step; the bits do not depend on it
+  /// Energy is accounted for (core/step/ledger.h), and a run that makes or loses some of it fails. Without: the same
+  /// motion, bit for bit, and only the other kinds of failure are seen.
+  bool ledger = true;
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 

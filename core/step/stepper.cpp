@@ -83,7 +83,7 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
   if (auto problem = maintain_lists()) return problem;
   // All forces before any grain moves: for the first step, which follows from them, and for the ledger. Else a block is
   // moved while it is in a cache: a tenth faster in a bed too large for it.
-  const bool first = dt_ == 0, forces_first = first || world_.step % kLedgerInterval == 0;
+  const bool first = dt_ == 0, forces_first = first || looks_at_energy();
   double dt = first ? 0 : next_step();
   compute_forces(forces_first ? std::nullopt : std::make_optional(dt));
   if (pierced_ >= 0)
@@ -99,8 +99,10 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
     return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
                    "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
   if (drive) drive(world_, dt);
-  account_walls(dt);
-  look_at_energy(dt);
+  if (options_.ledger) {
+    account_walls(dt);
+    look_at_energy(dt);
+  }
   if (forces_first) team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) { move_block(b, dt); });
   note_moved();
   for (Wall& wall : world_.walls) move(wall, dt);
@@ -163,7 +165,7 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
   task.pair = pair;
   task.dt = dt_;
   task.energy = &energy_[block];
-  task.with_stored = world_.step % kLedgerInterval == 0;
+  task.energies = looks_at_energy() ? Energies::all : options_.ledger ? Energies::heat : Energies::none;
   return task;
 }
 
@@ -273,7 +275,7 @@ void Stepper::account_walls(double dt) {
 void Stepper::look_at_energy(double dt) {
   const Particles& particles = world_.particles;
   const double half_kick = 0.25 * (dt_ + dt);
-  if (world_.step % kLedgerInterval != 0) return;
+  if (!looks_at_energy()) return;
   ledger_.kinetic = ledger_.height = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Motion& motion = particles.motion[i];

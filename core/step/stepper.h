@@ -62,6 +62,7 @@ class Stepper {
   void account_walls(double dt);
   void move_block(int block, double dt);
   void note_moved();
+  bool looks_at_energy() const { return options_.ledger && world_.step % kLedgerInterval == 0; }
   void look_at_energy(double dt);
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 

@@ -171,7 +171,7 @@ Row measure(const Setting& setting, Fills& fills) {
     const Outcome outcome = simulate(test, options);
     run.cpu_s = cpu_seconds() - start;
     run.time_step_s = outcome.run.time_step_s;
-    run.energy_error = outcome.run.energy_error;
+    run.energy_error = outcome.run.energy_error.value_or(0);
     if (outcome.failure) {
       run.failure = name_of(outcome.failure->reason);
     } else {

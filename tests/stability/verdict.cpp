@@ -105,7 +105,8 @@ std::string fault_of(const Outcome& outcome, const StressCase& stress) {
     if (named("solid_fraction")) right = right && within(0.4, 0.75 * std::pow(1 + stress.enlarged, 3));
     if (!right) return reading.name + " = " + number(reading.value) + " is out of range";
   }
-  if (!(outcome.run.energy_error < kCreated)) return "energy created: " + number(outcome.run.energy_error);
+  if (!(outcome.run.energy_error.value() < kCreated))
+    return "energy created: " + number(outcome.run.energy_error.value());
   return {};
 }
 
@@ -140,7 +141,7 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
   verdict.particles = outcome.run.particles;
   verdict.steps = outcome.run.steps;
   verdict.simulated_s = outcome.run.simulated_s;
-  verdict.energy_error = outcome.run.energy_error;
+  verdict.energy_error = outcome.run.energy_error.value_or(0);
   verdict.settled = outcome.run.settled;
   if (outcome.failure) {
     verdict.end = name_of(outcome.failure->reason);

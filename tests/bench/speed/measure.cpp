@@ -179,11 +179,11 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
   const BedSize size = make_bed(bed_file, [&] { return fill(scene); });
 
   std::vector<Contender> contenders(1);
-  contenders[0].result.name = "ours";
+  contenders[0].result.name = options.ledger ? "ours with ledger" : "ours";
   contenders[0].result.time_step_s = kSceneStep;
   contenders[0].run = [&](Engine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
-      const OurRun run = run_ours(scene, read_bed(bed_file));
+      const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger);
       return {{"seconds", run.seconds},
               {"advised_step_s", run.advised_step_s},
               {"contacts_per_grain", run.contacts},

@@ -15,11 +15,12 @@ struct MeasureOptions {
   int repeats = 3;         ///< of every engine, in turn; the median counts
   double patience_s = 60;  ///< an engine whose run took longer is not run again
   int steps = 0;           ///< timed steps instead of the scene's own; 0: its own
+  bool ledger = false;     ///< our engine keeps its ledger of energy; no peer keeps one
 };
 
 /// One engine's runs of a scene.
 struct Engine {
-  std::string name;                                   ///< "ours", or as in `Peer`
+  std::string name;                                   ///< as in `Peer`, or "ours", or "ours with ledger"
   std::string laws;                                   ///< peers only
   std::vector<double> seconds;                        ///< of the processor, each run
   double peak_bytes = 0;                              ///< largest resident set of the process

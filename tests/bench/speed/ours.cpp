@@ -43,10 +43,11 @@ World world_of(const Scene& scene, Bed&& given) {
   return world;
 }
 
-OurRun run_ours(const Scene& scene, Bed&& bed) {
+OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger) {
   World world = world_of(scene, std::move(bed));
   StepOptions options;
   options.fixed_step_s = kSceneStep;
+  options.ledger = ledger;
   Stepper stepper(world, options);
   take_steps(stepper, scene.warm_steps);
   if (scene.container == Container::mould) world.walls[1].velocity = {0, 0, kLiftSpeed};

@@ -16,9 +16,10 @@ struct OurRun {
 };
 
 /// Steps the scene as every engine does: at `kSceneStep`, the warm steps first, then the timed ones.
+/// `ledger`: of energy; no other engine keeps one, and the search's candidates keep none either.
 /// The bed is used up, so that its memory does not count as the engine's.
 /// Errors: throws std::runtime_error if the run fails.
-OurRun run_ours(const Scene& scene, Bed&& bed);
+OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger);
 
 /// The scene's world at rest, ready to be stepped.
 World world_of(const Scene& scene, Bed&& bed);

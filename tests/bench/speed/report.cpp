@@ -131,7 +131,7 @@ std::vector<std::string> slow_downs(const std::filesystem::path& csv, const std:
   }
   std::vector<std::string> found;
   for (const SceneResult& r : results) {
-    if (!r.ours().measured()) continue;
+    if (!r.ours().measured() || r.ours().name != "ours") continue;
     const auto before = last.find(csv_key(machine_name(), r));
     if (before == last.end() || before->second <= 0) continue;
     const double slower = r.ours().median() / before->second;

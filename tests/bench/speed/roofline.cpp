@@ -158,9 +158,9 @@ ContactCost cost_of_contact(bool cohesive) {
   Memory<Counted> memory{};
   const PairConstants pair = grain_pair(scene_material(cohesive), kSceneRadius);
   if (cohesive)
-    act<PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), false);
+    act<PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
   else
-    act<NoAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), false);
+    act<NoAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
   ContactCost cost;
   cost.additions_multiplications = Counted::simple;
   cost.roots_divisions = Counted::roots + Counted::divisions;
@@ -177,7 +177,7 @@ double Roofline::share_of_limit() const {
 Roofline measure_roofline() {
   Roofline r;
   r.scene = "box-100k";
-  const SceneResult box = measure(r.scene, {});
+  const SceneResult box = measure(r.scene, {.ledger = true});
   if (!box.ours().measured()) throw std::runtime_error(box.ours().problem);
   double contacts = 0;
   for (const auto& [name, value] : box.ours().notes)

@@ -111,6 +111,9 @@ int main(int argc, char** argv) {
   app.add_option("--steps", asked.steps, "timed steps: one number for all scenes, or one for each");
   app.add_option("--repeats", asked.options.repeats, "runs of every engine, in turn; the median counts (3)");
   app.add_option("--patience", asked.options.patience_s, "an engine that took longer is not run again [s] (60)");
+  app.add_flag(
+      "--ledger", asked.options.ledger,
+      "our engine keeps its ledger of energy where steps are timed, as `pastefit simulate` does; no peer does");
   app.add_flag("--scaling", asked.scaling, "boxes of 1,000 to 1,000,000 grains: cost of a grain's step");
   app.add_flag("--roofline", asked.roofline, "bytes and operations of a contact against what the machine can do");
   app.add_option("--json", asked.json, "file for the results; -: standard output");

@@ -77,7 +77,7 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
     const Meeting<double> meeting{
         of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
         std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
-    const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, false);
+    const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, Energies::none);
     const Vec3 force = action.traction - action.push * meeting.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
                                      mass, std::min(small, large)},

@@ -47,6 +47,20 @@ TEST_CASE("the mould is filled once for each packing, however many candidates an
   CHECK(laboratory.fills == 2);
 }
 
+TEST_CASE("a candidate that is tried out keeps no ledger of energy, one that is evaluated does") {
+  Laboratory laboratory;
+  auto store = laboratory.store();
+  std::atomic<int> kept = 0;
+  laboratory.twist = [&](const SlumpTable&, const RunOptions& run, Outcome&) { kept += run.steps.ledger; };
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  (void)objective.try_out(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings);
+  CHECK(laboratory.runs == 2);
+  CHECK(kept == 0);
+  (void)objective.evaluate(std::vector<UnitPoint>{at(0.2, 0.5)}, kPackings);
+  CHECK(laboratory.runs == 4);
+  CHECK(kept == 2);
+}
+
 TEST_CASE("simulations that fill their own moulds share none, and run as they are asked to") {
   Laboratory laboratory;
   auto store = laboratory.store();

@@ -41,9 +41,8 @@ std::uint64_t hash_of(const Particles& grains) {
 }
 
 /// At the last moment watched; 0 if the run failed.
-std::uint64_t hash_of_run(const SlumpTable& test) {
+std::uint64_t hash_of_run(const SlumpTable& test, RunOptions options = {}) {
   std::uint64_t hash = 0;
-  RunOptions options;
   options.watch = [&](const Moment& moment) {
     hash = hash_of(moment.world->particles);
     return true;
@@ -133,6 +132,18 @@ TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {
   REQUIRE(alone != 0);
   CHECK(hash_of_sleeping_floor(2) == alone);
   CHECK(hash_of_sleeping_floor(3) == alone);
+}
+
+TEST_CASE("without the ledger of energy a run has the same bits, and says that it kept none") {
+  SlumpTable test = sticky_test();
+  test.drop = DropPlate{};
+  RunOptions without;
+  without.steps.ledger = false;
+  const std::uint64_t kept = hash_of_run(test);
+  REQUIRE(kept != 0);
+  CHECK(hash_of_run(test, without) == kept);
+  CHECK(simulate(test).run.energy_error.has_value());
+  CHECK_FALSE(simulate(test, without).run.energy_error.has_value());
 }
 
 // The number is the contract of core/README.md: it changes when the physics or the order of any sum changes, and then

@@ -306,7 +306,7 @@ TEST_CASE("a two-step slump test reads the same with sleep and without, dry and 
       REQUIRE_FALSE(sleeping.failure);
       CHECK(awake.run.asleep_share == 0);
       asleep += sleeping.run.asleep_share;
-      CHECK(std::fabs(sleeping.run.energy_error) < 1e-3);
+      CHECK(std::fabs(sleeping.run.energy_error.value()) < 1e-3);
       const char* names[] = {"step1.height_mm", "step2.height_mm", "step2.plateau_sag_mm"};
       for (int k = 0; k < 3; ++k)
         changes[k].push_back(*sleeping.observables.find(names[k]) - *awake.observables.find(names[k]));
