@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "calibrate/search/early_end.h"
+#include "calibrate/search/processor_time.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
-#include "core/processor_time.h"
 
 namespace pastefit {
 

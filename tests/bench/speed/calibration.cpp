@@ -8,10 +8,10 @@
 
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/processor_time.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
-#include "core/processor_time.h"
 #include "core/world/world.h"
 
 namespace pastefit {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/processor_time.h"
+#include "calibrate/search/processor_time.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {

@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "calibrate/search/processor_time.h"
 #include "core/laws/contact.h"
-#include "core/processor_time.h"
 #include "core/step/kernels.h"
 #include "tests/bench/speed/measure.h"
 #include "tests/bench/speed/scene.h"

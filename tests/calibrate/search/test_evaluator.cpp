@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-#include "core/processor_time.h"
+#include "calibrate/search/processor_time.h"
 #include "tests/calibrate/search/laboratory.h"
 
 using namespace pastefit;
