@@ -1,6 +1,7 @@
 #include "tests/bench/speed/process.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -96,6 +97,9 @@ ChildResult run_program(const std::vector<std::string>& command, unsigned limit_
 ChildResult run_function(const std::function<std::string()>& function, unsigned limit_s) {
   return run_child(
       [&](int out) {
+        // Large blocks go back to the system, as in a new process. The parent's allocator has seen the output of peers
+        // come and go, and would keep them: 30 bytes a grain of the settled box.
+        mallopt(M_MMAP_THRESHOLD, 128 * 1024);
         try {
           write_all(out, function());
           return 0;
