@@ -63,8 +63,10 @@ struct EvaluatorOptions {
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
-/// A candidate that is tried out keeps no ledger of energy, and ends early where the study allows it (`early_end.h`).
-/// It is stored under a name of its own, so that it never stands in for one that ran to its end.
+/// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is then stored under a name
+/// of its own, so that it never stands in for one that ran to its end. It keeps no ledger of energy; where it ran to
+/// its end it has the same readings as one with a ledger and stands in for it on the same packing. A confirmation has
+/// packings on which nothing was tried.
 ///
 /// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one

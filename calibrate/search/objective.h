@@ -56,8 +56,8 @@ class Objective {
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
                                          std::span<const std::uint64_t> packings) = 0;
   /// The same for candidates that only have to be told from good ones: a simulation may end where they have lost,
-  /// and need not look for energy that it creates: `evaluate` does, whose answers alone make a material.
-  /// Nothing but what is left out differs from the answer of `evaluate`.
+  /// and need not look for energy that it creates: that is seen where nothing was tried, as on a confirmation's
+  /// packings. Nothing but what is left out differs from the answer of `evaluate`.
   virtual std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
     return evaluate(points, packings);
   }
