@@ -273,6 +273,33 @@ Result<double> loaded_rotor_time(const Impact& scene, const Arguments&) {
   return rotor_time_to_level(scene, true);
 }
 
+// A grain among held neighbours
+
+/// How fast its swing along its velocity dies away, l in x'' + 2 l x' + w^2 x = 0 with the springs and dampers of all
+/// contacts at the overlap they have at the start, none of them sliding. A pressed contact also turns as the grain
+/// moves across it: -N/distance.
+Result<double> caged_decay_rate(const Impact& scene, const Arguments&) {
+  const ImpactGrain& grain = scene.grains[0];
+  const double speed = norm(grain.velocity_m_s);
+  if (speed == 0) return outside("the first grain does not move");
+  const PairConstants pair = constants(scene);
+  const Vec3 along = (1 / speed) * grain.velocity_m_s;
+  double spring = 0, damper = 0;
+  for (std::size_t j = 1; j < scene.grains.size(); ++j) {
+    const Approach a = approach_of_grains(scene, 0, j);
+    const double distance = norm(scene.grains[j].centre_m - grain.centre_m);
+    const double overlap = grain.radius_m + scene.grains[j].radius_m - distance;
+    if (!scene.grains[j].held || overlap <= 0) return outside("a neighbour is not held, or does not press");
+    const double stiffness = pair.normal_stiffness * std::sqrt(a.radius * overlap);
+    const double root = std::sqrt(stiffness * a.mass), ahead = dot(a.normal, along) * dot(a.normal, along);
+    spring += stiffness * (ahead + (1 - ahead) * (pair.tangential_ratio - 2.0 / 3.0 * overlap / distance));
+    damper += root * (ahead * pair.damping + (1 - ahead) * pair.tangential_damping);
+  }
+  const double mass = mass_kg(scene, grain), loss = 0.5 * damper / mass, square = spring / mass - loss * loss;
+  if (!(square > 0)) return outside("the dampers are too strong for the grain to swing");
+  return loss;
+}
+
 Result<double> falling_velocity(const Impact& scene, const Arguments&) {
   return scene.grains[0].velocity_m_s.z - scene.gravity_m_s2 * scene.duration_s;
 }
@@ -300,6 +327,7 @@ constexpr Formula kFormulas[] = {
     {"rotor_time", rotor_time, "integral of d(angle)/w"},
     {"loaded_rotor_speed", loaded_rotor_speed, "the same with the first grain on the plate, its contact stiff"},
     {"loaded_rotor_time", loaded_rotor_time, "the same with the first grain on the plate, its contact stiff"},
+    {"caged_decay_rate", caged_decay_rate, "sum of the neighbours' dampers at their first overlap along v, over 2 m"},
     {"falling_velocity", falling_velocity, "v - g t"},
 };
 

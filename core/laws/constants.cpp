@@ -22,7 +22,16 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
   pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
   pair.lost_share = 1 - restitution * restitution;
   pair.tangential_damping = pair.damping * std::sqrt(pair.tangential_ratio);
-  pair.largest_damping = std::max(pair.damping, kSurfaceLightness * pair.tangential_damping);
+  pair.spin_damping_share = (kSurfaceLightness - 1) * std::sqrt(pair.tangential_ratio);
+}
+
+void set_friction(PairConstants& pair, double friction, FrictionBasis basis) {
+  pair.friction = friction;
+  pair.friction_of_total = basis == FrictionBasis::total;
+  // Of a force T the spring's own push is T^2/(4 S_t d): share x of the repulsion where T is mu times the repulsion.
+  // T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two rounds, as in `act`.
+  const double x = std::min(friction * friction / (6 * pair.tangential_ratio), 0.25);
+  pair.slip_limit = friction * (1 + x * (1 + x) * (1 + x));
 }
 
 void set_rolling(PairConstants& pair, double rolling_friction) {
@@ -84,8 +93,7 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
   PairConstants pair;
   set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, grains.youngs_modulus_pa, grains.poissons_ratio,
               grains.restitution);
-  pair.friction = grains.friction;
-  pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
+  set_friction(pair, grains.friction, grains.friction_basis);
   set_rolling(pair, grains.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
   pair.size_per_radius = 2 / reference_radius_m;
@@ -96,8 +104,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
   PairConstants pair;
   set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, wall.youngs_modulus_pa, wall.poissons_ratio,
               wall.restitution);
-  pair.friction = wall.friction;
-  pair.friction_of_total = grains.friction_basis == FrictionBasis::total;
+  set_friction(pair, wall.friction, grains.friction_basis);
   set_rolling(pair, wall.rolling_friction);
   set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
   pair.size_per_radius = 1 / reference_radius_m;

@@ -16,9 +16,10 @@ struct PairConstants {
   double tangential_ratio = 0;       ///< S_t / S_n = 4 G*/E*
   double damping = 0;                ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
   double tangential_damping = 0;     ///< the same times sqrt(S_t / S_n)
-  double largest_damping = 0;        ///< the larger of the normal and 3.5 times the tangential
+  double spin_damping_share = 0;     ///< fastest damping of spins over that along the normals: 2.5 sqrt(S_t / S_n)
   double lost_share = 0;             ///< 1 - e^2: of its energy, in a head-on collision
   double friction = 0;               ///< Coulomb coefficient
+  double slip_limit = 0;             ///< force of a sliding tangential spring over the repulsion
   bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
   double rolling_friction = 0;       ///< mu_r
   double roll_stiffness_share = 0;   ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4

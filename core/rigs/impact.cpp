@@ -5,6 +5,7 @@
 
 #include "core/rigs/approach.h"
 #include "core/rigs/rotor.h"
+#include "core/rigs/swing.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"
 
@@ -173,6 +174,7 @@ class ImpactRun {
     account_work(before);
     now_ = before;
     watch_first(time, depth);
+    watch_swing(time);
     if (first_) kinetic_at_start_ = kinetic_energy();
     first_ = false;
     hold();
@@ -260,6 +262,11 @@ class ImpactRun {
     pull_ = pull;
   }
 
+  void watch_swing(double time) {
+    const ImpactGrain& grain = test_.grains[0];
+    swing_.add(time, dot(now_[0].position - grain.centre_m, grain.velocity_m_s));
+  }
+
   void account_momentum(const std::vector<Sample>& samples, double kick) {
     Vec3 change, given;
     double size = 0;
@@ -312,6 +319,7 @@ class ImpactRun {
       if (pulls_[k]) readings.set("pull" + std::to_string(k) + "_n", *pulls_[k]);
     if (kinetic_at_start_ > 0) readings.set("kinetic_energy_ratio", kinetic_energy() / kinetic_at_start_);
     if (momentum_size_ > 0) readings.set("momentum_drift", norm(unexplained_) / momentum_size_);
+    if (const auto rate = swing_.decay_rate()) readings.set("decay_rate_1_s", *rate);
     readings.set("work_j", work_);
     readings.set("time_s", last_time_);
     if (!rotor_time_) return;
@@ -337,6 +345,7 @@ class ImpactRun {
   double momentum_size_ = 0;
   std::vector<Vec3> held_force_;
   double work_ = 0;
+  Swing swing_;
   std::optional<double> rotor_time_;
   double rotor_speed_ = 0;
 };

@@ -10,7 +10,7 @@ struct KernelTable;
 struct StepOptions {
   std::optional<double> fixed_step_s;  ///< empty: the step follows from stiffness, impacts and bridges
   double safety = 0.8;                 ///< share of the stable step
-  double impact_resolution = 18;       ///< steps in the shortest Hertz collision that loses all its energy
+  double impact_resolution = 10;       ///< steps in the shortest Hertz collision that loses all its energy
   double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
   double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
   double skin = 0.8;                   ///< skin of the candidate list over the mean radius

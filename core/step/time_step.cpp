@@ -8,7 +8,7 @@ namespace pastefit {
 namespace {
 
 constexpr double kSlowest = 0.01;     // [m/s] speed that is always reckoned with
-constexpr double kLeastLoss = 0.3;    // share of a collision's energy beyond which losing less asks for no more steps
+constexpr double kLeastLoss = 0.004;  // share of a collision's energy beyond which losing less asks for no more steps
 constexpr double kFastCrossing = 10;  // over the speed a bridge can give
 constexpr double kLevelsPerOctave = 16;
 
@@ -29,7 +29,8 @@ double impact_limit(const World& world, const Pace& pace) {
   const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
   const double modulus = 0.5 * world.grain_pair.normal_stiffness;
   const double speed = std::max(pace.fastest, kSlowest);
-  return std::max(loss, kLeastLoss) * 2.87 * std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
+  return std::cbrt(std::max(loss, kLeastLoss)) * 2.87 *
+         std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
 }
 
 double bridge_limit(const World& world, const Pace& pace) {

@@ -12,7 +12,7 @@ struct alignas(64) Motion {
   Vec3 position;            ///< [m]
   double radius = 0;        ///< [m]
   Vec3 velocity;            ///< at the half step before `position` [m/s]
-  double damping_rate = 0;  ///< sum of c/m over the grain's contacts at the last step [1/s]
+  double damping_rate = 0;  ///< of its contacts at the last step: sum of c_n/m over what springs leave of 1 [1/s]
 };
 
 /// 32 bytes. Hot.
@@ -24,7 +24,7 @@ struct alignas(32) Spin {
 /// What the contacts of a step add up to on a grain: one cache line, 64 bytes. Hot; zero between steps.
 struct alignas(64) Load {
   Vec3 force;            ///< [N]
-  double damping = 0;    ///< sum of c, 3.5 c_t of the contacts [N s/m]
+  double damping = 0;    ///< sum of c_n of the contacts [N s/m]
   Vec3 torque;           ///< [N m]
   double stiffness = 0;  ///< sum of k, 3.5 k_t of the contacts [N/m]
 };

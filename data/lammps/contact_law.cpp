@@ -36,14 +36,14 @@ double cap(double length, double limit) {
 
 Contact::Contact(const Law& law) {
   set_elastic(law, law.youngs_modulus_pa, law.poissons_ratio, law.restitution);
-  friction_ = law.friction;
+  set_friction(law.friction);
   rolling_friction_ = law.rolling_friction;
   set_attraction(law, 1, 2);
 }
 
 Contact::Contact(const Law& law, const WallLaw& wall) {
   set_elastic(law, wall.youngs_modulus_pa, wall.poissons_ratio, wall.restitution);
-  friction_ = wall.friction;
+  set_friction(wall.friction);
   rolling_friction_ = wall.rolling_friction;
   set_attraction(law, wall.cohesion_factor, 1);
 }
@@ -59,6 +59,13 @@ void Contact::set_elastic(const Law& law, double e, double nu, double restitutio
   friction_of_total_ = law.friction_basis == "total";
   if (law.rolling == "spring_dashpot") rolling_ = Rolling::spring_dashpot;
   if (law.rolling == "constant_torque") rolling_ = Rolling::constant_torque;
+}
+
+void Contact::set_friction(double friction) {
+  friction_ = friction;
+  // With the spring's own push, the share x of the repulsion, in two rounds as in `act`.
+  const double x = std::min(friction * friction / (6 * tangential_ratio_), 0.25);
+  slip_limit_ = friction * (1 + x * (1 + x) * (1 + x));
 }
 
 void Contact::set_attraction(const Law& law, double share, double shells) {
@@ -119,25 +126,30 @@ Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance)
   const double contact_radius = std::sqrt(m.radius * m.overlap);
   const double stiffness_n = normal_stiffness_ * contact_radius, stiffness_t = tangential_ratio_ * stiffness_n;
   const double repulsion = hertz_ * contact_radius * m.overlap;
-  // Velocities are those of half a step ago; the denominators make the dampers right to second order in dt.
+  // Velocities are those of half a step ago; the denominators give a collision its restitution to second order in dt.
   const double damping_n = damping_ * std::sqrt(stiffness_n * m.mass);
   const double damping_t = damping_ * std::sqrt(stiffness_t * m.mass);
-  const double braked_n = 1 / (1 + 0.5 * dt * damping_n / m.mass);
-  const double braked_t = 1 / (1 + 1.75 * dt * damping_t / m.mass);
+  const double braked_n = 1 / (1 + 0.25 * dt * damping_n / m.mass);
+  const double braked_t = 1 / (1 + 0.25 * 3.5 * dt * damping_t / m.mass);
   const double approach = dot(m.velocity, m.normal);
-  const double push = repulsion + braked_n * damping_n * approach - cohesion_ * scale * scale - pull;
-  const double load = friction_of_total_ ? std::max(push, 0.0) : repulsion;
+  double push = repulsion + braked_n * damping_n * approach - cohesion_ * scale * scale - pull;
+  const double pressed = friction_of_total_ ? std::max(push, 0.0) : repulsion;
 
-  // A spring that stiffens keeps its force, one that softens its stretch: neither makes energy.
-  const double softened = std::min(1.0, memory.contact_radius / contact_radius);
+  // The spring holds what friction allows of the repulsion. Its energy grows with the overlap: it pushes, too.
   const Vector sliding = m.velocity - approach * m.normal;
-  const Vector slip = softened * carried(memory.slip, m.normal, m.twist * advance) + advance * sliding;
+  Vector slip = carried(memory.slip, m.normal, m.twist * advance) + advance * sliding;
+  slip = cap(stiffness_t * norm(slip), slip_limit_ * repulsion) * slip;
+  const double slip_push = 0.25 * stiffness_t * dot(slip, slip) / m.overlap;
   const Vector drag = stiffness_t * slip + damping_t * braked_t * sliding;
-  const double kept = cap(norm(drag), friction_ * load);
+  // Its push is part of the load that limits friction: two rounds.
+  double kept = cap(norm(drag), friction_ * pressed);
+  for (int round = 0; round < 2; ++round) kept = cap(norm(drag), friction_ * (pressed + kept * kept * slip_push));
   memory.slip = kept * slip;
   action.traction = -kept * drag;
+  push += kept * kept * slip_push;
   action.force = action.traction - push * m.normal;
-  roll(m, load, softened, braked_n, dt, advance, memory, action);
+  const double softened = std::min(1.0, memory.contact_radius / contact_radius);
+  roll(m, pressed + kept * kept * slip_push, softened, braked_n, dt, advance, memory, action);
   memory.contact_radius = contact_radius;
   return action;
 }

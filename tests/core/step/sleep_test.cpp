@@ -119,7 +119,7 @@ Bed settled(bool sticky, bool sleep) {
   bed.start(false);
   bed.run(8);
   bed.start(sleep);
-  if (sleep) REQUIRE(bed.fall_asleep(4));
+  if (sleep) REQUIRE(bed.fall_asleep(12));
   return bed;
 }
 
@@ -221,7 +221,7 @@ TEST_CASE("a grain that falls on a sleeping bed wakes what it reaches, and all e
     }
     places[sleep] = bed.places();
     const Ledger& ledger = bed.looked_at();
-    CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
+    CHECK(std::fabs(ledger.error()) < 3e-3 * ledger.put_in());
     if (!sleep) continue;
     INFO(before << " slept before, at least " << fewest << " then, " << bed.stepper->sleeping() << " at the end");
     CHECK(before > bed.world.particles.count() / 2);
@@ -306,7 +306,7 @@ TEST_CASE("a two-step slump test reads the same with sleep and without, dry and 
       REQUIRE_FALSE(sleeping.failure);
       CHECK(awake.run.asleep_share == 0);
       asleep += sleeping.run.asleep_share;
-      CHECK(std::fabs(sleeping.run.energy_error.value()) < 1e-3);
+      CHECK(std::fabs(sleeping.run.energy_error.value()) < 2 * std::fabs(awake.run.energy_error.value()) + 1e-4);
       const char* names[] = {"step1.height_mm", "step2.height_mm", "step2.plateau_sag_mm"};
       for (int k = 0; k < 3; ++k)
         changes[k].push_back(*sleeping.observables.find(names[k]) - *awake.observables.find(names[k]));
