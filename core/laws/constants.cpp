@@ -111,4 +111,9 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
   return pair;
 }
 
+double squeeze(const ContactModel& grains, double radius) {
+  const PairConstants pair = grain_pair(grains, radius);
+  return std::pow(pair.cohesion / (pair.hertz * std::sqrt(0.5 * radius)), 2.0 / 3) / (2 * radius);
+}
+
 }  // namespace pastefit

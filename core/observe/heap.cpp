@@ -1,7 +1,9 @@
 #include "core/observe/heap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace pastefit {
 
@@ -9,7 +11,7 @@ namespace {
 
 constexpr double kPointsPerRadius = 4;
 constexpr double kClosingBall = 2;  // radius of the closing ball over the mean grain radius
-constexpr double kPlateauShare = 0.8;
+constexpr int kDirections = 24;  // over half a turn
 
 /// Offsets of grid points under a ball, and how far its surface lies below its top (or above its bottom) there.
 struct Stamp {
@@ -31,22 +33,22 @@ struct Stamp {
 
 }  // namespace
 
-HeightField::HeightField(const Particles& particles, double mean_radius, double half_width)
+HeightField::HeightField(const Particles& particles, double mean_radius, double half_width, double x, double y)
     : spacing_(mean_radius / kPointsPerRadius) {
   const int half = static_cast<int>(std::ceil(half_width / spacing_));
   n_ = 2 * half + 1;
   std::vector<double> envelope(static_cast<std::size_t>(n_) * n_, 0.0);
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Motion& grain = particles.motion[i];
-    const double r = grain.radius;
+    const double r = grain.radius, gx = grain.position.x - x, gy = grain.position.y - y;
     const auto first = [&](double c) { return std::max(0, static_cast<int>(std::ceil((c - r) / spacing_)) + half); };
     const auto last = [&](double c) {
       return std::min(n_ - 1, static_cast<int>(std::floor((c + r) / spacing_)) + half);
     };
-    if (!(std::fabs(grain.position.x) < half_width + r && std::fabs(grain.position.y) < half_width + r)) continue;
-    for (int iy = first(grain.position.y); iy <= last(grain.position.y); ++iy)
-      for (int ix = first(grain.position.x); ix <= last(grain.position.x); ++ix) {
-        const double dx = coordinate(ix) - grain.position.x, dy = coordinate(iy) - grain.position.y;
+    if (!(std::fabs(gx) < half_width + r && std::fabs(gy) < half_width + r)) continue;
+    for (int iy = first(gy); iy <= last(gy); ++iy)
+      for (int ix = first(gx); ix <= last(gx); ++ix) {
+        const double dx = coordinate(ix) - gx, dy = coordinate(iy) - gy;
         const double square = r * r - dx * dx - dy * dy;
         if (square < 0) continue;
         double& h = envelope[iy * n_ + ix];
@@ -84,23 +86,44 @@ double highest_point(const Particles& particles) {
   return top;
 }
 
-double height_at_axis(const Particles& particles, double mean_radius, double probe_diameter) {
-  const double radius = 0.5 * probe_diameter;
+namespace {
+
+/// Calls `look(x, y, height)` for the points of the closed surface on a disc; x and y from its middle.
+template <class Look>
+void each_on_disc(const Particles& particles, double mean_radius, const Disc& disc, const Look& look) {
+  const double radius = 0.5 * disc.diameter;
   // The closing ball looks twice its radius beyond the disc.
-  const HeightField field(particles, mean_radius, radius + 2 * kClosingBall * mean_radius);
-  double sum = 0;
-  int points = 0;
+  const HeightField field(particles, mean_radius, radius + 2 * kClosingBall * mean_radius, disc.x, disc.y);
   for (int iy = 0; iy < field.points(); ++iy)
     for (int ix = 0; ix < field.points(); ++ix) {
       const double x = field.coordinate(ix), y = field.coordinate(iy);
-      if (x * x + y * y > radius * radius) continue;
-      sum += field.at(ix, iy);
-      ++points;
+      if (x * x + y * y <= radius * radius) look(x, y, field.at(ix, iy));
     }
+}
+
+}  // namespace
+
+double mean_height(const Particles& particles, double mean_radius, const Disc& disc) {
+  double sum = 0;
+  int points = 0;
+  each_on_disc(particles, mean_radius, disc, [&](double, double, double height) {
+    sum += height;
+    ++points;
+  });
   return points > 0 ? sum / points : 0;
 }
 
-double spread_diameter(const Particles& particles, double mean_radius) {
+double slope_along_x(const Particles& particles, double mean_radius, const Disc& disc) {
+  // The disc is symmetric about its middle: the regression on x alone is that of the plane.
+  double covariance = 0, variance = 0;
+  each_on_disc(particles, mean_radius, disc, [&](double x, double, double height) {
+    covariance += x * height;
+    variance += x * x;
+  });
+  return variance > 0 ? covariance / variance : 0;
+}
+
+Widths widths(const Particles& particles, double mean_radius) {
   // Grains as discs in plan, widened by half the gap that may separate grains of one body; flood from the axis.
   const double widening = 0.5 * mean_radius, spacing = 0.5 * mean_radius;
   double farthest = 0;
@@ -123,7 +146,7 @@ double spread_diameter(const Particles& particles, double mean_radius) {
       seed = i;
     }
   }
-  if (seed < 0) return 0;
+  if (seed < 0) return {};
   double largest_radius = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i)
     largest_radius = std::max(largest_radius, particles.motion[i].radius);
@@ -132,15 +155,17 @@ double spread_diameter(const Particles& particles, double mean_radius) {
   std::vector<char> belongs(particles.count(), 0);
   std::vector<std::int32_t> front{seed};
   belongs[seed] = 1;
-  double low_x = 0, high_x = 0, low_y = 0, high_y = 0;
+  std::array<double, kDirections> low{}, high{};
   while (!front.empty()) {
     const std::int32_t i = front.back();
     front.pop_back();
     const Motion& a = particles.motion[i];
-    low_x = std::min(low_x, a.position.x - a.radius);
-    high_x = std::max(high_x, a.position.x + a.radius);
-    low_y = std::min(low_y, a.position.y - a.radius);
-    high_y = std::max(high_y, a.position.y + a.radius);
+    for (int d = 0; d < kDirections; ++d) {
+      const double angle = std::numbers::pi * d / kDirections;
+      const double along = a.position.x * std::cos(angle) + a.position.y * std::sin(angle);
+      low[d] = std::min(low[d], along - a.radius);
+      high[d] = std::max(high[d], along + a.radius);
+    }
     const int cx = index(a.position.x), cy = index(a.position.y);
     for (int y = std::max(cy - reach, 0); y <= std::min(cy + reach, n - 1); ++y)
       for (int x = std::max(cx - reach, 0); x <= std::min(cx + reach, n - 1); ++x)
@@ -154,40 +179,12 @@ double spread_diameter(const Particles& particles, double mean_radius) {
           front.push_back(j);
         }
   }
-  return 0.5 * ((high_x - low_x) + (high_y - low_y));
-}
-
-Plateau plateau(const Particles& particles, double mean_radius, double probe_diameter, double half_width) {
-  const HeightField field(particles, mean_radius, half_width);
-  const int n = field.points(), middle = n / 2;
-  const int strip = static_cast<int>(0.5 * probe_diameter / field.spacing());
-  std::vector<double> profile(n, 0.0);
-  for (int ix = 0; ix < n; ++ix) {
-    for (int iy = middle - strip; iy <= middle + strip; ++iy) profile[ix] += field.at(ix, iy);
-    profile[ix] /= 2 * strip + 1;
+  Widths result;
+  for (int d = 0; d < kDirections; ++d) {
+    const double width = high[d] - low[d];
+    result.mean += width / kDirections;
+    if (d % (kDirections / 2) == 0) result.orthogonal += 0.5 * width;
   }
-  double reference = 0;
-  for (int ix = middle - strip; ix <= middle + strip; ++ix) reference += profile[ix] / (2 * strip + 1);
-  const double edge = kPlateauShare * reference;
-  int left = middle, right = middle;
-  while (left > 0 && profile[left - 1] >= edge) --left;
-  while (right < n - 1 && profile[right + 1] >= edge) ++right;
-
-  double mean_x = 0, mean_z = 0;
-  const double count = right - left + 1;
-  for (int ix = left; ix <= right; ++ix) {
-    mean_x += field.coordinate(ix) / count;
-    mean_z += profile[ix] / count;
-  }
-  double covariance = 0, variance = 0;
-  for (int ix = left; ix <= right; ++ix) {
-    const double dx = field.coordinate(ix) - mean_x;
-    covariance += dx * (profile[ix] - mean_z);
-    variance += dx * dx;
-  }
-  Plateau result;
-  result.width = (right - left) * field.spacing();
-  result.sag = variance > 0 ? -covariance / variance * result.width : 0;
   return result;
 }
 

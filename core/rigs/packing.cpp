@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/laws/constants.h"
+#include "core/observe/heap.h"
 #include "core/random.h"
 #include "core/rigs/waiting.h"
 
@@ -14,12 +16,18 @@ namespace {
 constexpr double kLoosest = 2.15;   // spacing of the starting lattice over the largest radius
 constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
-constexpr double kPackingFriction = 0.5;  // a looser fill than a rodded one: a dense one is brittle (see README)
 constexpr double kLidSpeed = 0.2;         // [m/s]
 constexpr double kFillCap = 4.0;          // [s]
 constexpr double kScoopSpeed = 1.0;       // [m/s]
 constexpr double kGentle = 0.2;           // deepest overlap of a falling grain, over its radius
 constexpr double kEmptiest = 0.45;        // solid fraction below which the fill has a hole
+
+// Frictions and steps of squeeze that packings are poured at; candidates between them share one.
+constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
+constexpr double kSqueezeStep = 0.005;
+// [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
+// hard that the column rises by 1 % when it is taken off.
+constexpr double kScrape = 0.7;
 
 double sphere_volume(double r) {
   return 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -70,20 +78,21 @@ void pour(const SlumpTable& test, Packing& packing) {
   }
 }
 
-/// Frictional grains without cohesion: the fill does not depend on what is calibrated. Or the test's own.
+/// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
 ContactModel filling_model(const SlumpTable& test, const RunOptions& options) {
   if (options.own_fill) return test.contact;
   ContactModel model;
   model.youngs_modulus_pa = test.contact.youngs_modulus_pa;
   model.poissons_ratio = test.contact.poissons_ratio;
   model.restitution = 0.2;
-  model.friction = kPackingFriction;
+  model.friction = filling_of(test).friction;
   model.rolling = RollingModel::none;
   return model;
 }
 
 Wall make_wall(std::string name, Shape shape, const SlumpTable& test, const RunOptions& options) {
-  const WallContact shared{1e9, 0.3, 0.2, kPackingFriction, 0, 0};
+  // Smooth, so that no wall holds the fill up: it would sink when the wall is the test's own.
+  const WallContact shared{1e9, 0.3, 0.2, 0, 0, 0};
   const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
   Wall wall;
   wall.name = std::move(name);
@@ -155,13 +164,12 @@ void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packin
   take_grains(world, packing);
 }
 
-/// What has its centre above the rim is scraped away; a lid presses the rest level with the rim and stays until it
-/// rests.
+/// What stands out above the rim is scraped away; a lid presses the rest level with the rim and stays until it rests.
 void strike_off(const SlumpTable& test, const RunOptions& options, Packing& packing) {
   const double rim = test.mould.height_m;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < packing.centres.size(); ++i) {
-    if (packing.centres[i].z > rim) continue;
+    if (packing.centres[i].z > rim - kScrape * packing.radii[i]) continue;
     packing.centres[kept] = packing.centres[i];
     packing.radii[kept++] = packing.radii[i];
   }
@@ -193,6 +201,10 @@ double poured_grains(const SlumpTable& test) {
   return poured_volume(test.mould) / volume;
 }
 
+double grain_density(const SlumpTable& test, const Packing& packing) {
+  return test.bulk_density_kg_m3 * volume_m3(test.mould) / packing.solid_volume_m3;
+}
+
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
   switch (sizes.distribution) {
     case SizeDistribution::mono:
@@ -212,15 +224,26 @@ double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n)
   return sizes.radius_m;
 }
 
+Filling filling_of(const SlumpTable& test) {
+  Filling filling;
+  for (const double friction : kFrictions)
+    if (friction <= test.contact.friction) filling.friction = friction;
+  filling.squeeze = kSqueezeStep * std::round(squeeze(test.contact, test.grains.radius_m) / kSqueezeStep);
+  return filling;
+}
+
 std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& asked) {
   RunOptions options = asked;
   // A fixed step and sleep are meant for the test; the fill is always the same.
   options.steps.fixed_step_s.reset();
   options.steps.sleep = false;
+  const double swelling = options.own_fill ? 1 : 1 + filling_of(test).squeeze;
+  SlumpTable poured = test;
+  poured.grains = enlarged(test.grains, 1 / swelling);
   auto packing = std::make_shared<Packing>();
-  pour(test, *packing);
-  let_fall(test, options, *packing);
-  if (!packing->failure) strike_off(test, options, *packing);
+  pour(poured, *packing);
+  let_fall(poured, options, *packing);
+  if (!packing->failure) strike_off(poured, options, *packing);
   const double fraction = packing->solid_volume_m3 / volume_m3(test.mould);
   if (!packing->failure && fraction < kEmptiest)
     packing->failure = Failure{FailureReason::packing_failed,
@@ -231,6 +254,10 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptio
                                fraction,
                                kEmptiest,
                                "the grains bridge in the mould and leave it partly empty; take smaller grains"};
+  packing->roughness_m = test.mould.height_m - mean_height(make_particles(packing->centres, packing->radii, 1), poured.grains.radius_m,
+                            {0, 0, 2 * (test.mould.top_radius_m - test.grains.radius_m)});
+  for (double& r : packing->radii) r *= swelling;
+  packing->solid_volume_m3 *= swelling * swelling * swelling;
   return packing;
 }
 

@@ -16,9 +16,31 @@ struct Packing {
   std::vector<Vec3> centres;
   std::vector<double> radii;
   double solid_volume_m3 = 0;  ///< of the grains
+  double roughness_m = 0;      ///< rim less the mean of the closed surface between the tops of grains, as struck off
   RunSummary run;
   std::optional<Failure> failure;
 };
+
+/// How a mould is filled for a candidate. Tests that differ in the material only, and whose fillings are equal, share
+/// their packings.
+///
+/// Attraction presses soft grains into each other until it is balanced, and a packing poured without it would shrink
+/// from the mould when it acts. So smaller grains are poured, by one plus `squeeze`: where they touch, the candidate's
+/// own grains overlap as much as they will.
+struct Filling {
+  double friction = 0;  ///< while it is poured: the candidate's, rounded down, since a looser fill would sink
+  double squeeze = 0;   ///< rounded
+  auto operator<=>(const Filling&) const = default;
+};
+Filling filling_of(const SlumpTable& test);
+
+/// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. A lid lies on it with
+/// the weight of one layer of grains, and all lengths of the column are enlarged (or reduced) until it fills the mould
+/// below that, by 1 % at most as seen; its mass is the laboratory's. `run` counts this part only.
+Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& options = {});
+
+/// Density at which the packing's grains have the mass that the laboratory's material has in the mould [kg/m^3].
+double grain_density(const SlumpTable& test, const Packing& packing);
 
 /// Number of grains that are poured to fill the mould: its volume times the share of it that is poured as solid, over
 /// the mean volume of a grain. Some of them are struck off.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/observe/outline.h"
 #include "core/rigs/materials.h"
 
 namespace pastefit {
@@ -30,7 +31,7 @@ struct DropPlate {
 
 /// Which point of the heap the laboratory calls its height.
 enum class HeightReading {
-  axis,    ///< mean over the probe disc at the mould's axis (ASTM C143: displaced centre of the top)
+  axis,    ///< mean over the probe disc where the middle of the struck-off top has gone (ASTM C143: displaced centre)
   highest  ///< the highest point of the body (EN 12350-2)
 };
 
@@ -38,6 +39,10 @@ enum class HeightReading {
 struct Reading {
   HeightReading height = HeightReading::axis;
   double probe_diameter_m = 0.040;
+  double sag_window_m = 0.100;  ///< of the top about the axis, over which its sag after step 2 is read
+  /// Outlines of the heap as seen from the side, along the hinge, by a person with a ruler; x from the middle of the
+  /// table towards the free edge. Empty: not measured.
+  std::vector<OutlinePoint> outline_step1, outline_step2;
 };
 
 /// The slump test as one value: apparatus, material, grains, contact model.

@@ -122,12 +122,14 @@ Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const s
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
   Pose before = pose_of(world_.particles);
+  int calm = 0;
   for (double waited = 0; waited < cap_s; waited += criterion.window_s) {
     wait.failure = run(phase, criterion.window_s, {}, done);
     if (wait.failure || (done && done(world_))) return wait;
     const Pose now = pose_of(world_.particles);
     wait.change = largest_change(now, before);
-    wait.rested = now.speed < slow && wait.change < criterion.change_over_radius * radius;
+    calm = now.speed < slow && wait.change < criterion.change_over_radius * radius ? calm + 1 : 0;
+    wait.rested = calm >= criterion.windows;
     if (wait.rested && (!free || free(world_))) return wait;
     before = now;
   }

@@ -9,4 +9,30 @@ void set_contact_model(World& world, const ContactModel& model, double reference
   world.rolling = model.rolling;
 }
 
+void turn_half_round(World& world) {
+  const auto turn = [](double& x, double& y) {
+    x = -x;
+    y = -y;
+  };
+  for (std::int32_t i = 0; i < world.particles.count(); ++i) {
+    Motion& motion = world.particles.motion[i];
+    Spin& spin = world.particles.spin[i];
+    turn(motion.position.x, motion.position.y);
+    turn(motion.velocity.x, motion.velocity.y);
+    turn(spin.velocity.x, spin.velocity.y);
+  }
+  const auto turn_memory = [&](ContactList& list) {
+    for (std::int32_t b = 0; b < list.batch_count(); ++b)
+      for (int lane = 0; lane < kBatch; ++lane) {
+        ContactBatch& batch = list.batches[b];
+        turn(batch.slip[0][lane], batch.slip[1][lane]);
+        turn(batch.roll[0][lane], batch.roll[1][lane]);
+      }
+  };
+  for (Block& block : world.pairs.blocks) {
+    turn_memory(block.contacts);
+    for (WallContacts& wall : block.walls) turn_memory(wall.contacts);
+  }
+}
+
 }  // namespace pastefit

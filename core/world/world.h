@@ -35,4 +35,8 @@ class World {
 /// Sets the laws of a contact model between grains; walls are given theirs by `wall_pair`.
 void set_contact_model(World& world, const ContactModel& model, double reference_radius);
 
+/// Turns all grains half round about the z axis, with what they and their contacts
+/// remember: exact. The walls stay; those that touch grains must look the same after the turn.
+void turn_half_round(World& world);
+
 }  // namespace pastefit

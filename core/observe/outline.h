@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/world/particles.h"
+
+namespace pastefit {
+
+/// A heap seen from the side, against y: the highest point at each x, gaps into which a ball of twice the mean radius
+/// does not fit bridged. Straight between its points; zero beyond them.
+struct Outline {
+  double first_x_m = 0, spacing_m = 1;
+  std::vector<double> height_m;
+
+  double at(double x_m) const;
+};
+Outline outline(const Particles& particles, double mean_radius);
+
+/// Length of the part about x = 0 that stands at 0.8 of the height there or more [m].
+double plateau_width(const Outline& outline);
+
+/// A point of a measured outline.
+struct OutlinePoint {
+  double x_m = 0, z_m = 0;
+};
+
+/// Root mean square difference in height between an outline and a measured one, over the measured width [m].
+/// Requirement: at least two points, x ascending; straight between them.
+double rms_difference(const Outline& outline, const std::vector<OutlinePoint>& measured);
+
+}  // namespace pastefit

@@ -1,0 +1,121 @@
+#include "core/rigs/plate_drop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rigs/rotor.h"
+#include "core/rigs/waiting.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr int kSides = 2;         // of the heap, opposite ones, the hinge is on in turn
+constexpr double kRestCap = 4.0;  // [s] simulated time allowed for coming to rest
+constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
+
+/// One fall of the plate under a heap.
+class Drop {
+ public:
+  Drop(const SlumpTable& test, World world, const RunOptions& options)
+      : test_(test), options_(options), world_(std::move(world)), runner_(world_, options), table_(world_.walls[0]) {}
+
+  std::optional<Failure> run() {
+    if (auto problem = turn_plate_up()) return problem;
+    if (auto problem = let_plate_fall()) return problem;
+    return rest("step2.rest");
+  }
+
+  const Particles& grains() const { return world_.particles; }
+  const RunSummary& summary() { return runner_.summary(); }
+
+ private:
+  std::optional<Failure> rest(std::string_view phase) { return wait(runner_, options_, phase, kRestCap); }
+
+  /// Turns the plate up about its hinge with a smooth start and stop.
+  std::optional<Failure> turn_plate_up() {
+    const DropPlate& plate = *test_.drop;
+    const double angle = std::asin(plate.lift_height_m / plate.length_m);
+    const double start = world_.time, duration = plate.lift_duration_s;
+    const auto turn = [&](World& world, double dt) {
+      const double before = turned_share((world.time - start) / duration);
+      const double after = turned_share((world.time + dt - start) / duration);
+      // Positive about y lowers the free edge.
+      table_.angular_velocity = {0, -angle * (after - before) / dt, 0};
+    };
+    table_.pivot = {-0.5 * plate.length_m, 0, 0};
+    if (auto problem = runner_.run("step2.raise", duration, turn)) return problem;
+    table_.angular_velocity = {};
+    return rest("step2.raised");
+  }
+
+  /// Lets the plate go: a rigid rotor under its own weight and the grains on it, stopped dead when it is level.
+  std::optional<Failure> let_plate_fall() {
+    const DropPlate& plate = *test_.drop;
+    const Rotor rotor{plate.mass_kg, plate.mass_kg * plate.length_m * plate.length_m / 3};
+    bool stopped = false;
+    const auto fall = [&](World& world, double dt) {
+      if (turn_freely(rotor, table_, world.gravity, dt, dt)) stopped = true;
+    };
+    if (auto problem = runner_.run("step2.drop", kDropCap, fall, [&](const World&) { return stopped; })) return problem;
+    table_.angular_velocity = {};
+    table_.shape = level_table(test_);
+    if (stopped) return {};
+    return Failure{FailureReason::never_settled,
+                   "step2.drop",
+                   world_.step,
+                   world_.time,
+                   -1,
+                   0,
+                   kDropCap,
+                   "the plate did not fall to its stop; check its mass and lift height"};
+  }
+
+  /// Share of the angle turned through at share s of the time: smooth start and stop.
+  static double turned_share(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+  }
+
+  const SlumpTable& test_;
+  const RunOptions& options_;
+  World world_;
+  Runner runner_;
+  Wall& table_;
+};
+
+}  // namespace
+
+Plate level_table(const SlumpTable& test) {
+  Plate plate;
+  plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
+  return plate;
+}
+
+Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& ruler, const RunOptions& options) {
+  Outcome mean;
+  mean.run.settled = true;
+  World world = rested;
+  for (int side = 0; side < kSides; ++side) {
+    Drop drop(test, world, options);
+    mean.failure = drop.run();
+    const RunSummary& run = drop.summary();
+    mean.run.steps += run.steps;
+    mean.run.particle_steps += run.particle_steps;
+    mean.run.simulated_s += run.simulated_s - rested.time;
+    mean.run.advised_step_s = side == 0 ? run.advised_step_s : std::min(mean.run.advised_step_s, run.advised_step_s);
+    if (run.energy_error && std::fabs(*run.energy_error) >= std::fabs(mean.run.energy_error.value_or(0)))
+      mean.run.energy_error = run.energy_error;
+    mean.run.asleep_share += run.asleep_share / kSides;
+    mean.run.settled = mean.run.settled && run.settled;
+    if (mean.failure) return mean;
+    Observables readings;
+    ruler.read(drop.grains(), "step2", readings);
+    for (const auto& one : readings.all())
+      mean.observables.set(one.name, mean.observables.find(one.name).value_or(0) + one.value / kSides);
+    turn_half_round(world);
+  }
+  return mean;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/rigs/ruler.h"
+#include "core/simulate.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// Step 2 of the slump test: the plate is turned up about its hinge, rests, and is let go once.
+///
+/// The top of a heap is never level after step 1, by luck, and most of that tilt (0.75 to 0.9 of it) is still there
+/// after step 2. So the heap is dropped twice, with the hinge on one side and on the opposite one, and readings are
+/// means: the tilt goes out of the sag whatever share of it is left, and the sag's noise falls to a third.
+/// `world`: the heap at rest, the plate as its wall `table`. `ruler`: that of its step 1.
+Outcome drop_plate(const SlumpTable& test, const World& world, const Ruler& ruler, const RunOptions& options);
+
+/// The plate (or table) level.
+Plate level_table(const SlumpTable& test);
+
+}  // namespace pastefit

@@ -1,0 +1,74 @@
+#include "core/rigs/ruler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace pastefit {
+
+Ruler::Ruler(const SlumpTable& test, double roughness_m, const Particles& in_mould)
+    : test_(test), roughness_m_(roughness_m), on_top_(in_mould.count(), 0) {
+  const double below = test.mould.height_m - 2 * test.grains.radius_m;
+  for (std::int32_t i = 0; i < in_mould.count(); ++i)
+    on_top_[in_mould.identity[i]] = in_mould.motion[i].position.z > below;
+}
+
+Disc Ruler::top(const Particles& grains) const {
+  Disc disc{0, 0, test_.reading.probe_diameter_m};
+  double count = 0;
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    if (!on_top_[grains.identity[i]]) continue;
+    disc.x += grains.motion[i].position.x;
+    disc.y += grains.motion[i].position.y;
+    ++count;
+  }
+  disc.x /= std::max(count, 1.0);
+  disc.y /= std::max(count, 1.0);
+  return disc;
+}
+
+void Ruler::read(const Particles& all, std::string_view step, Observables& readings) const {
+  const Particles grains = on_table(all);
+  const double radius = test_.grains.radius_m, rim = test_.mould.height_m;
+  const auto set = [&](const char* name, double value) { readings.set(std::string(step) + name, value); };
+  set(".spilled_share", 1 - static_cast<double>(grains.count()) / all.count());
+  if (grains.count() == 0) return;
+  const Disc probe = top(grains);
+  const double surface = std::min(mean_height(grains, radius, probe) + roughness_m_, rim);
+  const double highest = std::clamp(highest_point(grains), surface, rim);
+  const double height = test_.reading.height == HeightReading::axis ? surface : highest;
+  const Widths spread = widths(grains, radius);
+  const Outline side = outline(grains, radius);
+  set(".height_mm", 1e3 * height);
+  set(".slump_mm", 1e3 * (rim - height));
+  set(".height_axis_mm", 1e3 * surface);
+  set(".height_max_mm", 1e3 * highest);
+  set(".lateral_shift_mm", 1e3 * std::hypot(probe.x, probe.y));
+  set(".spread_mm", 1e3 * spread.mean);
+  set(".spread_orthogonal_mm", 1e3 * spread.orthogonal);
+  const auto& measured = step == "step1" ? test_.reading.outline_step1 : test_.reading.outline_step2;
+  if (!measured.empty()) set(".profile_mm", 1e3 * rms_difference(side, measured));
+  if (step == "step1") return;
+  const double window = test_.reading.sag_window_m;
+  set(".plateau_sag_mm", -1e3 * window * slope_along_x(grains, radius, {0, 0, window}));
+  set(".plateau_width_mm", 1e3 * plateau_width(side));
+}
+
+Particles on_table(const Particles& grains) {
+  Particles result = grains;
+  std::size_t kept = 0;
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    if (grains.motion[i].position.z < 0) continue;
+    result.motion[kept] = grains.motion[i];
+    result.spin[kept] = grains.spin[i];
+    result.identity[kept++] = grains.identity[i];
+  }
+  result.identity.resize(kept);
+  result.motion.resize(kept);
+  result.spin.resize(kept);
+  result.load.resize(kept);
+  provide_dummies(result, 1);
+  return result;
+}
+
+}  // namespace pastefit
