@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "calibrate/card/filling.h"
 #include "calibrate/card/machine.h"
 #include "calibrate/check/law.h"
 #include "calibrate/check/runs.h"
@@ -94,8 +93,7 @@ SameBits all_of(const std::vector<SameBits>& bits) {
 std::optional<std::string> run_test(const Card& card, const TestOfCard& test,
                                     const std::vector<std::uint64_t>& packings, const CheckOptions& options,
                                     const CheckEngine& engine, int& simulations, Baseline& now) {
-  const auto filling = [&](std::uint64_t packing) { return filling_of(card, test.test, packing); };
-  const auto outcomes = run_packings(test.test, packings, filling, engine, options.threads);
+  const auto outcomes = run_packings(test.test, packings, engine, options.threads);
   simulations += static_cast<int>(outcomes.size());
   auto failure = keep_runs(packings, outcomes, now);
   if (failure) *failure = test.prefix + *failure;
@@ -202,15 +200,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   auto packings = packings_of(card, card.baseline);
   if (packings.size() < 2) packings = {test.packing_seed, test.packing_seed + 1};
   if (options.quick) keep_quick(packings);
-  const auto filling = [&](std::uint64_t packing) {
-    SlumpTable fill = test;
-    const auto as_before = filling_of(card, packing);
-    fill.packing_seed = packing;
-    fill.contact.youngs_modulus_pa = as_before.contact.youngs_modulus_pa;
-    fill.contact.poissons_ratio = as_before.contact.poissons_ratio;
-    return fill;
-  };
-  const auto outcomes = run_packings(test, packings, filling, engine, options.threads);
+  const auto outcomes = run_packings(test, packings, engine, options.threads);
   out.simulations = static_cast<int>(outcomes.size());
   Baseline now;
   if (auto failure = keep_runs(packings, outcomes, now)) {

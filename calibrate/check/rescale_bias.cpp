@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "calibrate/card/filling.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/check/statistics.h"
 #include "calibrate/search/confirmation.h"
@@ -15,8 +14,7 @@ namespace {
 Result<std::vector<Baseline::Run>> runs_of(const Card& card, const TestOfCard& test,
                                            const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
                                            int threads) {
-  const auto filling = [&](std::uint64_t packing) { return filling_of(card, test.test, packing); };
-  const auto outcomes = run_packings(test.test, packings, filling, engine, threads);
+  const auto outcomes = run_packings(test.test, packings, engine, threads);
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (const auto& failure = outcomes[i].failure)

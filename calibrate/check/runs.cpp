@@ -7,8 +7,7 @@
 namespace pastefit {
 
 std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
-                                  const std::function<SlumpTable(std::uint64_t)>& filling, const CheckEngine& engine,
-                                  int threads) {
+                                  const CheckEngine& engine, int threads) {
   std::vector<Outcome> outcomes(packings.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
@@ -16,7 +15,7 @@ std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std:
       SlumpTable one = test;
       one.packing_seed = packings[i];
       RunOptions options;
-      options.packing = engine.fill(filling(packings[i]), {});
+      options.packing = engine.fill(one, {});
       outcomes[i] = engine.run(one, options);
     }
   };

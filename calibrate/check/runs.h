@@ -1,17 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "calibrate/check/check.h"
 
 namespace pastefit {
 
-/// Runs `test` in each packing, `filling(seed)` saying how the mould is filled; in parallel, answers in order.
+/// Runs `test` in each packing; in parallel, answers in order.
 std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
-                                  const std::function<SlumpTable(std::uint64_t)>& filling, const CheckEngine& engine,
-                                  int threads);
+                                  const CheckEngine& engine, int threads);
 
 /// The values of one reading, in the order of the runs.
 std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name);

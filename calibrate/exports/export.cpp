@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "calibrate/card/filling.h"
 
 namespace pastefit {
 
@@ -24,11 +23,12 @@ Result<ExportScene> export_scene(const Card& card, std::uint64_t packing) {
   ExportScene scene;
   scene.card = card;
   scene.card.test.packing_seed = packing;
-  scene.packing = *fill_mould(filling_of(card, packing));
+  const auto poured = fill_mould(scene.card.test);
+  scene.packing = poured->failure ? *poured : full_mould(scene.card.test, *poured);
   if (const auto& failure = scene.packing.failure)
     return Fault{"packing " + std::to_string(packing), "the mould could not be filled: " + failure->message,
                  "take another seed with --packing, or finer grains with pastefit rescale"};
-  scene.grain_density_kg_m3 = card.test.bulk_density_kg_m3 * volume_m3(card.test.mould) / scene.packing.solid_volume_m3;
+  scene.grain_density_kg_m3 = grain_density(scene.card.test, scene.packing);
   scene.sizes = size_classes(scene.packing.radii);
   return scene;
 }

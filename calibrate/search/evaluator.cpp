@@ -207,7 +207,9 @@ std::vector<Response> SimulationObjective::earlier() const {
 void SimulationObjective::run(Task& task) {
   if (stop_requested()) return;
   RunOptions options = options_.run;
-  if (!options.own_fill) options.packing = packing(task.index, task.evaluation.packing);
+  const auto& values = task.evaluation.values;
+  const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
+  if (!options.own_fill) options.packing = packing(task.index, test);
   if (stop_requested()) return;
   options.steps.ledger = options.steps.ledger && !task.tried;
   options.window = task.window;
@@ -220,8 +222,6 @@ void SimulationObjective::run(Task& task) {
     by_user = by_user || stop_requested();
     return !by_user && seconds_since(start) < options_.wall_limit_s;
   };
-  const auto& values = task.evaluation.values;
-  const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
   auto outcome = options_.simulator.run(test, options);
   if (by_user) return;
 
@@ -256,25 +256,24 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
   if (options_.observer) options_.observer(counts_);
 }
 
-std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t test, std::uint64_t seed) {
+std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const SlumpTable& test) {
   std::promise<std::shared_ptr<const Packing>> promise;
   std::shared_future<std::shared_ptr<const Packing>> future;
   bool ours = false;
   {
     const std::lock_guard lock(mutex_);
-    const auto [entry, added] = packings_.try_emplace({test, seed});
+    const auto [entry, added] = packings_.try_emplace({index, test.packing_seed, filling_of(test)});
     if (added) entry->second = promise.get_future().share();
     future = entry->second;
     ours = added;
   }
   if (ours) {
     try {
-      // Not filled as the candidate at hand would be: whoever asks first must not matter.
       const auto start = Clock::now();
       RunOptions options = options_.run;
       options.watch_interval_s = kWatchInterval;
       options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
-      promise.set_value(options_.simulator.fill(filled_test(study_, test, seed), options));
+      promise.set_value(options_.simulator.fill(test, options));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <unordered_set>
+#include <tuple>
 #include <vector>
 
 #include "calibrate/search/objective.h"
@@ -17,6 +18,7 @@
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
+#include "core/rigs/packing.h"
 #include "core/simulate.h"
 
 namespace pastefit {
@@ -122,7 +124,8 @@ class SimulationObjective : public Objective {
                                      bool tried);
   void run(Task& task);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
-  std::shared_ptr<const Packing> packing(std::size_t test, std::uint64_t seed);
+  /// The packing that all candidates with this filling of the study's test share.
+  std::shared_ptr<const Packing> packing(std::size_t index, const SlumpTable& test);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
   /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
   double certain_miss(const Response& response, std::size_t reading) const;
@@ -144,7 +147,8 @@ class SimulationObjective : public Objective {
   std::atomic<bool> closing_ = false;
 
   mutable std::mutex mutex_;  // guards what follows
-  std::map<std::pair<std::size_t, std::uint64_t>, std::shared_future<std::shared_ptr<const Packing>>> packings_;
+  std::map<std::tuple<std::size_t, std::uint64_t, Filling>, std::shared_future<std::shared_ptr<const Packing>>>
+      packings_;
   std::unordered_set<std::string> counted_;
   EvaluationCounts counts_;
   Faults store_faults_;

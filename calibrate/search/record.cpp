@@ -46,16 +46,9 @@ std::optional<std::vector<double>> point_of(const Study& study, std::span<const 
 
 }  // namespace
 
-SlumpTable filled_test(const Study& study, std::size_t test, std::uint64_t packing) {
-  const UnitPoint middle = UnitPoint::Constant(free_count(study), 0.5);
-  return test_with(study.tests.at(test).lab.test, values_at(study, middle), packing);
-}
-
 std::string key_of(const Study& study, std::size_t test, std::span<const double> values, std::uint64_t packing,
                    std::string_view program) {
-  const ContactModel fill = filled_test(study, test, packing).contact;
-  return evaluation_key(program, test_with(study.tests.at(test).lab.test, values, packing), fill.youngs_modulus_pa,
-                        fill.poissons_ratio);
+  return evaluation_key(program, test_with(study.tests.at(test).lab.test, values, packing));
 }
 
 std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation) {

@@ -14,9 +14,6 @@ namespace pastefit {
 
 // Between a study's candidates and the store's evaluations: one evaluation is a candidate in one test on one packing.
 
-/// How the mould of a test is filled: with the stiffness in the middle of the bounds, whatever candidate runs in it.
-SlumpTable filled_test(const Study& study, std::size_t test, std::uint64_t packing);
-
 /// The store's name of a candidate (values of all parameters) in one test on one packing.
 std::string key_of(const Study& study, std::size_t test, std::span<const double> values, std::uint64_t packing,
                    std::string_view program);

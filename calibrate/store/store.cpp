@@ -107,9 +107,8 @@ StoredEvaluation evaluation_of(const Row& row) {
 
 }  // namespace
 
-std::string evaluation_key(std::string_view program, const SlumpTable& test, double filled_youngs_modulus_pa,
-                           double filled_poissons_ratio) {
-  const nlohmann::json key{program, to_json(test), filled_youngs_modulus_pa, filled_poissons_ratio};
+std::string evaluation_key(std::string_view program, const SlumpTable& test) {
+  const nlohmann::json key{program, to_json(test)};
   return content_hash(key.dump());
 }
 

@@ -32,12 +32,11 @@ struct StoredEvaluation {
   double wall_s = 0;  ///< time the simulation took
 };
 
-/// Name of an evaluation: 64-bit FNV-1a over the program, the exact bits of the whole test (its packing seed included)
-/// and the stiffness with which its mould was filled, as 16 hexadecimal digits. Two evaluations with the same key are
-/// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured, the bounds
-/// and the budget are not in it: an evaluation outlives a change of these.
-std::string evaluation_key(std::string_view program, const SlumpTable& test, double filled_youngs_modulus_pa,
-                           double filled_poissons_ratio);
+/// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of the whole test (its packing seed
+/// included), as 16 hexadecimal digits. Two evaluations with the same key are
+/// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured
+/// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation outlives a change of these.
+std::string evaluation_key(std::string_view program, const SlumpTable& test);
 
 /// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.
 /// Each evaluation is one transaction: after `add` has returned, it survives the death of the process and of the

@@ -138,6 +138,38 @@ bool ObjectReader::numbers(std::string_view key, std::vector<double>& target, co
   return good;
 }
 
+bool ObjectReader::pairs(std::string_view key, std::vector<std::array<double, 2>>& target, const Range& first,
+                         const Range& second, Need need, std::size_t least) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  if (!value->is_array() || value->size() < least) {
+    fault(key, "is " + (value->is_array() ? "a list of " + std::to_string(value->size()) : text_of(*value)),
+          "a list of at least " + std::to_string(least) + " pairs of numbers");
+    return false;
+  }
+  bool good = true;
+  std::vector<std::array<double, 2>> read;
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const std::string entry = "[" + std::to_string(i) + "]";
+    const json& pair = (*value)[i];
+    if (!pair.is_array() || pair.size() != 2) {
+      fault(std::string(key) + entry, "is " + text_of(pair), "a pair of numbers");
+      good = false;
+      continue;
+    }
+    const bool both = check_number(place(key) + entry + "[0]", pair[0], first) &
+                      check_number(place(key) + entry + "[1]", pair[1], second);
+    good = good && both;
+    if (!both) continue;
+    read.push_back(pair.get<std::array<double, 2>>());
+    if (read.size() < 2 || read[read.size() - 2][0] < read.back()[0]) continue;
+    fault(std::string(key) + entry, "does not lie beyond the one before it", "points in the order of their first number");
+    good = false;
+  }
+  if (good) target = std::move(read);
+  return good;
+}
+
 bool ObjectReader::integers(std::string_view key, std::vector<std::uint64_t>& target, Need need) {
   const json* value = find(key, need);
   if (!value) return false;

@@ -68,6 +68,9 @@ class ObjectReader {
   /// A list of at least `least` numbers and, if `most` is not 0, at most that many.
   bool numbers(std::string_view key, std::vector<double>& target, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
+  /// A list of at least `least` pairs of numbers [first, second], the first ones ascending.
+  bool pairs(std::string_view key, std::vector<std::array<double, 2>>& target, const Range& first, const Range& second,
+             Need need, std::size_t least);
   /// A list of whole numbers from 0, exact up to 64 bits (seeds).
   bool integers(std::string_view key, std::vector<std::uint64_t>& target, Need need);
   template <class T, std::size_t N>

@@ -10,16 +10,23 @@ namespace {
 
 using enum ReadingKind;
 
-constexpr std::array<ReadingKey, 11> keys{{
+constexpr std::array<ReadingKey, 19> keys{{
     {"fill.mass_kg", "fill.mass_kg", mass},
     {"step1.height_mm", "step1.height_mm", height},
     {"step1.slump_mm", "step1.height_mm", slump},
     {"step1.height_max_mm", "step1.height_max_mm", height},
+    {"step1.height_axis_mm", "step1.height_axis_mm", height},
+    {"step1.lateral_shift_mm", "step1.lateral_shift_mm", shift},
     {"step1.spread_mm", "step1.spread_mm", spread},
+    {"step1.spread_orthogonal_mm", "step1.spread_orthogonal_mm", spread},
+    {"step1.profile", "step1.profile_mm", profile},
     {"step2.height_mm", "step2.height_mm", height, true},
     {"step2.slump_mm", "step2.height_mm", slump, true},
     {"step2.height_max_mm", "step2.height_max_mm", height, true},
+    {"step2.height_axis_mm", "step2.height_axis_mm", height, true},
     {"step2.spread_mm", "step2.spread_mm", spread, true},
+    {"step2.spread_orthogonal_mm", "step2.spread_orthogonal_mm", spread, true},
+    {"step2.profile", "step2.profile_mm", profile, true},
     {"step2.plateau_sag_mm", "step2.plateau_sag_mm", plateau_sag, true},
     {"step2.plateau_width_mm", "step2.plateau_width_mm", plateau_width, true},
 }};
@@ -38,6 +45,9 @@ Range range_of(ReadingKind kind, const SlumpTable& test) {
       return {-room * mould_mm, mould_mm};
     case spread:
       return {(1 - room) * base_mm, std::max(table_mm, base_mm)};
+    case shift:
+    case profile:
+      return {0, table_mm};
     case plateau_sag:
       return {-mould_mm, mould_mm};
     case plateau_width:
@@ -80,14 +90,30 @@ void read_one(ObjectReader& reader, const ReadingKey& key, const Range& range, M
                  advice_on_deviation(key.kind));
 }
 
+/// A heap seen from the side; its reading is the difference from it.
+void read_profile(ObjectReader& reader, SlumpTable& test, bool second_step, Measurement& measurement) {
+  const double half_table_mm = 500 * test.table_length_m;
+  std::vector<OutlinePoint> points;
+  constexpr std::size_t kFewest = 5;
+  if (reader.pairs("points", points, {-half_table_mm, half_table_mm}, range_of(height, test), Need::required, kFewest))
+    for (auto& [x, z] : points) {
+      x *= 1e-3;
+      z *= 1e-3;
+    }
+  (second_step ? test.reading.outline_step2 : test.reading.outline_step1) = std::move(points);
+  reader.number("standard_deviation", measurement.standard_deviation, {0, 10000, true}, Need::required);
+}
+
 /// Readings of one heap, or of one before and after the drop, whose order no heap turns round.
 struct Order {
   std::string_view smaller, larger;
   const char* why;
 };
-constexpr std::array<Order, 5> orders{{
+constexpr std::array<Order, 7> orders{{
     {"step1.height_mm", "step1.height_max_mm", "the highest point of a heap is not below its height"},
     {"step2.height_mm", "step2.height_max_mm", "the highest point of a heap is not below its height"},
+    {"step1.height_axis_mm", "step1.height_max_mm", "the highest point of a heap is not below its height"},
+    {"step2.height_axis_mm", "step2.height_max_mm", "the highest point of a heap is not below its height"},
     {"step2.height_mm", "step1.height_mm", "a drop does not raise a heap"},
     {"step2.height_max_mm", "step1.height_max_mm", "a drop does not raise a heap"},
     {"step1.spread_mm", "step2.spread_mm", "a drop does not draw a heap together"},
@@ -114,7 +140,7 @@ std::span<const ReadingKey> reading_keys() {
   return keys;
 }
 
-std::vector<Measurement> read_measurements(ObjectReader& document, const SlumpTable& test) {
+std::vector<Measurement> read_measurements(ObjectReader& document, SlumpTable& test) {
   std::vector<Measurement> measurements;
   document.object("measurements", Need::required, [&](ObjectReader& reader) {
     bool any = false;
@@ -127,8 +153,13 @@ std::vector<Measurement> read_measurements(ObjectReader& document, const SlumpTa
       }
       Measurement measurement;
       measurement.observable = key.observable;
-      if (!reader.object(key.key, Need::optional,
-                         [&](ObjectReader& one) { read_one(one, key, range_of(key.kind, test), measurement); }))
+      const auto read = [&](ObjectReader& one) {
+        if (key.kind == profile)
+          read_profile(one, test, key.second_step, measurement);
+        else
+          read_one(one, key, range_of(key.kind, test), measurement);
+      };
+      if (!reader.object(key.key, Need::optional, read))
         continue;
       if (!measurements.empty() && measurements.back().observable == key.observable)
         reader.fault(key.key, "slump and height of one heap are one reading", "give one of them");

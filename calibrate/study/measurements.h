@@ -11,7 +11,7 @@
 namespace pastefit {
 
 /// What a reading is, which decides what values it can have.
-enum class ReadingKind { height, slump, spread, plateau_sag, plateau_width, mass };
+enum class ReadingKind { height, slump, spread, shift, profile, plateau_sag, plateau_width, mass };
 
 /// A key of "measurements" in a laboratory file.
 struct ReadingKey {
@@ -30,6 +30,8 @@ std::span<const ReadingKey> reading_keys();
 /// Faults: readings that contradict each other beyond their deviations (a heap that is higher after the drop), a
 /// reading the apparatus cannot give, a value the test cannot have, the same reading twice, no spread of repeats and no
 /// standard deviation, no reading at all.
-std::vector<Measurement> read_measurements(ObjectReader& document, const SlumpTable& test);
+/// A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"}, becomes the outline of `test`, and its reading is
+/// the root mean square difference from it, measured as 0.
+std::vector<Measurement> read_measurements(ObjectReader& document, SlumpTable& test);
 
 }  // namespace pastefit

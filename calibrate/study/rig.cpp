@@ -63,6 +63,7 @@ void read_dimensions(ObjectReader& apparatus, SlumpTable& test, Need need) {
   apparatus.object("reading", need, [&](ObjectReader& reading) {
     reading.choice("height", test.reading.height, height_readings, need);
     reading.number("probe_diameter_mm", test.reading.probe_diameter_m, {0, 1000, true}, Need::optional, mm);
+    reading.number("sag_window_mm", test.reading.sag_window_m, {0, 1000, true}, Need::optional, mm);
   });
 }
 
@@ -150,6 +151,7 @@ Faults validate_in_file_words(const SlumpTable& test) {
       {"drop.lift_height_m", "apparatus.drop_plate.lift_height_mm"},
       {"drop", "apparatus.drop_plate"},
       {"reading.probe_diameter_m", "apparatus.reading.probe_diameter_mm"},
+      {"reading.sag_window_m", "apparatus.reading.sag_window_mm"},
       {"bulk_density_kg_m3", "material.bulk_density_kg_m3"},
       {"grains.radius_m", "grains.radius_mm"},
       {"grains.standard_deviation_m", "grains.standard_deviation_mm"},

@@ -21,6 +21,10 @@ class ObjectWriter {
     object_[key] = value ? json(*value) : json();
   }
   void integer(const char* key, std::uint64_t value, Need) { object_[key] = value; }
+  void pairs(const char* key, const std::vector<std::array<double, 2>>& value, const Range&, const Range&, Need,
+             std::size_t) {
+    if (!value.empty()) object_[key] = value;
+  }
   template <class T, std::size_t N>
   void choice(const char* key, T value, const std::array<Named<T>, N>& words, Need) {
     for (const Named<T>& word : words)
@@ -107,6 +111,9 @@ void describe_test(Fields& fields, Test& test) {
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
     reading.number("probe_diameter_m", test.reading.probe_diameter_m, any, required);
+    reading.number("sag_window_m", test.reading.sag_window_m, any, Need::optional);
+    reading.pairs("outline_step1_m", test.reading.outline_step1, any, any, Need::optional, 0);
+    reading.pairs("outline_step2_m", test.reading.outline_step2, any, any, Need::optional, 0);
   });
   fields.number("bulk_density_kg_m3", test.bulk_density_kg_m3, any, required);
   fields.object("grains", required, [&](auto& grains) { describe_grains(grains, test.grains); });

@@ -121,10 +121,26 @@ void check_touch(ObjectReader& document, const Study& study) {
                  "a lower bound (or value) above 0; half the rupture_gap_ratio leaves that gap as it is");
 }
 
-/// The study's test at the centre and at two opposite corners of its bounds: every point must be fit to run.
+/// The point of the bounds' cube where everything free is at its upper bound, but the stiffness at its lower one: the
+/// grains that are pressed into each other most.
+Eigen::VectorXd most_squeezed(const Study& study) {
+  Eigen::VectorXd point = Eigen::VectorXd::Ones(free_count(study));
+  Eigen::Index coordinate = 0;
+  for (const Parameter& parameter : study.parameters) {
+    if (!parameter.free) continue;
+    if (parameter.name == "youngs_modulus_pa") point[coordinate] = 0;
+    ++coordinate;
+  }
+  return point;
+}
+
+/// The study's test at the centre and at corners of its bounds: every point must be fit to run.
 Faults validate_points(const Study& study) {
-  for (const double unit : {0.5, 0.0, 1.0}) {
-    const std::vector<double> values = values_at(study, Eigen::VectorXd::Constant(free_count(study), unit));
+  const Eigen::Index free = free_count(study);
+  using Point = Eigen::VectorXd;
+  for (const Point& point :
+       {Point(Point::Constant(free, 0.5)), Point(Point::Zero(free)), Point(Point::Ones(free)), most_squeezed(study)}) {
+    const std::vector<double> values = values_at(study, point);
     for (const StudyTest& test : study.tests)
       if (Faults faults = validate_in_file_words(test_with(test.lab.test, values, 1)); !faults.empty()) return faults;
   }

@@ -72,14 +72,14 @@ double plateau_width(const Outline& outline) {
 
 double rms_difference(const Outline& outline, const std::vector<OutlinePoint>& measured) {
   constexpr int kPoints = 500;  // a millimetre on a wide heap; both curves are straight between points
-  const double from = measured.front().x_m, width = measured.back().x_m - from;
+  const double from = measured.front()[0], width = measured.back()[0] - from;
   double squares = 0;
   std::size_t k = 0;
   for (int n = 0; n < kPoints; ++n) {
     const double x = from + width * (n + 0.5) / kPoints;
-    while (k + 2 < measured.size() && measured[k + 1].x_m <= x) ++k;
+    while (k + 2 < measured.size() && measured[k + 1][0] <= x) ++k;
     const OutlinePoint &a = measured[k], &b = measured[k + 1];
-    const double z = a.z_m + (b.z_m - a.z_m) * (x - a.x_m) / (b.x_m - a.x_m);
+    const double z = a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
     const double difference = outline.at(x) - z;
     squares += difference * difference / kPoints;
   }

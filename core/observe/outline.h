@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/world/particles.h"
@@ -19,10 +20,8 @@ Outline outline(const Particles& particles, double mean_radius);
 /// Length of the part about x = 0 that stands at 0.8 of the height there or more [m].
 double plateau_width(const Outline& outline);
 
-/// A point of a measured outline.
-struct OutlinePoint {
-  double x_m = 0, z_m = 0;
-};
+/// A point of a measured outline: x and z [m].
+using OutlinePoint = std::array<double, 2>;
 
 /// Root mean square difference in height between an outline and a measured one, over the measured width [m].
 /// Requirement: at least two points, x ascending; straight between them.

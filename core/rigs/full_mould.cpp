@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "core/observe/heap.h"
 #include "core/rigs/packing.h"
 #include "core/step/runner.h"
 
@@ -13,11 +15,11 @@ constexpr double kCap = 0.6;    // [s] for the column to come to rest
 constexpr double kLook = 0.02;  // [s] between two changes of size
 // [1/s]. The grains feel their cohesion all at once; without drag the column would swing like a jelly for seconds.
 constexpr double kDrag = 40;
+constexpr double kShare = 0.5;        // of the missing size that is made up for at once
 constexpr double kMostGrowth = 2e-3;  // in one look
-constexpr double kShare = 0.35;       // of the growth that would bring the lid's pressure to what it should be at once
-constexpr double kEven = 2e-4;        // growth below which the column fits
+constexpr double kEven = 2e-4;        // missing size with which the column fits: 0.06 % of the volume
 
-World world_under_lid(const SlumpTable& test, const Packing& packing) {
+World world_in_mould(const SlumpTable& test, const Packing& packing) {
   World world;
   world.particles = make_particles(packing.centres, packing.radii, grain_density(test, packing));
   set_contact_model(world, test.contact, test.grains.radius_m);
@@ -29,22 +31,10 @@ World world_under_lid(const SlumpTable& test, const Packing& packing) {
     world.walls.push_back(wall);
   };
   const Mould& mould = test.mould;
-  WallContact smooth = test.mould_wall;
-  smooth.friction = smooth.rolling_friction = smooth.cohesion_factor = 0;
   add("table", Plane{}, test.table_wall);
   add("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test.mould_wall);
-  add("lid", Plane{{0, 0, mould.height_m}, {0, 0, -1}}, smooth);
   world.drag = kDrag;
   return world;
-}
-
-/// Bulk modulus of touching grains whose overlap is `strain` of their diameter [Pa]: mean-field estimate
-/// K = phi Z k/(12 pi R) with S_n = k and six neighbours.
-double bulk_modulus(const World& world, double solid_fraction, double strain) {
-  constexpr double kNeighbours = 6;
-  const double radius = world.reference_radius;
-  const double stiffness = world.grain_pair.normal_stiffness * std::sqrt(0.5 * radius * 2 * radius * strain);
-  return solid_fraction * kNeighbours * stiffness / (12 * std::numbers::pi * radius);
 }
 
 void enlarge(Particles& grains, double k) {
@@ -56,33 +46,46 @@ void enlarge(Particles& grains, double k) {
 
 }  // namespace
 
+Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
+  // Fields of the mould's side that are wide enough for one grain to touch it.
+  const double field = 4 * radius;
+  const int layers = std::max(1, static_cast<int>(mould.height_m / field));
+  const int sectors = std::max(6, static_cast<int>(2 * std::numbers::pi * mould.top_radius_m / field));
+  const double slope = (mould.base_radius_m - mould.top_radius_m) / mould.height_m;
+  std::vector<double> nearest(static_cast<std::size_t>(layers) * sectors, radius);
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    const Vec3& p = grains.motion[i].position;
+    const double room = mould.base_radius_m - slope * p.z - std::hypot(p.x, p.y);
+    const double turn = 0.5 + std::atan2(p.y, p.x) / (2 * std::numbers::pi);
+    const int layer = std::clamp(static_cast<int>(p.z / mould.height_m * layers), 0, layers - 1);
+    double& gap = nearest[layer * sectors + static_cast<int>(turn * sectors) % sectors];
+    gap = std::min(gap, room / std::hypot(1.0, slope) - grains.motion[i].radius);
+  }
+  const Disc top{0, 0, 2 * (mould.top_radius_m - radius)};
+  return {mould.height_m - mean_height(grains, radius, top),
+          std::accumulate(nearest.begin(), nearest.end(), 0.0) / static_cast<double>(nearest.size())};
+}
+
 Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& asked) {
   RunOptions options = asked;
   options.steps.ledger = options.steps.sleep = false;  // the column is worked on from outside
   options.steps.fixed_step_s.reset();                  // meant for the test
-  World world = world_under_lid(test, packing);
+  World world = world_in_mould(test, packing);
   Runner runner(world, options);
   Packing full = packing;
-
-  const double weight_of_a_layer = test.bulk_density_kg_m3 * kGravity * test.grains.radius_m;  // per area
-  const double lid_area = std::numbers::pi * test.mould.top_radius_m * test.mould.top_radius_m;
-  // Where nothing attracts, the weight of a column of sand still presses soft grains together by a percent or two.
-  constexpr double kLeastStrain = 0.015;
-  const double modulus = bulk_modulus(world, packing.solid_volume_m3 / volume_m3(test.mould),
-                                      std::max(squeeze(test.contact, test.grains.radius_m), kLeastStrain));
+  const Mould& mould = test.mould;
+  const double width = mould.base_radius_m + mould.top_radius_m;
   double size = 1;
   int even = 0;  // looks in a row
   for (double waited = 0; waited < kCap && even < 2; waited += kLook) {
-    double force = 0;
-    int steps = 0;
-    full.failure = runner.run("fill.settle", kLook, [&](World& now, double) {
-      force += now.walls.back().force.z;
-      ++steps;
-    });
+    full.failure = runner.run("fill.settle", kLook);
     if (full.failure) break;
-    const double missing = weight_of_a_layer - force / steps / lid_area;
-    const double growth = std::clamp(kShare * missing / (3 * modulus), -kMostGrowth, kMostGrowth);
-    even = std::fabs(growth) < kEven ? even + 1 : 0;
+    const Fit fit = fit_of(mould, world.particles, test.grains.radius_m * size);
+    const double missing_height = (fit.roughness_m - packing.roughness_m) / mould.height_m;
+    const double missing_width = 2 * (fit.gap_m - packing.gap_m) / width;
+    const double missing = (missing_height + 2 * missing_width) / 3;
+    even = std::fabs(missing) < kEven ? even + 1 : 0;
+    const double growth = std::clamp(kShare * missing, -kMostGrowth, kMostGrowth);
     enlarge(world.particles, 1 + growth);
     runner.changed();
     size *= 1 + growth;

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/laws/constants.h"
-#include "core/observe/heap.h"
 #include "core/random.h"
 #include "core/rigs/waiting.h"
 
@@ -25,6 +24,7 @@ constexpr double kEmptiest = 0.45;        // solid fraction below which the fill
 // Frictions and steps of squeeze that packings are poured at; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
 constexpr double kSqueezeStep = 0.005;
+constexpr double kModuliPerOctave = 2;
 // [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
 // hard that the column rises by 1 % when it is taken off.
 constexpr double kScrape = 0.7;
@@ -82,8 +82,8 @@ void pour(const SlumpTable& test, Packing& packing) {
 ContactModel filling_model(const SlumpTable& test, const RunOptions& options) {
   if (options.own_fill) return test.contact;
   ContactModel model;
-  model.youngs_modulus_pa = test.contact.youngs_modulus_pa;
-  model.poissons_ratio = test.contact.poissons_ratio;
+  model.youngs_modulus_pa = filling_of(test).youngs_modulus_pa;
+  model.poissons_ratio = 0.3;
   model.restitution = 0.2;
   model.friction = filling_of(test).friction;
   model.rolling = RollingModel::none;
@@ -228,6 +228,8 @@ Filling filling_of(const SlumpTable& test) {
   Filling filling;
   for (const double friction : kFrictions)
     if (friction <= test.contact.friction) filling.friction = friction;
+  filling.youngs_modulus_pa =
+      std::exp2(std::round(kModuliPerOctave * std::log2(test.contact.youngs_modulus_pa)) / kModuliPerOctave);
   filling.squeeze = kSqueezeStep * std::round(squeeze(test.contact, test.grains.radius_m) / kSqueezeStep);
   return filling;
 }
@@ -254,8 +256,9 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptio
                                fraction,
                                kEmptiest,
                                "the grains bridge in the mould and leave it partly empty; take smaller grains"};
-  packing->roughness_m = test.mould.height_m - mean_height(make_particles(packing->centres, packing->radii, 1), poured.grains.radius_m,
-                            {0, 0, 2 * (test.mould.top_radius_m - test.grains.radius_m)});
+  const Fit fit = fit_of(test.mould, make_particles(packing->centres, packing->radii, 1), poured.grains.radius_m);
+  packing->roughness_m = fit.roughness_m;
+  packing->gap_m = fit.gap_m;
   for (double& r : packing->radii) r *= swelling;
   packing->solid_volume_m3 *= swelling * swelling * swelling;
   return packing;

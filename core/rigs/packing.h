@@ -16,7 +16,8 @@ struct Packing {
   std::vector<Vec3> centres;
   std::vector<double> radii;
   double solid_volume_m3 = 0;  ///< of the grains
-  double roughness_m = 0;      ///< rim less the mean of the closed surface between the tops of grains, as struck off
+  double roughness_m = 0;      ///< as struck off: rim less the mean of the closed surface between the tops of grains
+  double gap_m = 0;            ///< as struck off: between the mould's side and the grains nearest to it, on average
   RunSummary run;
   std::optional<Failure> failure;
 };
@@ -28,16 +29,23 @@ struct Packing {
 /// from the mould when it acts. So smaller grains are poured, by one plus `squeeze`: where they touch, the candidate's
 /// own grains overlap as much as they will.
 struct Filling {
-  double friction = 0;  ///< while it is poured: the candidate's, rounded down, since a looser fill would sink
-  double squeeze = 0;   ///< rounded
+  double friction = 0;           ///< while it is poured: the candidate's, rounded down, since a looser fill would sink
+  double squeeze = 0;            ///< rounded
+  double youngs_modulus_pa = 0;  ///< rounded to half an octave
   auto operator<=>(const Filling&) const = default;
 };
 Filling filling_of(const SlumpTable& test);
 
-/// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. A lid lies on it with
-/// the weight of one layer of grains, and all lengths of the column are enlarged (or reduced) until it fills the mould
-/// below that, by 1 % at most as seen; its mass is the laboratory's. `run` counts this part only.
+/// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. All lengths of the
+/// column are enlarged (or reduced) until it fills the mould as the packing did, as high and as near to its side: by 2 %
+/// at most as seen. Its mass is the laboratory's. `run` counts this part only.
 Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& options = {});
+
+/// How a column of grains of this mean radius fills a mould.
+struct Fit {
+  double roughness_m = 0, gap_m = 0;  ///< as in `Packing`
+};
+Fit fit_of(const Mould& mould, const Particles& grains, double mean_radius);
 
 /// Density at which the packing's grains have the mass that the laboratory's material has in the mould [kg/m^3].
 double grain_density(const SlumpTable& test, const Packing& packing);

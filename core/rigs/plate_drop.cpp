@@ -17,8 +17,10 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 /// One fall of the plate under a heap.
 class Drop {
  public:
-  Drop(const SlumpTable& test, World world, const RunOptions& options)
-      : test_(test), options_(options), world_(std::move(world)), runner_(world_, options), table_(world_.walls[0]) {}
+  Drop(const SlumpTable& test, World world, const Ledger& before, const RunOptions& options)
+      : test_(test), options_(options), world_(std::move(world)), runner_(world_, options), table_(world_.walls[0]) {
+    runner_.follow(before);
+  }
 
   std::optional<Failure> run() {
     if (auto problem = turn_plate_up()) return problem;
@@ -92,12 +94,13 @@ Plate level_table(const SlumpTable& test) {
   return plate;
 }
 
-Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& ruler, const RunOptions& options) {
+Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& ruler, const Ledger& before,
+                   const RunOptions& options) {
   Outcome mean;
   mean.run.settled = true;
   World world = rested;
   for (int side = 0; side < kSides; ++side) {
-    Drop drop(test, world, options);
+    Drop drop(test, world, before, options);
     mean.failure = drop.run();
     const RunSummary& run = drop.summary();
     mean.run.steps += run.steps;

@@ -2,6 +2,7 @@
 
 #include "core/rigs/ruler.h"
 #include "core/simulate.h"
+#include "core/step/ledger.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -12,7 +13,9 @@ namespace pastefit {
 /// after step 2. So the heap is dropped twice, with the hinge on one side and on the opposite one, and readings are
 /// means: the tilt goes out of the sag whatever share of it is left, and the sag's noise falls to a third.
 /// `world`: the heap at rest, the plate as its wall `table`. `ruler`: that of its step 1.
-Outcome drop_plate(const SlumpTable& test, const World& world, const Ruler& ruler, const RunOptions& options);
+/// `before`: the ledger of step 1, which the drops go on with.
+Outcome drop_plate(const SlumpTable& test, const World& world, const Ruler& ruler, const Ledger& before,
+                   const RunOptions& options);
 
 /// The plate (or table) level.
 Plate level_table(const SlumpTable& test);

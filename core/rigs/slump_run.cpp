@@ -49,6 +49,7 @@ class MouldLift {
 
   const World& world() const { return world_; }
   const Ruler& ruler() const { return ruler_; }
+  const Ledger& ledger() const { return runner_.ledger(); }
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
@@ -145,8 +146,7 @@ RunSummary together(RunSummary lift, const RunSummary& drops) {
   lift.time_step_s = lift.simulated_s / steps;
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);
   lift.settled = lift.settled && drops.settled;
-  if (drops.energy_error && std::fabs(*drops.energy_error) > std::fabs(*lift.energy_error))
-    lift.energy_error = drops.energy_error;
+  lift.energy_error = drops.energy_error;
   add_work(lift, drops);
   return lift;
 }
@@ -175,7 +175,7 @@ Outcome simulate(const SlumpTable& test, const RunOptions& options) {
     ended_early = lift.is_unwanted(outcome.observables);
   }
   if (test.drop && !outcome.failure && !ended_early) {
-    const Outcome drops = drop_plate(test, lift.world(), lift.ruler(), options);
+    const Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.ledger(), options);
     outcome.failure = drops.failure;
     outcome.run = together(outcome.run, drops.run);
     for (const Observable& reading : drops.observables.all()) outcome.observables.set(reading.name, reading.value);

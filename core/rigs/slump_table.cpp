@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/laws/constants.h"
+
 namespace pastefit {
 
 namespace {
@@ -106,6 +108,7 @@ Faults validate(const SlumpTable& test) {
   check.range("lift_velocity_m_s", test.lift_velocity_m_s, 1e-3, 10, "m/s");
   check.range("table_length_m", test.table_length_m, 2 * mould.base_radius_m, 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * mould.base_radius_m, "m");
+  check.range("reading.sag_window_m", test.reading.sag_window_m, 4 * radius, test.table_length_m, "m");
   check.range("bulk_density_kg_m3", test.bulk_density_kg_m3, 100, 20000, "kg/m^3");
   if (test.drop) {
     check.range("drop.length_m", test.drop->length_m, 2 * mould.base_radius_m, 10, "m");
@@ -122,6 +125,17 @@ Faults validate(const SlumpTable& test) {
   check.range("contact.rolling_friction", contact.rolling_friction, 0, 10, "");
   if (contact.cohesion_n) check.range("contact.cohesion_n", *contact.cohesion_n, 0, 1e9, "N");
   check_bridge(check, contact.bridge, radius);
+  if (contact.youngs_modulus_pa > 0 && contact.poissons_ratio < 1 && radius > 0) {
+    // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
+    constexpr double kMostSqueezed = 0.1;
+    const double squeezed = squeeze(contact, radius);
+    check.require(!(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
+                  "is " + Checker::text(contact.youngs_modulus_pa) + " Pa: attraction presses the grains into each other by " +
+                      Checker::text(100 * squeezed) + " % of their diameter",
+                  "give at least " +
+                      Checker::text(contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5)) +
+                      " Pa, or less strength: 10 % is the most that is carried");
+  }
   check_wall(check, test.mould_wall, "mould_wall");
   check_wall(check, test.table_wall, "table_wall");
   return check.take();

@@ -14,6 +14,8 @@ struct Ledger {
   double start_height = 0;
   double start_kinetic = 0;
   double start_elastic = 0;  ///< in overlaps at the first look
+  double earlier_error = 0;  ///< of the run that led to the world this one started from
+  double earlier_put_in = 0;
 
   double heat_normal = 0;   ///< damping along the normal
   double heat_sliding = 0;  ///< friction and tangential damping
@@ -26,11 +28,11 @@ struct Ledger {
 
   double mechanical() const { return kinetic + stored + height; }
   double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag + heat_sleep; }
-  double error() const { return mechanical() + heat() - start - work_of_walls; }
+  double error() const { return mechanical() + heat() - start - work_of_walls + earlier_error; }
   /// What drove the run: fall, walls, speed and overlaps at the start, and attraction set free by bridges.
   double put_in() const {
     const double fall = start_height > height ? start_height - height : 0;
-    return fall + effort_of_walls + start_kinetic + start_elastic + heat_bridges;
+    return fall + effort_of_walls + start_kinetic + start_elastic + heat_bridges + earlier_put_in;
   }
 };
 

@@ -38,6 +38,8 @@ class Runner {
 
   const RunSummary& summary();
   const Ledger& ledger() const { return stepper_.ledger(); }
+  /// The run goes on from where another one ended, whose ledger this is.
+  void follow(const Ledger& before) { stepper_.follow(before); }
 
  private:
   struct Wait {

@@ -298,8 +298,14 @@ void Stepper::look_at_energy(double dt) {
   looked_ = true;
   ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;
   ledger_.start_height = ledger_.height;
+  if (ledger_.earlier_put_in > 0) return;
   ledger_.start_kinetic = ledger_.kinetic;
   ledger_.start_elastic = elastic_energy(world_);
+}
+
+void Stepper::follow(const Ledger& before) {
+  ledger_.earlier_error = before.error();
+  ledger_.earlier_put_in = before.put_in();
 }
 
 void Stepper::move_block(int b, double dt) {

@@ -37,6 +37,8 @@ class Stepper {
   double smallest_advised_step() const { return time_step_.smallest(); }
   /// As of the last step that was a multiple of `kLedgerInterval`.
   const Ledger& ledger() const { return ledger_; }
+  /// The run goes on from where another one ended, whose ledger this is.
+  void follow(const Ledger& before);
   static constexpr std::int64_t kLedgerInterval = 32;
   /// Grains asleep in the last step.
   std::int64_t sleeping() const { return sleepers_ ? sleepers_->count() : 0; }

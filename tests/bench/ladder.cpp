@@ -161,7 +161,7 @@ Row measure(const Setting& setting, Fills& fills) {
     run.packing_seed = test.packing_seed = static_cast<std::uint64_t>(n) + 1;
     RunOptions options = setting.run;
     if (!options.own_fill) {
-      std::shared_ptr<const Packing>& fill = fills[{setting.radius_m, run.packing_seed}];
+      std::shared_ptr<const Packing>& fill = fills[{setting.radius_m, run.packing_seed, filling_of(test)}];
       if (!fill) fill = fill_mould(test);
       options.packing = fill;
     }

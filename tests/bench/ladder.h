@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/rigs/packing.h"
 #include "core/simulate.h"
 
 namespace pastefit {
@@ -74,8 +76,8 @@ SlumpTable front_scene(const std::string& scene, double radius_m);
 /// All rows to be measured; `quick`: few and coarse, to see that the program works.
 std::vector<Setting> ladders(bool quick);
 
-/// Filled moulds by radius and seed; a shared fill serves dry grains and paste alike.
-using Fills = std::map<std::pair<double, std::uint64_t>, std::shared_ptr<const Packing>>;
+/// Filled moulds by radius, seed and the way they are filled.
+using Fills = std::map<std::tuple<double, std::uint64_t, Filling>, std::shared_ptr<const Packing>>;
 
 /// Runs a setting with its packings. Fills that are missing are made and kept; their time does not count, unless the
 /// setting asks for fills of its own.

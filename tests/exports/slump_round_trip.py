@@ -71,7 +71,7 @@ def theirs(options, file, packing, deck):
         raise SystemExit(run.stdout[-2000:] + run.stderr)
     wall = time.time() - start
     second = [deck / "heap2.dump"] if options.both_steps else []
-    read = subprocess.run([options.read_heap, file, deck / "filled.dump", deck / "heap.dump", *second], check=True,
+    read = subprocess.run([options.read_heap, file, str(packing), deck / "filled.dump", deck / "heap.dump", *second], check=True,
                           capture_output=True, text=True)
     return json.loads(read.stdout), wall
 
@@ -85,6 +85,8 @@ def compare(options, file, title, folder):
         walls.append(wall)
     worst = 0
     for reading in pairs[0][1]:
+        if reading.endswith("spilled_share"):
+            continue
         a, b = [p[0][reading] for p in pairs], [p[1][reading] for p in pairs]
         difference = statistics.mean(b) - statistics.mean(a)
         noise = math.sqrt(max(statistics.variance(a) + statistics.variance(b), 1.0) / len(pairs))

@@ -61,9 +61,10 @@ TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
   }
 }
 
-TEST_CASE("a fill of its own feels the test's own laws; the shared one does not") {
+TEST_CASE("tests with like frictions share a fill; a fill of its own feels the test's own laws") {
   SlumpTable smooth = small_test(0), rough = small_test(0);
-  smooth.contact.friction = 0;
+  smooth.contact.friction = 0.21;
+  rough.contact.friction = 0.29;
   RunOptions own;
   own.own_fill = true;
   const auto height = [](const SlumpTable& test, const RunOptions& options) {
@@ -73,6 +74,7 @@ TEST_CASE("a fill of its own feels the test's own laws; the shared one does not"
   };
   CHECK(height(smooth, {}) == height(rough, {}));
   CHECK(height(smooth, own) != height(rough, own));
+  smooth.contact.friction = 0;
   const double packed = fill_mould(smooth, own)->solid_volume_m3 / fill_mould(rough, own)->solid_volume_m3;
   CHECK(packed > 1.01);
 }
@@ -92,9 +94,10 @@ TEST_CASE("with a fixed wait the phases last as long whatever the heap does") {
   REQUIRE_FALSE(outcome.failure);
   CHECK_FALSE(outcome.run.settled);
   REQUIRE(begun.size() == 3);
-  CHECK(begun[1].second == Approx(0.3).margin(2e-3));
-  CHECK(begun[2].second == Approx(0.3 + 1.0).margin(4e-3));
-  CHECK(outcome.run.simulated_s == Approx(1.6).margin(6e-3));
+  CHECK(begun[0].first == "fill.settle");
+  CHECK(begun[1].second == 0);
+  CHECK(begun[2].second == Approx(1.0).margin(2e-3));
+  CHECK(outcome.run.simulated_s == Approx(1.3).margin(4e-3));
 }
 
 TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lower") {
@@ -157,13 +160,13 @@ TEST_CASE("a mould that starts at full speed from soft grains creates no energy"
   CHECK(outcome.run.energy_error.value() < 2e-3);
 }
 
-TEST_CASE("a heap that has flowed off its table has no height below zero") {
+TEST_CASE("a heap that has flowed off its table has no height below zero, and none at all where nothing is left") {
   SlumpTable test = small_test(0);
   test.contact.friction = test.table_wall.friction = 0.02;
   test.contact.rolling = RollingModel::none;
   test.table_length_m = 0.21;
   RunOptions options;
-  options.rest = {1.0, 1e3, 1e3};  // grains roll on over the ground for ever
+  options.rest = {1.0, 1, 1e3, 1e3};  // grains roll on over the ground for ever
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     test.packing_seed = seed;
     const Outcome outcome = simulate(test, options);
@@ -171,7 +174,7 @@ TEST_CASE("a heap that has flowed off its table has no height below zero") {
     REQUIRE_FALSE(outcome.failure);
     CHECK(outcome.observables.find("step1.spilled_share").value() > 0.5);
     for (const char* reading : {"step1.height_mm", "step1.height_axis_mm", "step1.height_max_mm"})
-      CHECK(outcome.observables.find(reading).value() >= 0);
+      CHECK(outcome.observables.find(reading).value_or(0) >= 0);
   }
 }
 
