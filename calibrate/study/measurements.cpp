@@ -10,7 +10,7 @@ namespace {
 
 using enum ReadingKind;
 
-constexpr std::array<ReadingKey, 19> keys{{
+constexpr std::array<ReadingKey, 18> keys{{
     {"fill.mass_kg", "fill.mass_kg", mass},
     {"step1.height_mm", "step1.height_mm", height},
     {"step1.slump_mm", "step1.height_mm", slump},

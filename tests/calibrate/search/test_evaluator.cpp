@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -36,15 +37,19 @@ TEST_CASE("a candidate answers with the mean over its packings against the labor
   CHECK(objective.budget_left() == 16);
 }
 
-TEST_CASE("the mould is filled once for each packing, however many candidates and threads ask") {
+TEST_CASE("the mould is filled once for each packing and way to fill it, however many candidates and threads ask") {
   Laboratory laboratory;
   auto store = laboratory.store();
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   std::vector<UnitPoint> points;
   for (int i = 0; i < 8; ++i) points.push_back(at(0.1 * i, 0.5));
   (void)objective.evaluate(points, kPackings);
+  std::set<Filling> ways;
+  for (const UnitPoint& point : points)
+    ways.insert(filling_of(test_with(laboratory.study.tests[0].lab.test, values_at(laboratory.study, point), 1)));
   CHECK(laboratory.runs == 16);
-  CHECK(laboratory.fills == 2);
+  CHECK(laboratory.fills == 2 * static_cast<int>(ways.size()));
+  CHECK(ways.size() < points.size());
 }
 
 TEST_CASE("a candidate that is tried out keeps no ledger of energy, one that is evaluated does") {

@@ -301,6 +301,7 @@ TEST_CASE("the hash follows content and preset, not comments and white space") {
 TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
   SlumpTable test;
   test.drop.emplace();
+  test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
   for (const ReadingKey& key : reading_keys())
     CHECK(std::find(names.begin(), names.end(), key.observable) != names.end());
