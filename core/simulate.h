@@ -25,6 +25,7 @@ struct Moment {
   double time_s = 0;
   std::int64_t step = 0;
   const World* world = nullptr;
+  int drop = 0;  ///< which of the drops of one heap it belongs to, from 0
 };
 
 /// Heights after step 1 (`step1.height_mm`) [m] beyond which the rest of a test is of no use to the caller.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -36,20 +37,56 @@ struct SimulateOptions {
 };
 
 const std::string kResult = "outcome.json";
-const std::string kSeries = "grains";
+// ParaView series: the mould being filled, the test, and the second drop of its heap.
+const std::array<std::string, 3> kSeries{"filling", "grains", "grains-second-drop"};
 
-GrainFrame frame_of(const Moment& moment) {
-  GrainFrame frame;
-  frame.time_s = moment.time_s;
-  const auto& particles = moment.world->particles;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const auto& motion = particles.motion[static_cast<std::size_t>(i)];
-    frame.positions_m.push_back(motion.position);
-    frame.velocities_m_s.push_back(motion.velocity);
-    frame.radii_m.push_back(motion.radius);
+/// Pictures of a run, each scene in a series of its own, with one clock that starts at 0 or where the heap was dropped.
+class Pictures {
+ public:
+  explicit Pictures(const std::filesystem::path& folder) {
+    for (const std::string& name : kSeries) scenes_.push_back({VtkSeries(folder, name)});
   }
-  return frame;
-}
+
+  Faults add(const Moment& moment) {
+    Scene& scene = scenes_[moment.phase.starts_with("fill.") ? 0 : moment.drop + 1];
+    // Pouring, striking off and settling are runs of their own.
+    if (moment.time_s < scene.last_s) scene.earlier_s += scene.last_s;
+    scene.last_s = moment.time_s;
+    GrainFrame frame = frame_of(moment);
+    frame.time_s += scene.earlier_s;
+    scene.begun = true;
+    return scene.series.add(frame);
+  }
+
+  std::vector<std::filesystem::path> indices() const {
+    std::vector<std::filesystem::path> files;
+    for (const Scene& scene : scenes_)
+      if (scene.begun) files.push_back(scene.series.index());
+    return files;
+  }
+
+ private:
+  struct Scene {
+    VtkSeries series;
+    double last_s = 0, earlier_s = 0;
+    bool begun = false;
+  };
+
+  static GrainFrame frame_of(const Moment& moment) {
+    GrainFrame frame;
+    frame.time_s = moment.time_s;
+    const auto& particles = moment.world->particles;
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const auto& motion = particles.motion[static_cast<std::size_t>(i)];
+      frame.positions_m.push_back(motion.position);
+      frame.velocities_m_s.push_back(motion.velocity);
+      frame.radii_m.push_back(motion.radius);
+    }
+    return frame;
+  }
+
+  std::vector<Scene> scenes_;
+};
 
 nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
   const auto& run = outcome.run;
@@ -59,7 +96,7 @@ nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
                 {"steps", run.steps},
                 {"time_step_s", run.time_step_s},
                 {"advised_step_s", run.advised_step_s},
-                {"energy_error", run.energy_error.value()},
+                {"energy_error", run.energy_error ? nlohmann::ordered_json(*run.energy_error) : nullptr},
                 {"asleep_share", run.asleep_share},
                 {"simulated_s", run.simulated_s},
                 {"wall_s", wall_s},
@@ -106,13 +143,13 @@ int simulate_file(const SimulateOptions& options) {
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
 
   std::optional<OutputFolder> folder;
-  std::optional<VtkSeries> series;
+  std::optional<Pictures> pictures;
   if (!options.out.empty()) {
-    auto opened = OutputFolder::open(options.out, {kResult, kSeries + ".pvd"},
+    auto opened = OutputFolder::open(options.out, {kResult, kSeries[0] + ".pvd", kSeries[1] + ".pvd", kSeries[2] + ".pvd"},
                                      options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
     if (!opened.ok()) return report(opened.faults());
     folder = std::move(opened).value();
-    if (options.vtk_interval_s) series.emplace(options.out, kSeries);
+    if (options.vtk_interval_s) pictures.emplace(options.out);
   }
 
   if (options.time_step_s && !(*options.time_step_s >= 1e-9 && *options.time_step_s <= 0.01))
@@ -123,10 +160,10 @@ int simulate_file(const SimulateOptions& options) {
   run.steps.threads = options.threads;
   run.steps.sleep = options.sleep;
   Faults unwritten;
-  if (series) {
+  if (pictures) {
     run.watch_interval_s = *options.vtk_interval_s;
     run.watch = [&](const Moment& moment) {
-      if (moment.world) unwritten = series->add(frame_of(moment));
+      if (moment.world) unwritten = pictures->add(moment);
       return unwritten.empty();
     };
   }
@@ -144,7 +181,8 @@ int simulate_file(const SimulateOptions& options) {
     if (const auto faults = write_atomically(folder->file(kResult), text); !faults.empty())
       return report(faults, kFailed);
     if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
-    if (!options.json && series) std::printf("wrote %s\n", series->index().c_str());
+    if (!options.json && pictures)
+      for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
   }
   if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;

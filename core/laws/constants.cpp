@@ -38,6 +38,8 @@ void set_rolling(PairConstants& pair, double rolling_friction) {
   pair.rolling_friction = rolling_friction;
   pair.roll_stiffness_share = 2.25 * rolling_friction * rolling_friction / 0.4;
   pair.roll_damping = 0.6 * std::sqrt(1.4 * 2.25) * rolling_friction;
+  // Of equal grains, R* = r/2, I = 2/5 m r^2.
+  pair.spin_damping = pair.roll_damping / (4 * 0.4) / pair.spin_damping_share;
 }
 
 void set_attraction(PairConstants& pair, const ContactModel& grains, double radius, double share, double shells) {

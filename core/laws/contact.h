@@ -206,6 +206,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   action.push = select(touching, repulsion + damper - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
   action.damping = damping_n;
+  if constexpr (Rolling::present) {
+    if constexpr (Rolling::elastic) action.damping = fused(Real(k.spin_damping), root_impedance, damping_n);
+  }
   action.heat_normal = action.heat_sliding = action.heat_rolling = action.heat_bridge = action.stored = zero;
   if (counted) {
     // The damper of a step works along the mean of the velocities before and after it: half of its work is known now,
@@ -249,7 +252,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
       stiffness_r = Real(2.25) * stiffness_n * lever * lever;
       roll_square = dot(roll, roll);
       moment_square = larger(stiffness_r * stiffness_r * roll_square, floor);
-      action.stiffness = larger(action.stiffness, Real(k.roll_stiffness_share) * stiffness_n);
+      action.stiffness = larger(action.stiffness, fused(Real(kSurfaceLightness), stiffness_t,
+                                                        Real(k.roll_stiffness_share) * stiffness_n));
     } else {
       moment_square = larger(dot(rolling, rolling), floor);
     }

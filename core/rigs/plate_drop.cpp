@@ -25,7 +25,8 @@ class Drop {
   std::optional<Failure> run() {
     if (auto problem = turn_plate_up()) return problem;
     if (auto problem = let_plate_fall()) return problem;
-    return rest("step2.rest");
+    if (auto problem = rest("step2.rest")) return problem;
+    return runner_.show("step2.rest");
   }
 
   const Particles& grains() const { return world_.particles; }
@@ -100,7 +101,13 @@ Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& rul
   mean.run.settled = true;
   World world = rested;
   for (int side = 0; side < kSides; ++side) {
-    Drop drop(test, world, before, options);
+    RunOptions of_side = options;
+    if (options.watch)
+      of_side.watch = [&](Moment moment) {
+        moment.drop = side;
+        return options.watch(moment);
+      };
+    Drop drop(test, world, before, of_side);
     mean.failure = drop.run();
     const RunSummary& run = drop.summary();
     mean.run.steps += run.steps;

@@ -34,7 +34,8 @@ class MouldLift {
   std::optional<Failure> run() {
     if (auto problem = lift_mould()) return problem;
     if (lost()) return {};
-    return rest_on_table();
+    if (auto problem = rest_on_table()) return problem;
+    return runner_.show("step1.rest");
   }
 
   /// Step 1 is certain to read less than the window holds: no reading of a heap is above its highest point, and that

@@ -52,7 +52,11 @@ Runner::Runner(World& world, const RunOptions& options)
 }
 
 std::optional<Failure> Runner::tell(std::string_view phase) {
-  if (!options_.watch || world_.time < next_watch_) return {};
+  return world_.time < next_watch_ ? std::nullopt : show(phase);
+}
+
+std::optional<Failure> Runner::show(std::string_view phase) {
+  if (!options_.watch) return {};
   next_watch_ = world_.time + options_.watch_interval_s;
   if (options_.watch({phase, world_.time, world_.step, &world_})) return {};
   return Failure{FailureReason::stopped,     std::string(phase), world_.step, world_.time, -1, 0, 0,

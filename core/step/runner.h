@@ -33,6 +33,9 @@ class Runner {
   /// As `settle`, but it does not matter whether rest is reached within the time.
   std::optional<Failure> relax(std::string_view phase, double cap_s);
 
+  /// Calls the watch now, whatever its interval: a phase has ended that a picture should show.
+  std::optional<Failure> show(std::string_view phase);
+
   /// To be called after walls, laws or grains were changed from outside.
   void changed() { stepper_.forget_lists(); }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "calibrate/search/screening.h"
+#include "core/laws/constants.h"
 
 namespace pastefit {
 
@@ -126,6 +127,11 @@ StressCase case_at(const UnitPoint& u, int number) {
   // Without a bridge, and for some others, the cohesion in overlap stands on its own.
   if (contact.bridge.shape == BridgeShape::none) contact.cohesion_n = c;
   if (u[overlap_cohesion] > 0.7) contact.cohesion_n = 2 * beyond(u[overlap_cohesion], 0.7) * c;
+
+  // Softer grains than carry the attraction are no admissible test.
+  constexpr double kMostSqueezed = 0.0999;
+  const double softness = std::pow(squeeze(contact, radius) / kMostSqueezed, 1.5);
+  if (softness > 1) contact.youngs_modulus_pa *= softness;
 
   test.mould_wall = {1e9, 0.3, contact.restitution, 0.5 * u[wall_friction], 0.1 * u[rolling_friction], 0};
   test.table_wall = {1e9, 0.3, contact.restitution, 2 * u[wall_friction], u[rolling_friction], 0};
