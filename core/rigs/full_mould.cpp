@@ -55,11 +55,11 @@ Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
   std::vector<double> nearest(static_cast<std::size_t>(layers) * sectors, radius);
   for (std::int32_t i = 0; i < grains.count(); ++i) {
     const Vec3& p = grains.motion[i].position;
-    const double room = mould.base_radius_m - slope * p.z - std::hypot(p.x, p.y);
+    const double room = mould.base_radius_m - slope * p.z - std::sqrt(p.x * p.x + p.y * p.y);
     const double turn = 0.5 + std::atan2(p.y, p.x) / (2 * std::numbers::pi);
     const int layer = std::clamp(static_cast<int>(p.z / mould.height_m * layers), 0, layers - 1);
     double& gap = nearest[layer * sectors + static_cast<int>(turn * sectors) % sectors];
-    gap = std::min(gap, room / std::hypot(1.0, slope) - grains.motion[i].radius);
+    gap = std::min(gap, room / std::sqrt(1 + slope * slope) - grains.motion[i].radius);
   }
   const Disc top{0, 0, 2 * (mould.top_radius_m - radius)};
   return {mould.height_m - mean_height(grains, radius, top),

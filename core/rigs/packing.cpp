@@ -24,7 +24,6 @@ constexpr double kEmptiest = 0.45;        // solid fraction below which the fill
 // Frictions and steps of squeeze that packings are poured at; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
 constexpr double kSqueezeStep = 0.005;
-constexpr double kModuliPerOctave = 2;
 // [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
 // hard that the column rises by 1 % when it is taken off.
 constexpr double kScrape = 0.7;
@@ -228,8 +227,10 @@ Filling filling_of(const SlumpTable& test) {
   Filling filling;
   for (const double friction : kFrictions)
     if (friction <= test.contact.friction) filling.friction = friction;
-  filling.youngs_modulus_pa =
-      std::exp2(std::round(kModuliPerOctave * std::log2(test.contact.youngs_modulus_pa)) / kModuliPerOctave);
+  // Exact: the last bits of exp2 differ between processors.
+  const int half_octaves = static_cast<int>(std::lround(2 * std::log2(test.contact.youngs_modulus_pa)));
+  const int octaves = half_octaves >= 0 ? half_octaves / 2 : (half_octaves - 1) / 2;
+  filling.youngs_modulus_pa = std::ldexp(half_octaves == 2 * octaves ? 1.0 : std::numbers::sqrt2, octaves);
   filling.squeeze = kSqueezeStep * std::round(squeeze(test.contact, test.grains.radius_m) / kSqueezeStep);
   return filling;
 }

@@ -43,7 +43,7 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".slump_mm", 1e3 * (rim - height));
   set(".height_axis_mm", 1e3 * surface);
   set(".height_max_mm", 1e3 * highest);
-  set(".lateral_shift_mm", 1e3 * std::hypot(probe.x, probe.y));
+  set(".lateral_shift_mm", 1e3 * std::sqrt(probe.x * probe.x + probe.y * probe.y));
   set(".spread_mm", 1e3 * spread.mean);
   set(".spread_orthogonal_mm", 1e3 * spread.orthogonal);
   const auto& measured = step == "step1" ? test_.reading.outline_step1 : test_.reading.outline_step2;
