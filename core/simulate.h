@@ -16,7 +16,7 @@ namespace pastefit {
 
 class World;
 
-/// The grains in the mould after filling and strike-off; depends on mould, grain sizes and packing seed only.
+/// The grains in the mould after pouring and strike-off.
 struct Packing;
 
 /// Where a run is, handed to the caller between blocks of steps.
@@ -39,15 +39,15 @@ struct RunOptions {
   StepOptions steps;  ///< with a fixed step, if wanted, instead of the one the scene asks for
   RestCriterion rest;
   std::optional<double> fixed_wait_s;    ///< every wait for rest lasts so long; nobody looks whether rest is reached
-  bool own_fill = false;                 ///< fill under the laws of the test, not under those all fills share
+  bool own_fill = false;                 ///< pour under the laws of the test, not under those that fills share
   std::int64_t step_limit = 20'000'000;  ///< a run beyond it fails with `step_limit`
   double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
   std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
   /// Given: a run ends as soon as it is certain to read less, without any reading of step 1, or after step 1 where that
   /// reads beyond it, without step 2; `RunSummary::ended_early` says so. Until then the run is the same, bit for bit.
-  /// Certain means: the highest point lies a grain's radius below it by the ruler. No reading is above the highest
-  /// point, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould
+  /// Certain means: the highest point and the roughness of the fill lie a grain's radius below it. No reading is above
+  /// those two, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould
   /// that drags them along (by less than half a radius, `tests/bench/README.md`).
   std::optional<HeightWindow> window;
 };
@@ -73,9 +73,9 @@ struct Outcome {
   std::optional<Failure> failure;
 };
 
-/// Fills and strikes off the mould of `test`: frictional grains without cohesion, so that the packing may serve every
-/// run with the same mould, sizes, stiffness and seed; with `own_fill` under the laws and walls of `test`, for it
-/// alone.
+/// Fills and strikes off the mould of `test`: frictional grains without cohesion, poured as `filling_of` says
+/// (core/rigs/packing.h), so that the packing serves all tests with the same mould, grain sizes, density, seed and
+/// filling; with `own_fill` under the laws and walls of `test`, for it alone.
 std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
 
 /// Runs the slump test. Same test, options and program: same bits.

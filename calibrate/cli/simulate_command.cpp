@@ -16,6 +16,7 @@
 #include "calibrate/search/machine.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/fault_text.h"
+#include "core/rigs/ruler.h"
 #include "core/simulate.h"
 #include "core/world/world.h"
 
@@ -184,6 +185,11 @@ int simulate_file(const SimulateOptions& options) {
     if (!options.json && pictures)
       for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
   }
+  if (const auto* slump = std::get_if<SlumpTable>(&test); slump && has_sheared(*slump, outcome.observables))
+    std::fprintf(stderr,
+                 "pastefit: the heap sheared off: its top shifted by %.0f mm, more than %.0f; the standards have such a "
+                 "test repeated\n",
+                 *outcome.observables.find("step1.lateral_shift_mm"), 1e3 * kShearedShift * slump->mould.base_radius_m);
   if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;
   const auto& failure = *outcome.failure;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrate/report/format.h"
+#include "core/rigs/ruler.h"
 
 namespace pastefit {
 
@@ -75,6 +76,31 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
+/// Heights of a test with and without the fillings whose heap sheared off, where some did.
+std::string sheared_lines(const SlumpTable& test, const Baseline& baseline, const std::string& name) {
+  int sheared = 0, whole = 0;
+  double all_mm = 0, whole_mm = 0;
+  for (const auto& run : baseline.runs) {
+    const double height_mm = run.observables.find("step1.height_mm").value_or(0);
+    const bool broke = has_sheared(test, run.observables);
+    ++(broke ? sheared : whole);
+    all_mm += height_mm;
+    if (!broke) whole_mm += height_mm;
+  }
+  if (sheared == 0) return {};
+  std::string out = format("%s%d of %zu fillings sheared off (top shifted by more than %g mm), which the standards reject: "
+                           "height after step 1 %.1f mm with them",
+                           name.empty() ? "" : ("Test " + name + ": ").c_str(), sheared, baseline.runs.size(),
+                           1e3 * kShearedShift * test.mould.base_radius_m, all_mm / (sheared + whole));
+  return out + (whole > 0 ? format(", %.1f mm without.\n", whole_mm / whole) : std::string(".\n"));
+}
+
+std::string sheared_lines(const Card& card) {
+  std::string out = sheared_lines(card.test, card.baseline, card.test_name);
+  for (const auto& test : card.further) out += sheared_lines(test.test, test.baseline, test.name);
+  return out;
+}
+
 }  // namespace
 
 std::string verdict_of(const Card& card) {
@@ -99,7 +125,7 @@ std::string summary_of(const Card& card, const std::string& findings) {
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
   if (card.provenance.lab.twin) out += "The laboratory's data were made by a simulation (a twin).\n";
-  return out + hold_out_lines(card) + verdict_of(card) + "\n";
+  return out + sheared_lines(card) + hold_out_lines(card) + verdict_of(card) + "\n";
 }
 
 }  // namespace pastefit

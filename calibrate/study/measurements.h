@@ -19,6 +19,7 @@ struct ReadingKey {
   std::string_view observable;  ///< the reading of the simulation it is compared with; differs from `key` for a slump
   ReadingKind kind;
   bool second_step = false;  ///< needs the drop plate
+  bool advised = true;       ///< as what to measure next; not if it is another form of a reading that is
 };
 
 /// Every key a laboratory file may use, in the order in which measurements are kept.

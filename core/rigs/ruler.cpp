@@ -54,6 +54,11 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".plateau_width_mm", 1e3 * plateau_width(side));
 }
 
+bool has_sheared(const SlumpTable& test, const Observables& readings) {
+  const auto shift_mm = readings.find("step1.lateral_shift_mm");
+  return shift_mm && 1e-3 * *shift_mm > kShearedShift * test.mould.base_radius_m;
+}
+
 Particles on_table(const Particles& grains) {
   Particles result = grains;
   std::size_t kept = 0;

@@ -61,7 +61,7 @@ def study(lab_name):
         "title": "truth of the twin",
         "lab": lab_name,
         "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
-        "parameters": {**{k: {"value": v} for k, v in TRUTH.items()}, "strength_pa": {"free": [1, 1e6]}},
+        "parameters": {**{k: {"value": v} for k, v in TRUTH.items()}, "strength_pa": {"free": [300, 40000]}},
         "weights": {},
     }
 

@@ -154,6 +154,23 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
                                        Catch::Contains("2 failed (never_settled)") && Catch::Contains("twin"));
 }
 
+TEST_CASE("the summary counts the fillings that sheared off, with the mean with and without them") {
+  auto material = card();
+  material.test.mould.base_radius_m = 0.1;
+  material.baseline.runs.clear();
+  for (const auto& [height, shift] : {std::pair{90.0, 12.0}, {94.0, 18.0}, {110.0, 55.0}}) {
+    Baseline::Run run;
+    run.packing = material.baseline.runs.size() + 1;
+    run.observables.set("step1.height_mm", height);
+    run.observables.set("step1.lateral_shift_mm", shift);
+    material.baseline.runs.push_back(run);
+  }
+  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 fillings sheared off") && Catch::Contains("98.0 mm with them") &&
+                                       Catch::Contains("92.0 mm without"));
+  material.baseline.runs.pop_back();
+  CHECK_THAT(summary_of(material), !Catch::Contains("sheared"));
+}
+
 TEST_CASE("a card of every version ever written is read, and keeps its numbers") {
   const auto folder = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "tests/calibrate/card/versions";
   for (int version = 1; version <= kCardVersion; ++version) {
