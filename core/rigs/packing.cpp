@@ -197,7 +197,7 @@ double poured_grains(const SlumpTable& test) {
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)
     volume += sphere_volume(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
-  return poured_volume(test.mould) / volume;
+  return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).squeeze, 3);
 }
 
 double grain_density(const SlumpTable& test, const Packing& packing) {

@@ -49,7 +49,7 @@ TEST_CASE("the mould is filled level with its rim") {
 TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
   SlumpTable wide = small_test(0);
   wide.grains = {SizeDistribution::uniform, 0.010, 0, 0.007, 0.013};
-  for (const SlumpTable& test : {small_test(0), wide}) {
+  for (const SlumpTable& test : {small_test(0), small_test(30), wide}) {
     std::int64_t poured = 0;
     RunOptions options;
     options.watch = [&](const Moment& moment) {
