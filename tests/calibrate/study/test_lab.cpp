@@ -214,6 +214,37 @@ TEST_CASE("slump and height of the same heap, or no measurement at all, are faul
   CHECK(says(at(faults_of(document), "measurements"), "no reading"));
 }
 
+TEST_CASE("a profile becomes the outline that the heap is compared with, and its difference is measured as 0") {
+  json document = lab();
+  document["measurements"]["step1.profile"] =
+      json::parse(R"({"points": [[-150, 5], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6})");
+  const Result<Lab> read = lab_from_json(document, ".");
+  INFO((read.ok() ? "" : message_of(read.faults())));
+  REQUIRE(read.ok());
+  const auto& outline = read.value().test.reading.outline_step1;
+  REQUIRE(outline.size() == 5);
+  CHECK(outline[1][0] == Approx(-0.08));
+  CHECK(outline[1][1] == Approx(0.04));
+  const Measurement& profile = read.value().measurements.back();
+  CHECK(profile.observable == "step1.profile_mm");
+  CHECK(profile.value == 0);
+  CHECK(profile.standard_deviation == 6);
+}
+
+TEST_CASE("a profile that is too short, out of order, beside the table or above the mould is a fault with its place") {
+  json document = lab();
+  document["measurements"]["step1.profile"] = json::parse(
+      R"({"points": [[-150, 5], [-180, 40], [0, 268], [90, 35], [450, 4]], "standard_deviation": 6})");
+  document["measurements"]["step2.profile"] =
+      json::parse(R"({"points": [[-150, 5], [0, 40], [150, 5]], "standard_deviation": 6})");
+  const Faults faults = faults_of(document);
+  CHECK(says(at(faults, "measurements.step1.profile.points[1]"), "beyond the one before"));
+  CHECK(says(at(faults, "measurements.step1.profile.points[2][1]"), "268"));
+  CHECK(says(at(faults, "measurements.step1.profile.points[4][0]"), "450"));
+  CHECK(says(at(faults, "measurements.step2.profile.points"), "a list of 3"));
+  CHECK(faults.size() == 4);
+}
+
 TEST_CASE("grains state what their distribution needs, and no more") {
   json document = lab();
   document["grains"] = {{"distribution", "uniform"}, {"smallest_mm", 6}, {"largest_mm", 10}};

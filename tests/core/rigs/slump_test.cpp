@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/observe/outline.h"
 #include "core/rigs/packing.h"
 #include "core/simulate.h"
 #include "core/world/world.h"
@@ -176,6 +177,25 @@ TEST_CASE("a heap that has flowed off its table has no height below zero, and no
     for (const char* reading : {"step1.height_mm", "step1.height_axis_mm", "step1.height_max_mm"})
       CHECK(outcome.observables.find(reading).value_or(0) >= 0);
   }
+}
+
+TEST_CASE("a heap does not differ from its own outline, and another one does by a little") {
+  SlumpTable test = small_test(1);
+  Outline side;
+  RunOptions options;
+  options.watch = [&](const Moment& moment) {
+    if (moment.phase == "step1.rest") side = outline(moment.world->particles, test.grains.radius_m);
+    return true;
+  };
+  REQUIRE_FALSE(simulate(test, options).failure);
+  for (double x = -0.12; x <= 0.1201; x += 0.02) test.reading.outline_step1.push_back({x, side.at(x)});
+  const auto difference = [&] { return simulate(test).observables.find("step1.profile_mm").value(); };
+  const double own = difference();
+  test.packing_seed = 2;
+  const double other = difference();
+  CHECK(own < 2.5);  // straight between points 20 mm apart
+  CHECK(other > own);
+  CHECK(other < 30);
 }
 
 TEST_CASE("a run that is asked to stop ends as stopped") {
