@@ -41,7 +41,8 @@ constexpr std::string_view lab_text =
   // Either value and standard deviation of one reading, or all repeats.
   // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm.
   // Step 2, plate dropped: the same with step2, and step2.plateau_sag_mm, step2.plateau_width_mm.
-  // The filling: fill.mass_kg.
+  // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
+  // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {
     "step1.slump_mm": {"repeats": [148, 155, 151], "standard_deviation": 5},  // beside repeats: the least deviation
     "step1.spread_mm": {"value": 380, "standard_deviation": 25}
