@@ -47,8 +47,8 @@ struct RunOptions {
   /// Given: a run ends as soon as it is certain to read less, without any reading of step 1, or after step 1 where that
   /// reads beyond it, without step 2; `RunSummary::ended_early` says so. Until then the run is the same, bit for bit.
   /// Certain means: the highest point and the roughness of the fill lie a grain's radius below it. No reading is above
-  /// those two, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a mould
-  /// that drags them along (by less than half a radius, `tests/bench/README.md`).
+  /// those two, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a
+  /// mould that drags them along (by less than half a radius, `tests/bench/README.md`).
   std::optional<HeightWindow> window;
 };
 

@@ -146,8 +146,9 @@ int simulate_file(const SimulateOptions& options) {
   std::optional<OutputFolder> folder;
   std::optional<Pictures> pictures;
   if (!options.out.empty()) {
-    auto opened = OutputFolder::open(options.out, {kResult, kSeries[0] + ".pvd", kSeries[1] + ".pvd", kSeries[2] + ".pvd"},
-                                     options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
+    auto opened =
+        OutputFolder::open(options.out, {kResult, kSeries[0] + ".pvd", kSeries[1] + ".pvd", kSeries[2] + ".pvd"},
+                           options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
     if (!opened.ok()) return report(opened.faults());
     folder = std::move(opened).value();
     if (options.vtk_interval_s) pictures.emplace(options.out);
@@ -186,10 +187,11 @@ int simulate_file(const SimulateOptions& options) {
       for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
   }
   if (const auto* slump = std::get_if<SlumpTable>(&test); slump && has_sheared(*slump, outcome.observables))
-    std::fprintf(stderr,
-                 "pastefit: the heap sheared off: its top shifted by %.0f mm, more than %.0f; the standards have such a "
-                 "test repeated\n",
-                 *outcome.observables.find("step1.lateral_shift_mm"), 1e3 * kShearedShift * slump->mould.base_radius_m);
+    std::fprintf(
+        stderr,
+        "pastefit: the heap sheared off: its top shifted by %.0f mm, more than %.0f; the standards have such a "
+        "test repeated\n",
+        *outcome.observables.find("step1.lateral_shift_mm"), 1e3 * kShearedShift * slump->mould.base_radius_m);
   if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;
   const auto& failure = *outcome.failure;

@@ -2,7 +2,6 @@
 
 #include <array>
 
-
 namespace pastefit {
 
 std::span<const Exporter> exporters() {

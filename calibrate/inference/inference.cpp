@@ -242,11 +242,12 @@ Moments moments_of(const std::vector<UnitPoint>& sample) {
   return out;
 }
 
-/// A reading a laboratory may be advised to take, by the name of the simulation's reading; with the name of its test before a
-/// slash where a study has several.
+/// A reading a laboratory may be advised to take, by the name of the simulation's reading; with the name of its test
+/// before a slash where a study has several.
 bool measurable(const std::string& name) {
   const std::string own = name.substr(name.find('/') + 1);
-  return std::ranges::any_of(reading_keys(), [&](const ReadingKey& key) { return key.advised && key.observable == own; });
+  return std::ranges::any_of(reading_keys(),
+                             [&](const ReadingKey& key) { return key.advised && key.observable == own; });
 }
 
 /// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.

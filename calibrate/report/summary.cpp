@@ -88,10 +88,11 @@ std::string sheared_lines(const SlumpTable& test, const Baseline& baseline, cons
     if (!broke) whole_mm += height_mm;
   }
   if (sheared == 0) return {};
-  std::string out = format("%s%d of %zu fillings sheared off (top shifted by more than %g mm), which the standards reject: "
-                           "height after step 1 %.1f mm with them",
-                           name.empty() ? "" : ("Test " + name + ": ").c_str(), sheared, baseline.runs.size(),
-                           1e3 * kShearedShift * test.mould.base_radius_m, all_mm / (sheared + whole));
+  std::string out = format(
+      "%s%d of %zu fillings sheared off (top shifted by more than %g mm), which the standards reject: "
+      "height after step 1 %.1f mm with them",
+      name.empty() ? "" : ("Test " + name + ": ").c_str(), sheared, baseline.runs.size(),
+      1e3 * kShearedShift * test.mould.base_radius_m, all_mm / (sheared + whole));
   return out + (whole > 0 ? format(", %.1f mm without.\n", whole_mm / whole) : std::string(".\n"));
 }
 

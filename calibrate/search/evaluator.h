@@ -9,8 +9,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <unordered_set>
 #include <tuple>
+#include <unordered_set>
 #include <vector>
 
 #include "calibrate/search/objective.h"

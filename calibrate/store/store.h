@@ -35,7 +35,8 @@ struct StoredEvaluation {
 /// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of the whole test (its packing seed
 /// included), as 16 hexadecimal digits. Two evaluations with the same key are
 /// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured
-/// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation outlives a change of these.
+/// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation
+/// outlives a change of these.
 std::string evaluation_key(std::string_view program, const SlumpTable& test);
 
 /// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.

@@ -163,7 +163,8 @@ bool ObjectReader::pairs(std::string_view key, std::vector<std::array<double, 2>
     if (!both) continue;
     read.push_back(pair.get<std::array<double, 2>>());
     if (read.size() < 2 || read[read.size() - 2][0] < read.back()[0]) continue;
-    fault(std::string(key) + entry, "does not lie beyond the one before it", "points in the order of their first number");
+    fault(std::string(key) + entry, "does not lie beyond the one before it",
+          "points in the order of their first number");
     good = false;
   }
   if (good) target = std::move(read);

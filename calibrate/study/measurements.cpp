@@ -159,8 +159,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, SlumpTable& t
         else
           read_one(one, key, range_of(key.kind, test), measurement);
       };
-      if (!reader.object(key.key, Need::optional, read))
-        continue;
+      if (!reader.object(key.key, Need::optional, read)) continue;
       if (!measurements.empty() && measurements.back().observable == key.observable)
         reader.fault(key.key, "slump and height of one heap are one reading", "give one of them");
       if (key.kind == slump) measurement.value = 1000 * test.mould.height_m - measurement.value;

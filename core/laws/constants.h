@@ -24,10 +24,10 @@ struct PairConstants {
   double rolling_friction = 0;       ///< mu_r
   double roll_stiffness_share = 0;   ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
   double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  double spin_damping = 0;  ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
-  double size_per_radius = 0;        ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  double cohesion = 0;               ///< constant attraction in overlap [N]
-  double bridge_a = 0;               ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  double spin_damping = 0;     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
+  double size_per_radius = 0;  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  double cohesion = 0;         ///< constant attraction in overlap [N]
+  double bridge_a = 0;         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
   double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
   double bridge_c = 0;       ///< attraction at touch [N]
   double rupture_gap = 0;    ///< -d_c [m]

@@ -252,8 +252,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
       stiffness_r = Real(2.25) * stiffness_n * lever * lever;
       roll_square = dot(roll, roll);
       moment_square = larger(stiffness_r * stiffness_r * roll_square, floor);
-      action.stiffness = larger(action.stiffness, fused(Real(kSurfaceLightness), stiffness_t,
-                                                        Real(k.roll_stiffness_share) * stiffness_n));
+      action.stiffness = larger(
+          action.stiffness, fused(Real(kSurfaceLightness), stiffness_t, Real(k.roll_stiffness_share) * stiffness_n));
     } else {
       moment_square = larger(dot(rolling, rolling), floor);
     }

@@ -15,11 +15,11 @@ namespace {
 constexpr double kLoosest = 2.15;   // spacing of the starting lattice over the largest radius
 constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
-constexpr double kLidSpeed = 0.2;         // [m/s]
-constexpr double kFillCap = 4.0;          // [s]
-constexpr double kScoopSpeed = 1.0;       // [m/s]
-constexpr double kGentle = 0.2;           // deepest overlap of a falling grain, over its radius
-constexpr double kEmptiest = 0.45;        // solid fraction below which the fill has a hole
+constexpr double kLidSpeed = 0.2;    // [m/s]
+constexpr double kFillCap = 4.0;     // [s]
+constexpr double kScoopSpeed = 1.0;  // [m/s]
+constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
+constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
 
 // Frictions and steps of squeeze that packings are poured at; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};

@@ -37,8 +37,8 @@ struct Filling {
 Filling filling_of(const SlumpTable& test);
 
 /// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. All lengths of the
-/// column are enlarged (or reduced) until it fills the mould as the packing did, as high and as near to its side: by 2 %
-/// at most as seen. Its mass is the laboratory's. `run` counts this part only.
+/// column are enlarged (or reduced) until it fills the mould as the packing did, as high and as near to its side: by 2
+/// % at most as seen. Its mass is the laboratory's. `run` counts this part only.
 Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& options = {});
 
 /// How a column of grains of this mean radius fills a mould.

@@ -13,8 +13,8 @@ namespace pastefit {
 /// Reads a heap as the laboratory does, against the table on which it stands.
 ///
 /// Between the tops of coarse grains a surface lies below the level that the laboratory's paste would have: in the
-/// struck-off mould by `roughness` below the rim. Heights of the surface are read with that added, at any time; a grain's
-/// top is where it is. A height is never above the highest point, and neither is above the mould.
+/// struck-off mould by `roughness` below the rim. Heights of the surface are read with that added, at any time; a
+/// grain's top is where it is. A height is never above the highest point, and neither is above the mould.
 class Ruler {
  public:
   /// The grains in the mould, before it is lifted.

@@ -129,12 +129,12 @@ Faults validate(const SlumpTable& test) {
     // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
     constexpr double kMostSqueezed = 0.1;
     const double squeezed = squeeze(contact, radius);
-    check.require(!(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
-                  "is " + Checker::text(contact.youngs_modulus_pa) + " Pa: attraction presses the grains into each other by " +
-                      Checker::text(100 * squeezed) + " % of their diameter",
-                  "give at least " +
-                      Checker::text(contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5)) +
-                      " Pa, or less strength: 10 % is the most that is carried");
+    check.require(
+        !(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
+        "is " + Checker::text(contact.youngs_modulus_pa) + " Pa: attraction presses the grains into each other by " +
+            Checker::text(100 * squeezed) + " % of their diameter",
+        "give at least " + Checker::text(contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5)) +
+            " Pa, or less strength: 10 % is the most that is carried");
   }
   check_wall(check, test.mould_wall, "mould_wall");
   check_wall(check, test.table_wall, "table_wall");

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/result.h"
 #include "core/observe/outline.h"
+#include "core/result.h"
 #include "core/rigs/materials.h"
 
 namespace pastefit {

@@ -23,9 +23,8 @@ struct StepOptions {
 };
 
 /// When a heap counts as at rest: the grains' root mean square speed is below a bound, and neither the top, nor the
-/// mean height, nor the mean distance from the axis has changed by more than a share of a radius, in so many windows in a
-/// row.
-/// A stiff heap swings for long like a jelly; that moves no reading by more than these bounds.
+/// mean height, nor the mean distance from the axis has changed by more than a share of a radius, in so many windows in
+/// a row. A stiff heap swings for long like a jelly; that moves no reading by more than these bounds.
 struct RestCriterion {
   double window_s = 0.05;
   int windows = 2;

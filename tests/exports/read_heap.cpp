@@ -1,6 +1,7 @@
 // Reads a heap that another program left, as pastefit reads its own: read_heap CARD PACKING FILLED.dump HEAP.dump
 // [HEAP2.dump]. Dumps are LAMMPS's or LIGGGHTS's, with columns id x y z radius in some order. Prints the readings of
-// step 1, and of step 2 where its heap is given, as JSON. Both programs' heights hold the same roughness of the packing.
+// step 1, and of step 2 where its heap is given, as JSON. Both programs' heights hold the same roughness of the
+// packing.
 
 #include <cmath>
 #include <cstdio>

@@ -165,8 +165,8 @@ TEST_CASE("the summary counts the fillings that sheared off, with the mean with 
     run.observables.set("step1.lateral_shift_mm", shift);
     material.baseline.runs.push_back(run);
   }
-  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 fillings sheared off") && Catch::Contains("98.0 mm with them") &&
-                                       Catch::Contains("92.0 mm without"));
+  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 fillings sheared off") &&
+                                       Catch::Contains("98.0 mm with them") && Catch::Contains("92.0 mm without"));
   material.baseline.runs.pop_back();
   CHECK_THAT(summary_of(material), !Catch::Contains("sheared"));
 }
@@ -186,7 +186,8 @@ TEST_CASE("a card of every version ever written is read, and keeps its numbers")
     const auto before = written.flatten(), flat = again.flatten();
     for (const auto& [place, value] : before.items()) {
       INFO(place);
-      if (place != "/format" && !place.starts_with("/provenance")) CHECK(flat.value(place, nlohmann::json("absent")) == value);
+      if (place != "/format" && !place.starts_with("/provenance"))
+        CHECK(flat.value(place, nlohmann::json("absent")) == value);
     }
   }
 }

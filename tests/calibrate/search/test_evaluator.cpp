@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <set>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <set>
 #include <thread>
 
 #include "calibrate/search/processor_time.h"

@@ -233,8 +233,8 @@ TEST_CASE("a profile becomes the outline that the heap is compared with, and its
 
 TEST_CASE("a profile that is too short, out of order, beside the table or above the mould is a fault with its place") {
   json document = lab();
-  document["measurements"]["step1.profile"] = json::parse(
-      R"({"points": [[-150, 5], [-180, 40], [0, 268], [90, 35], [450, 4]], "standard_deviation": 6})");
+  document["measurements"]["step1.profile"] =
+      json::parse(R"({"points": [[-150, 5], [-180, 40], [0, 268], [90, 35], [450, 4]], "standard_deviation": 6})");
   document["measurements"]["step2.profile"] =
       json::parse(R"({"points": [[-150, 5], [0, 40], [150, 5]], "standard_deviation": 6})");
   const Faults faults = faults_of(document);

@@ -31,9 +31,9 @@ SlumpTable paste(double strength_pa, double friction) {
 
 /// How a column stands in its mould, from its raw grains.
 struct Stand {
-  double height = 0;      ///< mean of its surface [m]
-  double gap = 0;         ///< mean distance between the mould's side and the grain nearest to it, field by field [m]
-  bool touches = false;   ///< some grain touches the side
+  double height = 0;     ///< mean of its surface [m]
+  double gap = 0;        ///< mean distance between the mould's side and the grain nearest to it, field by field [m]
+  bool touches = false;  ///< some grain touches the side
 };
 
 Stand stand_of(const SlumpTable& test, const Packing& packing) {
@@ -51,7 +51,8 @@ Stand stand_of(const SlumpTable& test, const Packing& packing) {
   }
   const Particles grains = make_particles(packing.centres, packing.radii, 1000);
   return {mean_height(grains, test.grains.radius_m, {0, 0, 2 * (mould.top_radius_m - test.grains.radius_m)}),
-          std::accumulate(nearest.begin(), nearest.end(), 0.0) / nearest.size(), *std::ranges::min_element(nearest) < 0};
+          std::accumulate(nearest.begin(), nearest.end(), 0.0) / nearest.size(),
+          *std::ranges::min_element(nearest) < 0};
 }
 
 }  // namespace
@@ -111,7 +112,8 @@ TEST_CASE("what is lifted stays as high as it was struck off when lid and drag a
     }
 }
 
-TEST_CASE("a reported height is the surface above the table and the roughness of the struck-off packing, at any strength") {
+TEST_CASE(
+    "a reported height is the surface above the table and the roughness of the struck-off packing, at any strength") {
   std::vector<double> added;
   for (const double friction : {0.15, 0.5})
     for (const double strength : {300.0, 1500.0, 12000.0}) {
