@@ -90,9 +90,9 @@ SameBits all_of(const std::vector<SameBits>& bits) {
 }
 
 /// Simulates a test of the card in these packings; the first failure instead, if there is one.
-std::optional<std::string> run_test(const Card& card, const TestOfCard& test,
-                                    const std::vector<std::uint64_t>& packings, const CheckOptions& options,
-                                    const CheckEngine& engine, int& simulations, Baseline& now) {
+std::optional<std::string> run_test(const TestOfCard& test, const std::vector<std::uint64_t>& packings,
+                                    const CheckOptions& options, const CheckEngine& engine, int& simulations,
+                                    Baseline& now) {
   const auto outcomes = run_packings(test.test, packings, engine, options.threads);
   simulations += static_cast<int>(outcomes.size());
   auto failure = keep_runs(packings, outcomes, now);
@@ -160,7 +160,7 @@ CardCheck check(const Card& given, const CheckOptions& options, const CheckEngin
     auto packings = packings_of(card, test.baseline);
     if (options.quick) keep_quick(packings);
     Baseline now;
-    if (auto failure = run_test(card, test, packings, options, engine, out.simulations, now)) {
+    if (auto failure = run_test(test, packings, options, engine, out.simulations, now)) {
       out.reason = *failure;
       out.verdict = CheckVerdict::disagrees;
       return out;
@@ -236,7 +236,7 @@ Result<Card> rebaselined(Card card, const std::string& why, int count, const Che
   for (const auto& test : tests_of(card)) {
     Baseline now{engine.program, engine.machine, {}};
     int simulations = 0;
-    if (auto failure = run_test(card, test, packings, options, engine, simulations, now))
+    if (auto failure = run_test(test, packings, options, engine, simulations, now))
       return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
     for (const auto& [name, before] : promises_of(card, test))
       change.moved.push_back({test.prefix + name, before.mean, sample_of(column_of(now.runs, name)).mean});

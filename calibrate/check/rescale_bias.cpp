@@ -11,9 +11,8 @@ namespace pastefit {
 
 namespace {
 
-Result<std::vector<Baseline::Run>> runs_of(const Card& card, const TestOfCard& test,
-                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
-                                           int threads) {
+Result<std::vector<Baseline::Run>> runs_of(const TestOfCard& test, const std::vector<std::uint64_t>& packings,
+                                           const CheckEngine& engine, int threads) {
   const auto outcomes = run_packings(test.test, packings, engine, threads);
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -57,9 +56,9 @@ Result<Card> with_measured_bias(const Card& given, Card after, int count, const 
   Card before = given;
   const auto old_tests = tests_of(before), new_tests = tests_of(after);
   for (std::size_t t = 0; t < new_tests.size(); ++t) {
-    auto old_runs = runs_of(before, old_tests[t], packings, engine, options.threads);
+    auto old_runs = runs_of(old_tests[t], packings, engine, options.threads);
     if (!old_runs.ok()) return old_runs.faults();
-    auto new_runs = runs_of(after, new_tests[t], packings, engine, options.threads);
+    auto new_runs = runs_of(new_tests[t], packings, engine, options.threads);
     if (!new_runs.ok()) return new_runs.faults();
 
     new_tests[t].observables.clear();

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/observe/closing.h"
+
 namespace pastefit {
 
 namespace {
 
-constexpr double kPointsPerRadius = 4;
-constexpr double kClosingBall = 2;  // radius of the closing ball over the mean grain radius
-constexpr int kDirections = 24;     // over half a turn
+constexpr int kDirections = 24;  // over half a turn
 // Of pi/24. As numbers: the last bits of cos and sin differ between processors.
 constexpr double kCosine = 0.99144486137381041, kSine = 0.13052619222005159;
 

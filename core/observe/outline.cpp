@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/observe/closing.h"
+
 namespace pastefit {
 
 namespace {
 
-constexpr double kPointsPerRadius = 4;
-constexpr double kClosingBall = 2;  // radius of the closing ball over the mean grain radius
 constexpr double kPlateauShare = 0.8;
 
 }  // namespace

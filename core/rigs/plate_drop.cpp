@@ -11,7 +11,6 @@ namespace pastefit {
 namespace {
 
 constexpr int kSides = 2;         // of the heap, opposite ones, the hinge is on in turn
-constexpr double kRestCap = 4.0;  // [s] simulated time allowed for coming to rest
 constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 
 /// One fall of the plate under a heap.

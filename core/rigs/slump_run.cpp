@@ -11,7 +11,6 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kRestCap = 4.0;      // [s] simulated time allowed for coming to rest
 constexpr double kGroundDepth = 0.1;  // [m] below the table
 constexpr int kStepsPerLook = 64;     // at the highest point of the heap
 // [radii] A lost heap may rise by so much again: a mould that drags it along, a column that swings, a grain that hops.
@@ -141,8 +140,9 @@ void add_work(RunSummary& sum, const RunSummary& part) {
 
 /// The summary of the lift with that of the drops after it.
 RunSummary together(RunSummary lift, const RunSummary& drops) {
-  const double steps = static_cast<double>(lift.steps + drops.steps);
-  lift.asleep_share = (lift.asleep_share * lift.steps + drops.asleep_share * drops.steps) / steps;
+  const auto of_lift = static_cast<double>(lift.steps), of_drops = static_cast<double>(drops.steps);
+  const double steps = of_lift + of_drops;
+  lift.asleep_share = (lift.asleep_share * of_lift + drops.asleep_share * of_drops) / steps;
   lift.simulated_s += drops.simulated_s;
   lift.time_step_s = lift.simulated_s / steps;
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);

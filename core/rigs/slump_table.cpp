@@ -11,7 +11,7 @@ namespace pastefit {
 namespace {
 
 /// Collects faults of numbers that are not finite or not in their range.
-class Checker {
+class FieldChecker {
  public:
   void range(const char* where, double value, double lower, double upper, const char* unit) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
@@ -33,7 +33,7 @@ class Checker {
   Faults faults_;
 };
 
-void check_wall(Checker& check, const WallContact& wall, const std::string& name) {
+void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name) {
   const auto at = [&](const char* field) { return name + "." + field; };
   check.range(at("youngs_modulus_pa").c_str(), wall.youngs_modulus_pa, 1e4, 1e13, "Pa");
   check.range(at("poissons_ratio").c_str(), wall.poissons_ratio, 0, 0.49, "");
@@ -43,7 +43,7 @@ void check_wall(Checker& check, const WallContact& wall, const std::string& name
   check.range(at("cohesion_factor").c_str(), wall.cohesion_factor, 0, 10, "");
 }
 
-void check_bridge(Checker& check, const Bridge& bridge, double radius) {
+void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
   if (bridge.shape == BridgeShape::none) return;
   check.range("contact.bridge.offset_m", bridge.offset_m, 0, 2 * radius, "m");
   if (bridge.shape == BridgeShape::capillary) {
@@ -61,12 +61,13 @@ void check_bridge(Checker& check, const Bridge& bridge, double radius) {
   const double gap = bridge.d_c_m;
   const double at_rupture = (bridge.a_n_m2 * gap + bridge.b_n_m) * gap + bridge.c_n;
   check.require(bridge.b_n_m * -gap >= -slack, "contact.bridge.b_n_m",
-                "is " + Checker::text(bridge.b_n_m) + " N/m: the attraction would grow with distance", "give b >= 0");
+                "is " + FieldChecker::text(bridge.b_n_m) + " N/m: the attraction would grow with distance",
+                "give b >= 0");
   check.require((bridge.b_n_m + 2 * bridge.a_n_m2 * gap) * -gap >= -slack, "contact.bridge.a_n_m2",
-                "is " + Checker::text(bridge.a_n_m2) + " N/m^2: the attraction would grow again before rupture",
-                "give a with b + 2 a d_c >= 0, at most " + Checker::text(-bridge.b_n_m / (2 * gap)) + " N/m^2");
+                "is " + FieldChecker::text(bridge.a_n_m2) + " N/m^2: the attraction would grow again before rupture",
+                "give a with b + 2 a d_c >= 0, at most " + FieldChecker::text(-bridge.b_n_m / (2 * gap)) + " N/m^2");
   check.require(at_rupture >= -slack, "contact.bridge",
-                "the force at rupture is " + Checker::text(at_rupture) + " N, a repulsion",
+                "the force at rupture is " + FieldChecker::text(at_rupture) + " N, a repulsion",
                 "choose a, b, c, d_c with a d_c^2 + b d_c + c >= 0");
 }
 
@@ -78,7 +79,7 @@ double volume_m3(const Mould& mould) {
 }
 
 Faults validate(const SlumpTable& test) {
-  Checker check;
+  FieldChecker check;
   const GrainSizes& sizes = test.grains;
   const double radius = sizes.radius_m;
   check.range("grains.radius_m", radius, 1e-5, 1, "m");
@@ -102,9 +103,10 @@ Faults validate(const SlumpTable& test) {
   constexpr double kGrainsAcross = 2.5;
   const double narrow = mould.top_radius_m < mould.height_m / 2 ? mould.top_radius_m : mould.height_m / 2;
   check.require(narrow >= kGrainsAcross * largest, "grains.radius_m",
-                "is " + Checker::text(largest) + " m (largest), but the mould is only " + Checker::text(2 * narrow) +
+                "is " + FieldChecker::text(largest) + " m (largest), but the mould is only " +
+                    FieldChecker::text(2 * narrow) +
                     " m across: a mould of a few grains says nothing about a continuum",
-                "take grains of at most " + Checker::text(narrow / kGrainsAcross) + " m radius");
+                "take grains of at most " + FieldChecker::text(narrow / kGrainsAcross) + " m radius");
   check.range("lift_velocity_m_s", test.lift_velocity_m_s, 1e-3, 10, "m/s");
   check.range("table_length_m", test.table_length_m, 2 * mould.base_radius_m, 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * mould.base_radius_m, "m");
@@ -129,12 +131,13 @@ Faults validate(const SlumpTable& test) {
     // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
     constexpr double kMostSqueezed = 0.1;
     const double squeezed = squeeze(contact, radius);
-    check.require(
-        !(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
-        "is " + Checker::text(contact.youngs_modulus_pa) + " Pa: attraction presses the grains into each other by " +
-            Checker::text(100 * squeezed) + " % of their diameter",
-        "give at least " + Checker::text(contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5)) +
-            " Pa, or less strength: 10 % is the most that is carried");
+    check.require(!(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
+                  "is " + FieldChecker::text(contact.youngs_modulus_pa) +
+                      " Pa: attraction presses the grains into each other by " + FieldChecker::text(100 * squeezed) +
+                      " % of their diameter",
+                  "give at least " +
+                      FieldChecker::text(contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5)) +
+                      " Pa, or less strength: 10 % is the most that is carried");
   }
   check_wall(check, test.mould_wall, "mould_wall");
   check_wall(check, test.table_wall, "table_wall");
