@@ -16,6 +16,7 @@
 #include "calibrate/search/machine.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/fault_text.h"
+#include "core/observe/outline.h"
 #include "core/rigs/ruler.h"
 #include "core/simulate.h"
 #include "core/world/world.h"
@@ -89,10 +90,36 @@ class Pictures {
   std::vector<Scene> scenes_;
 };
 
-nlohmann::ordered_json json_of(const Outcome& outcome, double wall_s) {
+/// The heap after each step as it is seen from the side, for a photograph beside it.
+class Silhouettes {
+ public:
+  void look(const Moment& moment) {
+    if (moment.drop > 0 || (moment.phase != "step1.rest" && moment.phase != "step2.rest")) return;
+    latest_[moment.phase == "step1.rest" ? 0 : 1] = moment.world->particles;
+  }
+
+  /// {"step1": [[x_mm, z_mm], ...], ...}: what a laboratory file takes as the points of a profile.
+  nlohmann::ordered_json to_json(double mean_radius_m) const {
+    auto out = nlohmann::ordered_json::object();
+    for (const int step : {0, 1}) {
+      if (latest_[step].count() == 0) continue;
+      const Outline side = outline(on_table(latest_[step]), mean_radius_m);
+      auto& points = out["step" + std::to_string(step + 1)] = nlohmann::ordered_json::array();
+      for (std::size_t k = 0; k < side.height_m.size(); ++k)
+        points.push_back({1e3 * (side.first_x_m + static_cast<double>(k) * side.spacing_m), 1e3 * side.height_m[k]});
+    }
+    return out;
+  }
+
+ private:
+  std::array<Particles, 2> latest_;
+};
+
+nlohmann::ordered_json json_of(const Outcome& outcome, const nlohmann::ordered_json& outlines, double wall_s) {
   const auto& run = outcome.run;
   nlohmann::ordered_json out;
   out["observables"] = to_json(outcome.observables);
+  if (!outlines.empty()) out["outlines_mm"] = outlines;
   out["run"] = {{"particles", run.particles},
                 {"steps", run.steps},
                 {"time_step_s", run.time_step_s},
@@ -162,19 +189,23 @@ int simulate_file(const SimulateOptions& options) {
   run.steps.threads = options.threads;
   run.steps.sleep = options.sleep;
   Faults unwritten;
-  if (pictures) {
-    run.watch_interval_s = *options.vtk_interval_s;
-    run.watch = [&](const Moment& moment) {
-      if (moment.world) unwritten = pictures->add(moment);
-      return unwritten.empty();
-    };
-  }
+  Silhouettes silhouettes;
+  run.watch_interval_s = options.vtk_interval_s.value_or(0.1);
+  run.watch = [&](const Moment& moment) {
+    if (!moment.world) return true;
+    silhouettes.look(moment);
+    if (pictures) unwritten = pictures->add(moment);
+    return unwritten.empty();
+  };
   const auto start = std::chrono::steady_clock::now();
   const auto outcome = std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
-  const auto text = json_of(outcome, wall_s).dump(2) + "\n";
+  const auto* of_heap = std::get_if<SlumpTable>(&test);
+  const auto outlines =
+      of_heap && !outcome.failure ? silhouettes.to_json(of_heap->grains.radius_m) : nlohmann::ordered_json::object();
+  const auto text = json_of(outcome, outlines, wall_s).dump(2) + "\n";
   if (options.json)
     std::fputs(text.c_str(), stdout);
   else
