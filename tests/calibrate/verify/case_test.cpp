@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/study/fault_text.h"
 #include "calibrate/verify/check.h"
+#include "tests/calibrate/folder.h"
 
 namespace pastefit {
 namespace {
@@ -27,11 +27,10 @@ json collision() {
 }
 
 Result<Case> read(const json& document) {
-  const fs::path file = fs::temp_directory_path() / ("pastefit-case-" + std::to_string(std::rand()) + ".json");
+  const test::Folder folder;  // of its own: ctest runs cases side by side
+  const fs::path file = folder.path() / "case.json";
   std::ofstream(file) << document;
-  auto result = read_case(file);
-  fs::remove(file);
-  return result;
+  return read_case(file);
 }
 
 std::vector<CheckRow> rows_of(const json& document) {
