@@ -30,6 +30,17 @@ struct Stamp {
         if (square <= radius * radius) points.push_back({dx, dy, radius - std::sqrt(radius * radius - square)});
       }
   }
+
+  /// Calls `meet(here, there, rise)` for every point of a square of n x n points and every one that the ball covers
+  /// when its middle is there. A point of the ball after the other, so that rows are worked on as vectors.
+  template <class Meet>
+  void press(int n, const Meet& meet) const {
+    for (const Point& p : points)
+      for (int iy = std::max(0, -p.dy); iy < std::min(n, n - p.dy); ++iy) {
+        const int row = iy * n, shift = p.dy * n + p.dx, last = std::min(n, n - p.dx);
+        for (int ix = std::max(0, -p.dx); ix < last; ++ix) meet(row + ix, row + ix + shift, p.rise);
+      }
+  }
 };
 
 }  // namespace
@@ -59,25 +70,12 @@ HeightField::HeightField(const Particles& particles, double mean_radius, double 
 
   // Closing: where a ball resting on the envelope has its centre, and how deep it reaches there.
   const Stamp ball(kClosingBall * mean_radius, spacing_);
-  const auto inside = [&](int i) { return i >= 0 && i < n_; };
   std::vector<double> resting(envelope.size(), 0.0);
-  for (int iy = 0; iy < n_; ++iy)
-    for (int ix = 0; ix < n_; ++ix) {
-      double bottom = 0;
-      for (const auto& p : ball.points)
-        if (inside(ix + p.dx) && inside(iy + p.dy))
-          bottom = std::max(bottom, envelope[(iy + p.dy) * n_ + ix + p.dx] - p.rise);
-      resting[iy * n_ + ix] = bottom;
-    }
-  height_.assign(envelope.size(), 0.0);
-  for (int iy = 0; iy < n_; ++iy)
-    for (int ix = 0; ix < n_; ++ix) {
-      double lowest = 1e300;
-      for (const auto& p : ball.points)
-        if (inside(ix + p.dx) && inside(iy + p.dy))
-          lowest = std::min(lowest, resting[(iy + p.dy) * n_ + ix + p.dx] + p.rise);
-      height_[iy * n_ + ix] = lowest;
-    }
+  ball.press(
+      n_, [&](int here, int there, double rise) { resting[here] = std::max(resting[here], envelope[there] - rise); });
+  height_.assign(envelope.size(), 1e300);
+  ball.press(n_,
+             [&](int here, int there, double rise) { height_[here] = std::min(height_[here], resting[there] + rise); });
 }
 
 double highest_point(const Particles& particles) {

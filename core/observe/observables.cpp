@@ -18,4 +18,19 @@ std::optional<double> Observables::find(std::string_view name) const {
   return {};
 }
 
+Observables mean_of(const std::vector<Observables>& runs) {
+  Observables mean;
+  if (runs.empty()) return mean;
+  for (const Observable& reading : runs.front().all()) {
+    double sum = 0;
+    const bool everywhere = std::all_of(runs.begin(), runs.end(), [&](const Observables& run) {
+      const auto value = run.find(reading.name);
+      sum += value.value_or(0);
+      return value.has_value();
+    });
+    if (everywhere) mean.set(reading.name, sum / static_cast<double>(runs.size()));
+  }
+  return mean;
+}
+
 }  // namespace pastefit

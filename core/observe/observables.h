@@ -25,4 +25,7 @@ class Observables {
   std::vector<Observable> readings_;
 };
 
+/// The mean of each reading over several runs. One that some run lacks has none.
+Observables mean_of(const std::vector<Observables>& runs);
+
 }  // namespace pastefit

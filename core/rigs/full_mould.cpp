@@ -5,6 +5,7 @@
 
 #include "core/observe/heap.h"
 #include "core/rigs/packing.h"
+#include "core/rigs/slump_world.h"
 #include "core/step/runner.h"
 
 namespace pastefit {
@@ -18,24 +19,6 @@ constexpr double kDrag = 40;
 constexpr double kShare = 0.5;        // of the missing size that is made up for at once
 constexpr double kMostGrowth = 2e-3;  // in one look
 constexpr double kEven = 2e-4;        // missing size with which the column fits: 0.06 % of the volume
-
-World world_in_mould(const SlumpTable& test, const Packing& packing) {
-  World world;
-  world.particles = make_particles(packing.centres, packing.radii, grain_density(test, packing));
-  set_contact_model(world, test.contact, test.grains.radius_m);
-  const auto add = [&](const char* name, Shape shape, const WallContact& surface) {
-    Wall wall;
-    wall.name = name;
-    wall.shape = shape;
-    wall.pair = wall_pair(test.contact, surface, test.grains.radius_m);
-    world.walls.push_back(wall);
-  };
-  const Mould& mould = test.mould;
-  add("table", Plane{}, test.table_wall);
-  add("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test.mould_wall);
-  world.drag = kDrag;
-  return world;
-}
 
 void enlarge(Particles& grains, double k) {
   for (std::int32_t i = 0; i < grains.count(); ++i) {
@@ -71,6 +54,7 @@ Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOpti
   options.steps.ledger = options.steps.sleep = false;  // the column is worked on from outside
   options.steps.fixed_step_s.reset();                  // meant for the test
   World world = world_in_mould(test, packing);
+  world.drag = kDrag;
   Runner runner(world, options);
   Packing full = packing;
   const Mould& mould = test.mould;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rigs/rotor.h"
+#include "core/rigs/slump_world.h"
 #include "core/rigs/waiting.h"
 
 namespace pastefit {
@@ -17,7 +18,11 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 class Drop {
  public:
   Drop(const SlumpTable& test, World world, const Ledger& before, const RunOptions& options)
-      : test_(test), options_(options), world_(std::move(world)), runner_(world_, options), table_(world_.walls[0]) {
+      : test_(test),
+        options_(options),
+        world_(std::move(world)),
+        runner_(world_, options),
+        table_(world_.walls[kTable]) {
     runner_.follow(before);
   }
 
@@ -88,17 +93,12 @@ class Drop {
 
 }  // namespace
 
-Plate level_table(const SlumpTable& test) {
-  Plate plate;
-  plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  return plate;
-}
-
 Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& ruler, const Ledger& before,
                    const RunOptions& options) {
   Outcome mean;
   mean.run.settled = true;
   World world = rested;
+  std::vector<Observables> of_sides;
   for (int side = 0; side < kSides; ++side) {
     RunOptions of_side = options;
     if (options.watch)
@@ -118,12 +118,10 @@ Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& rul
     mean.run.asleep_share += run.asleep_share / kSides;
     mean.run.settled = mean.run.settled && run.settled;
     if (mean.failure) return mean;
-    Observables readings;
-    ruler.read(drop.grains(), "step2", readings);
-    for (const auto& one : readings.all())
-      mean.observables.set(one.name, mean.observables.find(one.name).value_or(0) + one.value / kSides);
+    ruler.read(drop.grains(), "step2", of_sides.emplace_back());
     turn_half_round(world);
   }
+  mean.observables = mean_of(of_sides);
   return mean;
 }
 

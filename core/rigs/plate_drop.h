@@ -17,7 +17,4 @@ namespace pastefit {
 Outcome drop_plate(const SlumpTable& test, const World& world, const Ruler& ruler, const Ledger& before,
                    const RunOptions& options);
 
-/// The plate (or table) level.
-Plate level_table(const SlumpTable& test);
-
 }  // namespace pastefit

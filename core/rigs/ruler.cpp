@@ -38,7 +38,6 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   const double highest = std::clamp(highest_point(grains), surface, rim);
   const double height = test_.reading.height == HeightReading::axis ? surface : highest;
   const Widths spread = widths(grains, radius);
-  const Outline side = outline(grains, radius);
   set(".height_mm", 1e3 * height);
   set(".slump_mm", 1e3 * (rim - height));
   set(".height_axis_mm", 1e3 * surface);
@@ -46,9 +45,12 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".lateral_shift_mm", 1e3 * std::sqrt(probe.x * probe.x + probe.y * probe.y));
   set(".spread_mm", 1e3 * spread.mean);
   set(".spread_orthogonal_mm", 1e3 * spread.orthogonal);
-  const auto& measured = step == "step1" ? test_.reading.outline_step1 : test_.reading.outline_step2;
+  const bool dropped = step == "step2";
+  const auto& measured = dropped ? test_.reading.outline_step2 : test_.reading.outline_step1;
+  if (!dropped && measured.empty()) return;
+  const Outline side = outline(grains, radius);
   if (!measured.empty()) set(".profile_mm", 1e3 * rms_difference(side, measured));
-  if (step == "step1") return;
+  if (!dropped) return;
   const double window = test_.reading.sag_window_m;
   set(".plateau_sag_mm", -1e3 * window * slope_along_x(grains, radius, {0, 0, window}));
   set(".plateau_width_mm", 1e3 * plateau_width(side));

@@ -4,6 +4,7 @@
 #include "core/observe/heap.h"
 #include "core/rigs/packing.h"
 #include "core/rigs/plate_drop.h"
+#include "core/rigs/slump_world.h"
 #include "core/rigs/waiting.h"
 #include "core/simulate.h"
 
@@ -11,8 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kGroundDepth = 0.1;  // [m] below the table
-constexpr int kStepsPerLook = 64;     // at the highest point of the heap
+constexpr int kStepsPerLook = 64;  // at the highest point of the heap
 // [radii] A lost heap may rise by so much again: a mould that drags it along, a column that swings, a grain that hops.
 // Twice the most that was seen (tests/bench/README.md).
 constexpr double kRebound = 1;
@@ -23,7 +23,7 @@ class MouldLift {
   MouldLift(const SlumpTable& test, const Packing& filled, const RunOptions& options)
       : test_(test),
         options_(options),
-        world_(make_world(test, filled)),
+        world_(world_in_mould(test, filled)),
         runner_(world_, options),
         ruler_(test, filled.roughness_m, world_.particles) {
     if (options_.window)
@@ -53,8 +53,6 @@ class MouldLift {
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
-  static constexpr std::size_t kMould = 2;
-
   /// The lift is over when the mould is above the heap; or when it touches nothing and the heap is at rest, because
   /// then nothing can move any more however much farther it rises. With fixed waits: when it has risen by its height.
   std::optional<Failure> lift_mould() {
@@ -81,28 +79,6 @@ class MouldLift {
 
   std::function<bool(const World&)> look_whether_lost() const {
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };
-  }
-
-  static World make_world(const SlumpTable& test, const Packing& packing) {
-    World world;
-    world.particles = make_particles(packing.centres, packing.radii, grain_density(test, packing));
-    set_contact_model(world, test.contact, test.grains.radius_m);
-    Wall table;
-    table.name = "table";
-    table.shape = level_table(test);
-    table.pair = wall_pair(test.contact, test.table_wall, test.grains.radius_m);
-    Wall mould;
-    mould.name = "mould";
-    mould.shape = Shell{{}, test.mould.base_radius_m, test.mould.top_radius_m, test.mould.height_m};
-    mould.pair = wall_pair(test.contact, test.mould_wall, test.grains.radius_m);
-    // Grains that flow over the table's edge land on the ground and are counted as spilled.
-    Wall ground;
-    ground.name = "ground";
-    ground.shape = Plane{{0, 0, -kGroundDepth}};
-    ground.pair = table.pair;
-    ground.pair.rolling_friction = 1;
-    world.walls = {table, ground, mould};
-    return world;
   }
 
   const SlumpTable& test_;

@@ -34,7 +34,7 @@ class TimeStep {
   double smallest() const { return smallest_; }  ///< of all the advice so far
 
  private:
-  static constexpr int kWindow = 64;    // steps; a collision takes 18 to 60
+  static constexpr int kWindow = 64;    // steps; a collision takes 10 to 63
   static constexpr double kRise = 1.2;  // largest rise between two windows
 
   double step_ = 0;

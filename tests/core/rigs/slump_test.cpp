@@ -152,6 +152,16 @@ TEST_CASE("the energy of a slump in two steps is accounted for to the second ord
   }
 }
 
+TEST_CASE("grains that resist rolling strongly come to rest, and do not hum on the spot") {
+  SlumpTable test = small_test(5);
+  test.contact.restitution = 0.6;
+  test.contact.rolling_friction = 0.9;
+  const Outcome outcome = simulate(test);
+  REQUIRE_FALSE(outcome.failure);
+  CHECK(outcome.run.settled);
+  CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+}
+
 TEST_CASE("a mould that starts at full speed from soft grains creates no energy") {
   SlumpTable test = small_test(0);
   test.contact.youngs_modulus_pa = 3e5;

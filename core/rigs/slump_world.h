@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/rigs/packing.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// Places of the walls in a slump test's world. The mould is the last one, and is gone after the lift.
+inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;
+
+/// The table, or the plate that can be dropped, when it is level.
+Plate level_table(const SlumpTable& test);
+
+/// A packing in its mould on the table, under the laws of `test`. Grains that flow over the table's edge land on the
+/// ground below it.
+World world_in_mould(const SlumpTable& test, const Packing& packing);
+
+}  // namespace pastefit
