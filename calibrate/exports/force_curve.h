@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 
 namespace pastefit {
 

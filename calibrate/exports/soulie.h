@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 
 namespace pastefit {
 

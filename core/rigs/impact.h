@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/laws/materials.h"
 #include "core/result.h"
-#include "core/rigs/materials.h"
 #include "core/simulate.h"
 #include "core/vec3.h"
 #include "core/world/walls.h"

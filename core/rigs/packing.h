@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/laws/materials.h"
 #include "core/result.h"
-#include "core/rigs/materials.h"
 #include "core/rigs/slump_table.h"
 #include "core/simulate.h"
 #include "core/vec3.h"

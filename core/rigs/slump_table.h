@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/laws/materials.h"
 #include "core/observe/outline.h"
 #include "core/result.h"
-#include "core/rigs/materials.h"
 
 namespace pastefit {
 

@@ -6,7 +6,7 @@
 
 #include "core/laws/constants.h"
 #include "core/laws/contact.h"
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 #include "core/world/batches.h"
 #include "core/world/particles.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/laws/constants.h"
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 #include "core/world/neighbours.h"
 #include "core/world/particles.h"
 #include "core/world/walls.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 #include "tests/bench/speed/process.h"
 
 namespace pastefit {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 #include "core/rigs/slump_table.h"
 #include "core/vec3.h"
 

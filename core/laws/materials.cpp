@@ -1,4 +1,4 @@
-#include "core/rigs/materials.h"
+#include "core/laws/materials.h"
 
 namespace pastefit {
 
