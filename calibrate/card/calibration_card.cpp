@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/card/machine.h"
-#include "calibrate/check/statistics.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/statistics.h"
 #include "calibrate/search/confirmation.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"

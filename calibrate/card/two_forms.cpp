@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 
-#include "calibrate/card/machine.h"
+#include "calibrate/base/format.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/statistics.h"
 #include "calibrate/check/law.h"
 #include "calibrate/check/runs.h"
-#include "calibrate/check/statistics.h"
-#include "calibrate/report/format.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/parameters.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 
 namespace pastefit {
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "calibrate/exports/force_curve.h"
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/rigs/impact.h"
 
 namespace pastefit {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/check/runs.h"
-#include "calibrate/check/statistics.h"
 #include "calibrate/search/confirmation.h"
 
 namespace pastefit {

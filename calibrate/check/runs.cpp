@@ -4,6 +4,8 @@
 #include <atomic>
 #include <thread>
 
+#include "calibrate/base/machine.h"
+
 namespace pastefit {
 
 std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
@@ -19,9 +21,9 @@ std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std:
       outcomes[i] = engine.run(one, options);
     }
   };
-  const auto cores = std::max(1u, threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency());
+  const auto cores = static_cast<std::size_t>(threads > 0 ? threads : processors());
   std::vector<std::jthread> workers;
-  for (std::size_t i = 1; i < std::min<std::size_t>(cores, packings.size()); ++i) workers.emplace_back(work);
+  for (std::size_t i = 1; i < std::min(cores, packings.size()); ++i) workers.emplace_back(work);
   work();
   workers.clear();
   return outcomes;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
@@ -15,6 +15,7 @@
 #include "calibrate/report/summary.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/memory.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"

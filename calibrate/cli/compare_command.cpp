@@ -2,15 +2,16 @@
 #include <cstdio>
 #include <memory>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
-#include "calibrate/report/format.h"
 #include "calibrate/report/misfit_figure.h"
 #include "calibrate/search/comparison.h"
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/memory.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/parameters.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <set>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/exports/export.h"

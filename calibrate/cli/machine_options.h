@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "calibrate/search/machine.h"
+#include "calibrate/base/machine.h"
 
 namespace pastefit {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 
 namespace pastefit {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 
 namespace pastefit {
 

@@ -3,12 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/card/atomic_file.h"
-#include "calibrate/card/card_text.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/report/card_text.h"
+#include "calibrate/search/memory.h"
 
 namespace pastefit {
 

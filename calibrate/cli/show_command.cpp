@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "calibrate/card/card_text.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/report/card_text.h"
 
 namespace pastefit {
 

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/scene.h"
 #include "calibrate/report/vtk.h"
-#include "calibrate/search/machine.h"
+#include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/fault_text.h"
 #include "core/observe/outline.h"

@@ -6,7 +6,7 @@
 
 #include "calibrate/cli/commands.h"
 #include "calibrate/study/fault_text.h"
-#include "calibrate/verify/check.h"
+#include "calibrate/verify/verify.h"
 
 namespace pastefit {
 
@@ -113,8 +113,8 @@ int verify_cases(const VerifyOptions& options) {
   std::size_t checks = 0, failed = 0, known = 0;
   for (const auto& [test, rows] : cases) {
     checks += rows.size();
-    failed += static_cast<std::size_t>(std::ranges::count(rows, Verdict::fail, &CheckRow::verdict));
-    known += static_cast<std::size_t>(std::ranges::count(rows, Verdict::known, &CheckRow::verdict));
+    failed += static_cast<std::size_t>(std::ranges::count(rows, CaseVerdict::fail, &CheckRow::verdict));
+    known += static_cast<std::size_t>(std::ranges::count(rows, CaseVerdict::known, &CheckRow::verdict));
   }
   if (options.json) {
     nlohmann::ordered_json out{{"checks", checks}, {"failed", failed}, {"known_deviations", known}};

@@ -1,9 +1,9 @@
+#include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/force_curve.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/lammps_style.h"
 #include "calibrate/exports/parameter_table.h"
-#include "calibrate/report/format.h"
+#include "calibrate/verify/force_curve.h"
 
 namespace pastefit {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/exports/force_curve.h"
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 #include "calibrate/store/program.h"
+#include "calibrate/verify/force_curve.h"
 
 namespace pastefit {
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
+#include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/force_curve.h"
 #include "calibrate/exports/lammps_deck.h"
-#include "calibrate/report/format.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

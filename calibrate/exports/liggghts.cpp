@@ -2,12 +2,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/force_curve.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/soulie.h"
-#include "calibrate/report/format.h"
 #include "calibrate/store/program.h"
+#include "calibrate/verify/force_curve.h"
 
 namespace pastefit {
 

@@ -1,7 +1,7 @@
 #include "calibrate/exports/parameter_table.h"
 
-#include "calibrate/exports/force_curve.h"
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "calibrate/exports/force_curve.h"
+#include "calibrate/verify/force_curve.h"
 
 namespace pastefit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "calibrate/check/statistics.h"
+#include "calibrate/base/statistics.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

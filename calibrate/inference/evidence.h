@@ -18,7 +18,7 @@ struct ReadingEvidence {
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
   double deviation = 0;            ///< standard deviation of one measurement, in the reading's unit
   int repeats = 1;
-  double widening = 1;        ///< of the deviation, where it was estimated from the repeats (`check/statistics.h`)
+  double widening = 1;        ///< of the deviation, where it was estimated from the repeats (`base/statistics.h`)
   double weight = 0;          ///< in the fit; 0: not fitted
   Eigen::VectorXd simulated;  ///< NaN: the simulation ended before it
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 
 namespace pastefit {
 

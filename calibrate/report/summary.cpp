@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 #include "core/rigs/ruler.h"
 
 namespace pastefit {

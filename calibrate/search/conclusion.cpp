@@ -1,6 +1,6 @@
 #include "calibrate/search/conclusion.h"
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 
 namespace pastefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/study/content_hash.h"
+#include "calibrate/base/content_hash.h"
 
 namespace pastefit {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
+#include "calibrate/base/machine.h"
+#include "calibrate/base/processor_time.h"
 #include "calibrate/search/early_end.h"
-#include "calibrate/search/processor_time.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
@@ -51,8 +51,7 @@ SimulationObjective::SimulationObjective(const Study& study, Store& store, Evalu
       fitted_(tests_of(study, false)),
       store_(store),
       options_(std::move(options)),
-      pool_(options_.threads > 0 ? options_.threads
-                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
+      pool_(options_.threads > 0 ? options_.threads : processors()) {
   if (options_.budget <= 0) options_.budget = study.search.budget_simulations;
   Eigen::Index coordinate = 0;
   for (const auto& parameter : study.parameters) {

@@ -43,33 +43,33 @@ class Avoiding : public Objective {
 }  // namespace
 
 std::optional<UnitPoint> Proposals::next() {
-  Surrogate model(ledger_.evidence());
+  Surrogate model(archive_.evidence());
   if (imagine_answers(model)) return std::nullopt;
-  const UnitPoint proposal = tried_with_coarse_grains(least_point(model, ledger_.best_point(common_)));
+  const UnitPoint proposal = tried_with_coarse_grains(least_point(model, archive_.best_point(common_)));
   if (was_asked(proposal)) return std::nullopt;
   return proposal;
 }
 
 std::optional<UnitPoint> Proposals::next_elsewhere() {
-  Surrogate model(ledger_.evidence());
+  Surrogate model(archive_.evidence());
   std::vector<UnitPoint> asked;
-  for (const Response& one : ledger_.history())
+  for (const Response& one : archive_.history())
     if (std::ranges::equal(one.packings, common_)) asked.push_back(one.point);
   if (asked.empty()) return std::nullopt;
   Avoiding avoiding(model, std::move(asked));
-  const UnitPoint proposal = least_point(avoiding, ledger_.best_point(common_));
+  const UnitPoint proposal = least_point(avoiding, archive_.best_point(common_));
   if (was_asked(proposal)) return std::nullopt;
   return proposal;
 }
 
 UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
-  for (int tries = 0; coarse_ && tries < coarse_tries && !ledger_.stop_requested(); ++tries) {
-    const std::size_t known = ledger_.coarse_singles().size();
-    ledger_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
-    if (ledger_.coarse_singles().size() == known) break;
-    Surrogate model(ledger_.evidence());
+  for (int tries = 0; coarse_ && tries < coarse_tries && !archive_.stop_requested(); ++tries) {
+    const std::size_t known = archive_.coarse_singles().size();
+    archive_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
+    if (archive_.coarse_singles().size() == known) break;
+    Surrogate model(archive_.evidence());
     imagine_answers(model);
-    const UnitPoint better = least_point(model, ledger_.best_point(common_));
+    const UnitPoint better = least_point(model, archive_.best_point(common_));
     const auto misfit = [&](const UnitPoint& point) { return model.evaluate({&point, 1}, common_).at(0).misfit; };
     if (misfit(proposal) <= misfit(better) + model.noise() / static_cast<double>(common_.size())) break;
     if (tries + 1 < coarse_tries) proposal = better;
@@ -81,9 +81,9 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
 bool Proposals::imagine_answers(Surrogate& model) const {
   const RandomStream random(options_.seed, "answers of candidates under way");
   bool met = false;
-  std::uint64_t candidate = ledger_.history().size();  // its place in the history to come
-  for (const Ledger::Asked& asked : ledger_.under_way()) {
-    Eigen::VectorXd luck(ledger_.residuals());
+  std::uint64_t candidate = archive_.history().size();  // its place in the history to come
+  for (const Archive::Asked& asked : archive_.under_way()) {
+    Eigen::VectorXd luck(archive_.residuals());
     for (Eigen::Index k = 0; k < luck.size(); ++k)
       luck[k] = random.normal(candidate * static_cast<std::uint64_t>(luck.size()) + static_cast<std::uint64_t>(k));
     const Eigen::VectorXd answer = model.imagine(asked.point, static_cast<int>(asked.packings.size()), luck);
@@ -95,7 +95,7 @@ bool Proposals::imagine_answers(Surrogate& model) const {
 
 /// The goal as a misfit, by the ratio of both in the best simulation.
 double Proposals::goal_misfit() const {
-  const auto best = ledger_.best_single();
+  const auto best = archive_.best_single();
   return best && best->misfit_mm > 0 ? best->misfit * std::pow(goal_mm_ / best->misfit_mm, 2) : 0;
 }
 
@@ -104,7 +104,7 @@ bool Proposals::was_asked(const UnitPoint& point) const {
     return std::ranges::equal(asked.packings, common_) &&
            (asked.point - point).template lpNorm<Eigen::Infinity>() < same_point;
   };
-  return std::ranges::any_of(ledger_.history(), same) || std::ranges::any_of(ledger_.under_way(), same);
+  return std::ranges::any_of(archive_.history(), same) || std::ranges::any_of(archive_.under_way(), same);
 }
 
 }  // namespace pastefit

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "calibrate/search/ledger.h"
+#include "calibrate/search/archive.h"
 #include "calibrate/search/surrogate.h"
 
 namespace pastefit {
@@ -28,9 +28,9 @@ inline constexpr double same_point = 0.01;
 class Proposals {
  public:
   /// `goal_mm`: misfit at which a candidate is good enough.
-  Proposals(Ledger& ledger, Objective* coarse, const SearchOptions& options, std::span<const std::uint64_t> common,
+  Proposals(Archive& archive, Objective* coarse, const SearchOptions& options, std::span<const std::uint64_t> common,
             double goal_mm)
-      : ledger_(ledger), coarse_(coarse), options_(options), common_(common), goal_mm_(goal_mm) {}
+      : archive_(archive), coarse_(coarse), options_(options), common_(common), goal_mm_(goal_mm) {}
 
   /// None if nothing new comes to mind before the next answer.
   std::optional<UnitPoint> next();
@@ -45,7 +45,7 @@ class Proposals {
   double goal_misfit() const;
   bool was_asked(const UnitPoint& point) const;
 
-  Ledger& ledger_;
+  Archive& archive_;
   Objective* coarse_;
   const SearchOptions& options_;
   std::span<const std::uint64_t> common_;

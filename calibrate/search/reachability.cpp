@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 #include "calibrate/search/gaussian_process.h"
 #include "calibrate/search/surrogate.h"
 
@@ -121,16 +121,16 @@ std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint6
   return points;
 }
 
-std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const ReachOptions& options, int& probes) {
-  const int parameters = ledger.parameters();
-  const double tolerance = options.tolerance_mm * std::sqrt(ledger.readings());
-  while (!ledger.stop_requested()) {
-    const Approach approach(ledger.singles(), reading, tolerance);
+std::optional<OutOfReach> examine(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
+  const int parameters = archive.parameters();
+  const double tolerance = options.tolerance_mm * std::sqrt(archive.readings());
+  while (!archive.stop_requested()) {
+    const Approach approach(archive.singles(), reading, tolerance);
     if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
     // How far they would have gone is what matters here.
-    if (const auto ended = ended_early(ledger.singles(), options.packing); !ended.empty()) {
-      if (ledger.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
-      ledger.evaluate(ended, {&options.packing, 1});
+    if (const auto ended = ended_early(archive.singles(), options.packing); !ended.empty()) {
+      if (archive.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
+      archive.evaluate(ended, {&options.packing, 1});
       continue;
     }
     if (!approach.suspect()) return std::nullopt;
@@ -149,11 +149,11 @@ std::optional<OutOfReach> examine(Ledger& ledger, std::size_t reading, const Rea
       found.bounds = bounds_of(model, found.nearest);
       return found;
     }
-    if (probes < 1 || ledger.budget_left() < 1) return std::nullopt;
+    if (probes < 1 || archive.budget_left() < 1) return std::nullopt;
     --probes;
-    const std::size_t before = ledger.singles().size();
-    ledger.evaluate({&hopeful, 1}, {&options.packing, 1});
-    if (ledger.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
+    const std::size_t before = archive.singles().size();
+    archive.evaluate({&hopeful, 1}, {&options.packing, 1});
+    if (archive.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
   }
   return std::nullopt;
 }
@@ -164,10 +164,10 @@ std::string name_of(std::span<const std::string> names, std::size_t index, const
 
 }  // namespace
 
-std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options) {
+std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options) {
   int probes = options.probes;
-  for (std::size_t k = 0; ledger.any_feasible() && k < static_cast<std::size_t>(ledger.readings()); ++k)
-    if (auto found = examine(ledger, k, options, probes)) return found;
+  for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k)
+    if (auto found = examine(archive, k, options, probes)) return found;
   return std::nullopt;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/ledger.h"
+#include "calibrate/search/archive.h"
 
 namespace pastefit {
 
@@ -38,11 +38,11 @@ struct ReachOptions {
 /// may get at best: its mean less three standard deviations of its doubt and of one simulation's noise together. The
 /// candidate that may get farthest is simulated, and so on (a lower confidence bound; Cox & John 1992), until the
 /// reading is met (it is within reach), nothing is left that might meet it (it is out of reach, which is the answer),
-/// or the probes are spent (nothing is said). Probes stay in the ledger and serve the search. Limit: three standard
+/// or the probes are spent (nothing is said). Probes stay in the archive and serve the search. Limit: three standard
 /// deviations of a model learnt from a dozen simulations; a narrow region of the cube that answers unlike all the rest
 /// can be overlooked. Simulations that ended early are run whole before anything is judged by them, or if all have
 /// ended so: how far they would have gone is the question.
-std::optional<OutOfReach> find_out_of_reach(Ledger& ledger, const ReachOptions& options);
+std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options);
 
 /// The answer in words. Names may be missing: "reading 1", "parameter 2".
 std::string words_of(const OutOfReach& found, std::span<const std::string> readings,

@@ -6,11 +6,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "calibrate/search/archive.h"
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/confirmation.h"
-#include "calibrate/search/ledger.h"
 #include "calibrate/search/nlopt_search.h"
 #include "calibrate/search/proposals.h"
 #include "calibrate/search/reachability.h"
@@ -33,24 +33,24 @@ class Search {
       : objective_(objective),
         options_(options),
         coarse_(coarse),
-        ledger_(objective, options, progress),
+        archive_(objective, options, progress),
         readings_(readings),
         parameters_(parameters) {}
 
   Calibration run() {
     common_ = fresh_packings(options_.packings);
-    ledger_.hold_back(options_.confirmation_packings);
+    archive_.hold_back(options_.confirmation_packings);
     if (coarse_) screen_coarsely();
-    if (ledger_.evidence().empty()) screen();
-    if (!ledger_.singles().empty() && is_out_of_reach()) {
-      ledger_.evaluate({&out_of_reach_->nearest, 1}, common_);
-      if (!ledger_.stop_requested() && ledger_.best_on(common_)) confirm();
+    if (archive_.evidence().empty()) screen();
+    if (!archive_.singles().empty() && is_out_of_reach()) {
+      archive_.evaluate({&out_of_reach_->nearest, 1}, common_);
+      if (!archive_.stop_requested() && archive_.best_on(common_)) confirm();
       return conclude();
     }
     while (any_evidence() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
-      if (ledger_.stop_requested() || candidates().empty() || confirm()) break;
+      if (archive_.stop_requested() || candidates().empty() || confirm()) break;
     }
     return conclude();
   }
@@ -63,41 +63,41 @@ class Search {
     return packings;
   }
 
-  bool affordable(std::size_t packings) const { return ledger_.budget_left() >= static_cast<int>(packings); }
-  bool may_go_on() const { return !ledger_.stop_requested() && affordable(common_.size()); }
+  bool affordable(std::size_t packings) const { return archive_.budget_left() >= static_cast<int>(packings); }
+  bool may_go_on() const { return !archive_.stop_requested() && affordable(common_.size()); }
 
   void screen_coarsely() {
-    ledger_.enter("screening");
+    archive_.enter("screening");
     const auto points = screening_points(objective_.parameters(), options_.screening, options_.seed);
-    ledger_.evaluate_coarse(*coarse_, points, packings_of_coarse(options_.seed, 1));
+    archive_.evaluate_coarse(*coarse_, points, packings_of_coarse(options_.seed, 1));
   }
 
-  bool any_evidence() const { return std::ranges::any_of(ledger_.evidence(), is_feasible); }
+  bool any_evidence() const { return std::ranges::any_of(archive_.evidence(), is_feasible); }
 
   void screen() {
-    ledger_.enter("screening");
+    archive_.enter("screening");
     const std::span<const std::uint64_t> first(common_.data(), 1);
-    const int known = static_cast<int>(ledger_.singles().size());
+    const int known = static_cast<int>(archive_.singles().size());
     int asked = 0;
     // If everything fails, further points of the same sequence look elsewhere, while half of the budget lasts.
-    while ((!ledger_.any_feasible() || known + asked < options_.screening) && !ledger_.stop_requested()) {
-      const int missing = options_.screening - (ledger_.any_feasible() ? known + asked : 0);
-      const int count = std::min(missing, ledger_.budget_left());
+    while ((!archive_.any_feasible() || known + asked < options_.screening) && !archive_.stop_requested()) {
+      const int missing = options_.screening - (archive_.any_feasible() ? known + asked : 0);
+      const int count = std::min(missing, archive_.budget_left());
       if (count < 1 || asked > options_.budget_simulations / objective_.simulations_each() / 2) return;
       const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
-      ledger_.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
+      archive_.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
     }
   }
 
   /// Says what the screening tells of the reach, and whether a search would be in vain.
   bool is_out_of_reach() {
-    const int spare = ledger_.budget_left() - static_cast<int>(common_.size());
+    const int spare = archive_.budget_left() - static_cast<int>(common_.size());
     out_of_reach_ =
-        find_out_of_reach(ledger_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
-    if (!ledger_.any_feasible() || ledger_.stop_requested()) return false;
-    ledger_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
-                              : words_of_screening(ledger_.singles(), readings_));
+        find_out_of_reach(archive_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
+    if (!archive_.any_feasible() || archive_.stop_requested()) return false;
+    archive_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
+                               : words_of_screening(archive_.singles(), readings_));
     return out_of_reach_.has_value();
   }
 
@@ -105,7 +105,7 @@ class Search {
   /// what its neighbours read, all of them on packings of their own luck, tells them apart.
   Response likely_best() const {
     std::optional<Surrogate> surrogate;
-    if (noise() > 0) surrogate.emplace(ledger_.evidence());
+    if (noise() > 0) surrogate.emplace(archive_.evidence());
     Response best;
     double least = std::numeric_limits<double>::infinity();
     for (const Response& seen : candidates()) {
@@ -120,7 +120,7 @@ class Search {
   /// What was simulated on the common packings and has not failed a confirmation.
   std::vector<Response> candidates() const {
     std::vector<Response> found;
-    for (const Response& seen : ledger_.history()) {
+    for (const Response& seen : archive_.history()) {
       const bool is_out = std::ranges::any_of(refuted_, [&](const UnitPoint& one) { return one == seen.point; });
       if (is_whole(seen) && seen.packings == common_ && !is_out) found.push_back(seen);
     }
@@ -155,54 +155,54 @@ class Search {
 
   /// Brings candidates on the common packings; false if not a single one could be had.
   bool look_for_candidate() {
-    ledger_.enter("search");
+    archive_.enter("search");
     if (options_.strategy == "default") {
       propose_and_try();
     } else if (const auto trust_region = trust_region_of(options_.strategy)) {
-      descend(*trust_region, std::max(1, ledger_.budget_left() / static_cast<int>(2 * common_.size())));
+      descend(*trust_region, std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size())));
     } else {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
-      nlopt.evaluations = std::max(1, ledger_.budget_left() / static_cast<int>(2 * common_.size()));
+      nlopt.evaluations = std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size()));
       nlopt.goal_mm = optimisers_goal_mm();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
-      search_nlopt(ledger_, common_, ledger_.best_point(common_), nlopt);
+      search_nlopt(archive_, common_, archive_.best_point(common_), nlopt);
     }
-    return ledger_.best_on(common_).has_value();
+    return archive_.best_on(common_).has_value();
   }
 
   /// A point of the screening that reads within the tolerance may do already, and one of its packings is known.
   void begin_with_what_is_there() {
-    const auto best = ledger_.best_single();
-    if (best && !ledger_.best_on(common_) && best->misfit_mm <= options_.tolerance_mm && may_go_on())
-      ledger_.begin(best->point, common_);
+    const auto best = archive_.best_single();
+    if (best && !archive_.best_on(common_) && best->misfit_mm <= options_.tolerance_mm && may_go_on())
+      archive_.begin(best->point, common_);
   }
 
   /// Proposes, and takes the answers in the order of the proposals. Proposal k knows the answers up to k - 1 - lag, of
   /// the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
     begin_with_what_is_there();
-    Proposals proposals(ledger_, coarse_, options_, common_, goal_share * options_.tolerance_mm);
+    Proposals proposals(archive_, coarse_, options_, common_, goal_share * options_.tolerance_mm);
     int fruitless = 0;
     bool nothing_new = false;  // until the next answer
     while (true) {
       const bool wanted =
           !nothing_new && !goal_is_met() && may_go_on() && fruitless < fruitless_proposals + options_.lag;
-      if (wanted && std::ssize(ledger_.under_way()) <= options_.lag) {
+      if (wanted && std::ssize(archive_.under_way()) <= options_.lag) {
         std::optional<UnitPoint> proposal = proposals.next();
-        if (!proposal && ledger_.under_way().empty() && candidates().empty()) proposal = proposals.next_elsewhere();
-        if (proposal) ledger_.begin(*proposal, common_);
+        if (!proposal && archive_.under_way().empty() && candidates().empty()) proposal = proposals.next_elsewhere();
+        if (proposal) archive_.begin(*proposal, common_);
         nothing_new = !proposal;
         continue;
       }
-      if (ledger_.under_way().empty()) return;
+      if (archive_.under_way().empty()) return;
       const Response before = incumbent();
-      Response response = ledger_.next_answer();
+      Response response = archive_.next_answer();
       nothing_new = false;
       // What it misses at least does not rule it out: its other readings decide.
       if (is_feasible(response) && response.ended_early && beats(response.misfit, before) && may_go_on())
-        response = ledger_.evaluate({&response.point, 1}, common_).at(0);
+        response = archive_.evaluate({&response.point, 1}, common_).at(0);
       const bool better = is_whole(response) && beats(response.misfit + noise(), before);
       fruitless = better ? 0 : fruitless + 1;
     }
@@ -212,7 +212,7 @@ class Search {
   double noise() const {
     double squares = 0;
     int freedom = 0;
-    const auto& singles = ledger_.singles();
+    const auto& singles = archive_.singles();
     for (std::size_t i = 0; i < singles.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (!is_whole(singles[i]) || !is_whole(singles[j]) || singles[i].point != singles[j].point) continue;
@@ -228,7 +228,7 @@ class Search {
   double probe_length() const {
     const double infinity = std::numeric_limits<double>::infinity();
     Eigen::ArrayXd least = Eigen::ArrayXd::Constant(objective_.residuals(), infinity), most = -least;
-    for (const Response& single : ledger_.evidence()) {
+    for (const Response& single : archive_.evidence()) {
       if (!is_feasible(single)) continue;
       least = least.min(single.residuals.array());
       most = most.max(single.residuals.array());
@@ -248,7 +248,7 @@ class Search {
   /// Descends on what the common packings say, unless that is luck for the most part.
   void refine() {
     if (goal_is_met() || !may_go_on() || noise_mm() > options_.tolerance_mm) return;
-    ledger_.enter("refinement");
+    archive_.enter("refinement");
     descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
   }
 
@@ -260,31 +260,31 @@ class Search {
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
-    search_ceres(ledger_, common_, ledger_.best_point(common_), ceres);
+    search_ceres(archive_, common_, archive_.best_point(common_), ceres);
   }
 
   /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds.
   /// If not, some of them join the common packings, as many as there are: the luck that misled is halved, and further
   /// candidates stay affordable.
   bool confirm() {
-    ledger_.enter("confirmation");
-    ledger_.hold_back(0);
+    archive_.enter("confirmation");
+    archive_.hold_back(0);
     const Response candidate = likely_best();
     const std::size_t most = most_confirmations * static_cast<std::size_t>(options_.confirmation_packings);
     std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
-    Response confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+    Response confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
     Verdict verdict = verdict_on(confirmation, options_.tolerance_mm);
     while (verdict == Verdict::undecided && fresh.size() < most && affordable(fresh.size()) &&
-           !ledger_.stop_requested()) {
+           !archive_.stop_requested()) {
       std::ranges::copy(fresh_packings(static_cast<int>(fresh.size())), std::back_inserter(fresh));
-      confirmation = ledger_.evaluate({&candidate.point, 1}, fresh).at(0);
+      confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
       verdict = verdict_on(confirmation, options_.tolerance_mm);
     }
-    if (ledger_.stop_requested()) return false;
+    if (archive_.stop_requested()) return false;
     ++result_.rounds;
     std::vector<std::uint64_t> joined = common_;
     joined.insert(joined.end(), fresh.begin(), fresh.end());
-    const Response evidence = ledger_.evaluate({&candidate.point, 1}, joined).at(0);
+    const Response evidence = archive_.evaluate({&candidate.point, 1}, joined).at(0);
     const bool holds = verdict == Verdict::holds;
     if (holds || result_.confirmation.point.size() == 0 || is_better(evidence, result_.best)) {
       result_.best = evidence;
@@ -296,24 +296,24 @@ class Search {
       common_.assign(joined.begin(), joined.begin() + std::min(std::ssize(joined), 2 * std::ssize(common_)));
       refuted_.push_back(candidate.point);
     }
-    ledger_.hold_back(options_.confirmation_packings);
+    archive_.hold_back(options_.confirmation_packings);
     return holds;
   }
 
   Calibration conclude() {
-    if (result_.best.point.size() == 0 && ledger_.any_feasible()) {
-      result_.search = ledger_.best_on(common_).value_or(Response{});
+    if (result_.best.point.size() == 0 && archive_.any_feasible()) {
+      result_.search = archive_.best_on(common_).value_or(Response{});
       if (result_.search.point.size() == 0)
-        for (const Response& seen : ledger_.history())
+        for (const Response& seen : archive_.history())
           if (is_whole(seen) && is_better(seen, result_.search)) result_.search = seen;
       result_.best = result_.search;
     }
-    result_.history = ledger_.history();
-    result_.simulations = ledger_.simulations();
-    result_.coarse_simulations = static_cast<int>(ledger_.coarse_singles().size());
-    result_.failures = ledger_.failures();
-    result_.reach = reach_of(ledger_.singles(), objective_.readings());
-    for (const Response& coarse : corrected(ledger_.coarse_singles(), ledger_.singles())) {
+    result_.history = archive_.history();
+    result_.simulations = archive_.simulations();
+    result_.coarse_simulations = static_cast<int>(archive_.coarse_singles().size());
+    result_.failures = archive_.failures();
+    result_.reach = reach_of(archive_.singles(), objective_.readings());
+    for (const Response& coarse : corrected(archive_.coarse_singles(), archive_.singles())) {
       for (std::size_t k = 0; k < result_.reach.size(); ++k) {
         Reach& reach = result_.reach[k];
         const double residual = coarse.residuals[static_cast<Eigen::Index>(k)];
@@ -321,8 +321,8 @@ class Search {
         reach.all_below = reach.all_below && residual < 0;
       }
     }
-    Ending ending{confirmed_, ledger_.stop_requested(), ledger_.any_feasible(), coarse_ != nullptr, out_of_reach_};
-    ending.some_ended_early = std::ranges::any_of(ledger_.singles(), &Response::ended_early);
+    Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), coarse_ != nullptr, out_of_reach_};
+    ending.some_ended_early = std::ranges::any_of(archive_.singles(), &Response::ended_early);
     explain(result_, ending, options_.tolerance_mm, readings_, parameters_);
     return std::move(result_);
   }
@@ -330,7 +330,7 @@ class Search {
   Objective& objective_;
   const SearchOptions& options_;
   Objective* coarse_;
-  Ledger ledger_;
+  Archive archive_;
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
   std::vector<std::uint64_t> common_;  // every candidate is compared on these

@@ -1,6 +1,6 @@
 #include "calibrate/store/program.h"
 
-#include "calibrate/study/content_hash.h"
+#include "calibrate/base/content_hash.h"
 #include "engine_fingerprint.h"
 
 namespace pastefit {

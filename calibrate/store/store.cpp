@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "calibrate/base/content_hash.h"
 #include "calibrate/store/database.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/study/content_hash.h"
 #include "calibrate/study/slump_table_json.h"
 
 namespace pastefit {

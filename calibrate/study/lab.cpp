@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "calibrate/study/content_hash.h"
+#include "calibrate/base/content_hash.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"

@@ -30,7 +30,9 @@ constexpr std::array<ParameterKind, 15> kinds{{
     {"mould_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the mould"},
 }};
 
-enum Slot {
+/// Places of the parameters in a list of values. A scope of its own: their names are those of functions elsewhere.
+namespace slot {
+enum Slot : std::size_t {
   strength,
   rupture_force,
   curvature,
@@ -47,7 +49,8 @@ enum Slot {
   table_cohesion,
   mould_cohesion
 };
-static_assert(mould_cohesion + 1 == kinds.size());
+}
+static_assert(slot::mould_cohesion + 1 == kinds.size());
 
 }  // namespace
 
@@ -100,30 +103,30 @@ SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
   const double radius = test.grains.radius_m;
 
   Bridge& bridge = test.contact.bridge;
-  const double c = values[strength] * radius * radius;
-  const double k = values[curvature];
-  const double lost = 1 - values[rupture_force];  // share of the attraction that is gone when the bridge ruptures
-  double gap = values[rupture_gap];
-  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[offset]);
+  const double c = values[slot::strength] * radius * radius;
+  const double k = values[slot::curvature];
+  const double lost = 1 - values[slot::rupture_force];  // share of the attraction that is gone when the bridge ruptures
+  double gap = values[slot::rupture_gap];
+  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[slot::offset]);
   const double d_c = -gap * radius;
   bridge.shape = BridgeShape::polynomial;
   bridge.a_n_m2 = k * lost * c / (d_c * d_c);
   bridge.b_n_m = lost * (1 + k) * c / -d_c;
   bridge.c_n = c;
   bridge.d_c_m = d_c;
-  bridge.offset_m = values[offset] * radius;
+  bridge.offset_m = values[slot::offset] * radius;
 
   ContactModel& contact = test.contact;
-  contact.friction = values[friction];
-  contact.rolling_friction = values[rolling_friction];
-  contact.restitution = values[restitution];
-  contact.youngs_modulus_pa = values[youngs_modulus];
-  contact.poissons_ratio = values[poissons_ratio];
-  contact.cohesion_n = values[cohesion] * c;
-  test.mould_wall.friction = values[mould_friction];
-  test.mould_wall.cohesion_factor = values[mould_cohesion];
-  test.table_wall.friction = values[table_friction];
-  test.table_wall.cohesion_factor = values[table_cohesion];
+  contact.friction = values[slot::friction];
+  contact.rolling_friction = values[slot::rolling_friction];
+  contact.restitution = values[slot::restitution];
+  contact.youngs_modulus_pa = values[slot::youngs_modulus];
+  contact.poissons_ratio = values[slot::poissons_ratio];
+  contact.cohesion_n = values[slot::cohesion] * c;
+  test.mould_wall.friction = values[slot::mould_friction];
+  test.mould_wall.cohesion_factor = values[slot::mould_cohesion];
+  test.table_wall.friction = values[slot::table_friction];
+  test.table_wall.cohesion_factor = values[slot::table_cohesion];
   return test;
 }
 

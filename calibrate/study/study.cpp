@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "calibrate/study/content_hash.h"
+#include "calibrate/base/content_hash.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/names.h"
 #include "calibrate/study/parameters.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 
 namespace pastefit {
 

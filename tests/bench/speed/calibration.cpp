@@ -6,9 +6,9 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "calibrate/base/processor_time.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
-#include "calibrate/search/processor_time.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"

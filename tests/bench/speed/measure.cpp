@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "calibrate/search/machine.h"
+#include "calibrate/base/machine.h"
 #include "tests/bench/speed/calibration.h"
 #include "tests/bench/speed/ours.h"
 #include "tests/bench/speed/peer_files.h"

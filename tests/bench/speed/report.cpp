@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 
 namespace pastefit {
 

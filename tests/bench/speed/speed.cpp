@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "tests/bench/speed/report.h"
 #include "tests/bench/speed/roofline.h"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_text.h"
 #include "calibrate/card/card_versions.h"
 #include "calibrate/card/rescale.h"
+#include "calibrate/report/card_text.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
 #include "tests/calibrate/folder.h"

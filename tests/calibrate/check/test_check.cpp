@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/check/rescale_bias.h"
-#include "calibrate/check/statistics.h"
 #include "calibrate/study/parameters.h"
 #include "core/random.h"
 #include "tests/calibrate/check/spoiled_engine.h"

@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/force_curve.h"
 #include "calibrate/exports/soulie.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/laws/attraction.h"
 #include "core/laws/constants.h"
 

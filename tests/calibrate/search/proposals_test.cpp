@@ -20,11 +20,11 @@ SearchOptions lagging_options(std::uint64_t seed, int lag) {
 const std::function<void(const Progress&)> nobody;
 const std::vector<std::uint64_t> common{1001, 1002};
 
-/// A ledger that has screened.
-Ledger screened(Objective& objective, const SearchOptions& options) {
-  Ledger ledger(objective, options, nobody);
-  ledger.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
-  return ledger;
+/// A archive that has screened.
+Archive screened(Objective& objective, const SearchOptions& options) {
+  Archive archive(objective, options, nobody);
+  archive.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
+  return archive;
 }
 
 /// A search that has screened, as its proposals find it.
@@ -32,12 +32,12 @@ struct Screened {
   Screened(std::uint64_t seed, int lag)
       : objective(fake_slump(150, seed)),
         options(lagging_options(seed, lag)),
-        ledger(screened(objective, options)),
-        proposals(ledger, nullptr, options, common, 0.1) {}
+        archive(screened(objective, options)),
+        proposals(archive, nullptr, options, common, 0.1) {}
 
   Synthetic objective;
   SearchOptions options;
-  Ledger ledger;
+  Archive archive;
   Proposals proposals;
 };
 
@@ -66,20 +66,20 @@ TEST_CASE("candidates under way together are different ones, and none is one tha
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Screened search(seed, 3);
-    auto& [objective, options, ledger, proposals] = search;
-    while (ledger.under_way().size() < 4) {
+    auto& [objective, options, archive, proposals] = search;
+    while (archive.under_way().size() < 4) {
       const auto proposal = proposals.next();
       if (!proposal) break;
-      for (const Ledger::Asked& asked : ledger.under_way())
+      for (const Archive::Asked& asked : archive.under_way())
         REQUIRE((asked.point - *proposal).lpNorm<Eigen::Infinity>() >= same_point);
-      ledger.begin(*proposal, common);
+      archive.begin(*proposal, common);
     }
-    REQUIRE(!ledger.under_way().empty());
-    if (ledger.under_way().size() > 1) ++several;
-    while (!ledger.under_way().empty()) ledger.next_answer();
+    REQUIRE(!archive.under_way().empty());
+    if (archive.under_way().size() > 1) ++several;
+    while (!archive.under_way().empty()) archive.next_answer();
     const auto next = proposals.next();
     if (!next) continue;
-    for (const Response& seen : ledger.history())
+    for (const Response& seen : archive.history())
       if (std::ranges::equal(seen.packings, common))
         CHECK((seen.point - *next).lpNorm<Eigen::Infinity>() >= same_point);
   }
@@ -92,19 +92,19 @@ TEST_CASE(
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Screened search(seed, 0);
-    auto& [objective, options, ledger, proposals] = search;
+    auto& [objective, options, archive, proposals] = search;
     CHECK_FALSE(proposals.next_elsewhere());  // nothing was asked on the common packings
     for (int k = 0; k < 6; ++k) {
       const auto proposal = proposals.next();
       if (!proposal) break;
-      ledger.evaluate({&*proposal, 1}, common);
+      archive.evaluate({&*proposal, 1}, common);
     }
     const auto beside = proposals.next_elsewhere();
     if (!beside) continue;
     ++found;
-    for (const Response& seen : ledger.history())
+    for (const Response& seen : archive.history())
       if (std::ranges::equal(seen.packings, common)) CHECK((seen.point - *beside).norm() >= 2 * same_point);
-    Surrogate model(ledger.evidence());
+    Surrogate model(archive.evidence());
     CHECK(std::abs(model.evaluate({&*beside, 1}, common).at(0).residuals[0]) <= 2);  // in the laboratory's deviations
   }
   CHECK(found >= 18);
@@ -115,9 +115,9 @@ TEST_CASE("a candidate under way that is likely to meet the goal is waited for")
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic objective = fake_slump(150, seed);
     const SearchOptions options = lagging_options(seed, 1);
-    Ledger ledger = screened(objective, options);
-    Proposals generous(ledger, nullptr, options, common, 200), strict(ledger, nullptr, options, common, 1e-3);
-    ledger.begin(generous.next().value(), common);
+    Archive archive = screened(objective, options);
+    Proposals generous(archive, nullptr, options, common, 200), strict(archive, nullptr, options, common, 1e-3);
+    archive.begin(generous.next().value(), common);
     if (!generous.next()) ++waited;
     if (!strict.next()) ++waited_for_none;
   }
@@ -128,14 +128,14 @@ TEST_CASE("a candidate under way that is likely to meet the goal is waited for")
 TEST_CASE("what is under way is spent, and answered in the order of asking") {
   Synthetic objective = fake_slump(150, 1);
   objective.budget = 60;
-  Ledger ledger = screened(objective, lagging_options(1, 3));
-  const int before = ledger.budget_left();
+  Archive archive = screened(objective, lagging_options(1, 3));
+  const int before = archive.budget_left();
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
-  for (const UnitPoint& point : points) ledger.begin(point, common);
-  CHECK(ledger.budget_left() == before - 6);
-  for (const UnitPoint& point : points) CHECK(ledger.next_answer().point == point);
-  CHECK(ledger.budget_left() == before - 6);
-  CHECK(ledger.under_way().empty());
+  for (const UnitPoint& point : points) archive.begin(point, common);
+  CHECK(archive.budget_left() == before - 6);
+  for (const UnitPoint& point : points) CHECK(archive.next_answer().point == point);
+  CHECK(archive.budget_left() == before - 6);
+  CHECK(archive.under_way().empty());
 }
 
 TEST_CASE("with a lag so many candidates more are under way, and no more than the budget allows") {

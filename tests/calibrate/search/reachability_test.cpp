@@ -13,11 +13,11 @@ struct Screening {
   Synthetic objective;
   SearchOptions options;
   std::function<void(const Progress&)> progress;
-  Ledger ledger;
+  Archive archive;
   explicit Screening(Synthetic made, std::uint64_t seed)
-      : objective(std::move(made)), ledger(objective, options, progress) {
+      : objective(std::move(made)), archive(objective, options, progress) {
     const std::uint64_t packing = 1;
-    ledger.try_out(screening_points(5, 12, seed), {&packing, 1});
+    archive.try_out(screening_points(5, 12, seed), {&packing, 1});
   }
 };
 
@@ -41,7 +41,7 @@ TEST_CASE("a height below all that the model can do is called out of reach befor
   int called = 0, named = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Screening screened(too_stiff(seed), seed);
-    const auto found = find_out_of_reach(screened.ledger, {});
+    const auto found = find_out_of_reach(screened.archive, {});
     CHECK(screened.objective.simulations <= 24);
     if (!found) continue;
     ++called;
@@ -65,7 +65,7 @@ TEST_CASE("what some material does is never called out of reach") {
     Synthetic objective = fake_slump(height, seed);
     objective.level = seed % 3 == 0 ? 40 : 0;  // some end early
     Screening screened(objective, seed);
-    CHECK_FALSE(find_out_of_reach(screened.ledger, {}));
+    CHECK_FALSE(find_out_of_reach(screened.archive, {}));
   }
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
       return wide(inside, packing);
     };
     Screening screened(weak, seed);
-    const auto found = find_out_of_reach(screened.ledger, {});
+    const auto found = find_out_of_reach(screened.archive, {});
     if (!found) continue;
     ++called;
     CHECK_FALSE(found->above);
@@ -94,7 +94,7 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
 
 TEST_CASE("a tolerance wider than the miss leaves nothing out of reach") {
   Screening screened(fake_slump(10, 3), 3);
-  CHECK_FALSE(find_out_of_reach(screened.ledger, {1, 12, 60}));
+  CHECK_FALSE(find_out_of_reach(screened.archive, {1, 12, 60}));
 }
 
 TEST_CASE("a search that would be in vain ends after the screening, and says so") {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/study/content_hash.h"
+#include "calibrate/base/content_hash.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/measurements.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/study/fault_text.h"
-#include "calibrate/verify/check.h"
+#include "calibrate/verify/verify.h"
 #include "tests/calibrate/folder.h"
 
 namespace pastefit {
@@ -54,10 +54,10 @@ std::string complaint_about(const json& document) {
 
 TEST_CASE("a check passes at what theory says and fails one percent beside it") {
   json test = collision();
-  CHECK(rows_of(test)[0].verdict == Verdict::pass);
+  CHECK(rows_of(test)[0].verdict == CaseVerdict::pass);
   test["checks"][0]["expected"] = 10696.9 * 1.01;
   const CheckRow row = rows_of(test)[0];
-  CHECK(row.verdict == Verdict::fail);
+  CHECK(row.verdict == CaseVerdict::fail);
   CHECK(row.error == Approx(0.01 / 1.01).epsilon(0.02));
 }
 
@@ -66,22 +66,22 @@ TEST_CASE("a known deviation is no failure, but is told apart from a pass") {
   test["checks"][0]["expected"] = 1;
   test["checks"][0]["known_deviation"] = "spoiled";
   const CheckRow row = rows_of(test)[0];
-  CHECK(row.verdict == Verdict::known);
+  CHECK(row.verdict == CaseVerdict::known);
   CHECK(row.note == "spoiled");
 }
 
 TEST_CASE("a reading beyond its bound fails") {
   json test = collision();
   test["checks"] = json::parse(R"([{"reading": "kinetic_energy_ratio", "at_most": 0.99}])");
-  CHECK(rows_of(test)[0].verdict == Verdict::fail);
+  CHECK(rows_of(test)[0].verdict == CaseVerdict::fail);
   test["checks"][0]["at_most"] = 1.0001;
-  CHECK(rows_of(test)[0].verdict == Verdict::pass);
+  CHECK(rows_of(test)[0].verdict == CaseVerdict::pass);
 }
 
 TEST_CASE("a reading that the test does not have fails its check") {
   json test = collision();
   test["checks"] = json::parse(R"([{"reading": "rotor_time_s", "expected": 1, "tolerance": 0.1}])");
-  CHECK(rows_of(test)[0].verdict == Verdict::fail);
+  CHECK(rows_of(test)[0].verdict == CaseVerdict::fail);
 }
 
 TEST_CASE("grid and points are combined, and the worst point stands for a check") {
@@ -157,7 +157,7 @@ TEST_CASE("an experiment that is enlarged by the wrong rule does not end alike")
   json test = collision();
   test["scene"]["contact"]["cohesion_n"] = 5000;
   test["checks"] = json::parse(R"([{"unchanged_under": "lengthen", "absolute_tolerance": 1e-6}])");
-  CHECK(rows_of(test)[0].verdict == Verdict::pass);
+  CHECK(rows_of(test)[0].verdict == CaseVerdict::pass);
   const auto read_test = read(test);
   const Impact scene = scene_at(read_test.value(), {}).value();
   // Cohesion has to grow with the square of the length.

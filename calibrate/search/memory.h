@@ -6,12 +6,6 @@
 
 namespace pastefit {
 
-/// Processors of this machine that the program may use, at least 1.
-int processors();
-
-/// Memory that programs may still take [bytes]; infinite where the system does not say.
-double memory_available_bytes();
-
 /// What a simulation of the test needs at its peak [bytes]: 1 kB for each grain that is poured (a settled box of
 /// 100,000 to 1,000,000 grains takes 750 to 1000, see tests/bench/speed/README.md).
 double memory_needed_bytes(const SlumpTable& test);

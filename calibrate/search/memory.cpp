@@ -1,12 +1,9 @@
-#include "calibrate/search/machine.h"
+#include "calibrate/search/memory.h"
 
-#include <algorithm>
-#include <fstream>
-#include <limits>
 #include <string>
-#include <thread>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
+#include "calibrate/base/machine.h"
 #include "core/rigs/packing.h"
 
 namespace pastefit {
@@ -16,19 +13,6 @@ namespace {
 constexpr double kBytesPerGrain = 1000;
 
 }  // namespace
-
-int processors() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-double memory_available_bytes() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string word; file >> word;) {
-    double kilobytes = 0;
-    if (word == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 double memory_needed_bytes(const SlumpTable& test) {
   return kBytesPerGrain * poured_grains(test);

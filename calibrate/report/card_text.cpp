@@ -1,8 +1,8 @@
-#include "calibrate/card/card_text.h"
+#include "calibrate/report/card_text.h"
 
 #include <cmath>
 
-#include "calibrate/report/format.h"
+#include "calibrate/base/format.h"
 #include "calibrate/report/summary.h"
 
 namespace pastefit {

@@ -1,4 +1,4 @@
-#include "calibrate/exports/force_curve.h"
+#include "calibrate/verify/force_curve.h"
 
 #include <algorithm>
 #include <cmath>

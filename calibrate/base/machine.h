@@ -9,4 +9,10 @@ namespace pastefit {
 /// (core/README.md, Determinism).
 std::string machine_type();
 
+/// Processors of this machine that the program may use, at least 1.
+int processors();
+
+/// Memory that programs may still take [bytes]; infinite where the system does not say.
+double memory_available_bytes();
+
 }  // namespace pastefit

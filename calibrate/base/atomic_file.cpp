@@ -1,4 +1,4 @@
-#include "calibrate/card/atomic_file.h"
+#include "calibrate/base/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>

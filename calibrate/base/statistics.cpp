@@ -1,4 +1,4 @@
-#include "calibrate/check/statistics.h"
+#include "calibrate/base/statistics.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

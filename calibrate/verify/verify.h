@@ -8,13 +8,13 @@
 namespace pastefit {
 
 /// How a check ended.
-enum class Verdict {
+enum class CaseVerdict {
   pass,
   known,  ///< it fails, as its file says it does and why
   fail
 };
 
-std::string_view name_of(Verdict verdict);
+std::string_view name_of(CaseVerdict verdict);
 
 /// One check at one point of a case.
 struct CheckRow {
@@ -26,7 +26,7 @@ struct CheckRow {
   double tolerance = 0;
   bool absolute = false;
   bool bound = false;  ///< `expected` is the largest value allowed
-  Verdict verdict = Verdict::fail;
+  CaseVerdict verdict = CaseVerdict::fail;
   std::string note;  ///< of a known deviation, or of a run without an answer
 };
 

@@ -1,4 +1,4 @@
-#include "calibrate/search/ledger.h"
+#include "calibrate/search/archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace pastefit {
 
-Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress)
+Archive::Archive(Objective& objective, const SearchOptions& options,
+                 const std::function<void(const Progress&)>& progress)
     : objective_(objective),
       progress_(progress),
       at_start_(objective.budget_left()),
@@ -18,32 +19,33 @@ Ledger::Ledger(Objective& objective, const SearchOptions& options, const std::fu
   for (const Response& response : objective.earlier()) keep_single(response, singles_);
 }
 
-int Ledger::budget_left() const {
+int Archive::budget_left() const {
   int spent = at_start_ - objective_.budget_left();
   for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
   return std::max(0, budget_ - spent - held_back_);
 }
 
-void Ledger::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+void Archive::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
   objective_.begin({&point, 1}, packings);
   under_way_.push_back({point, {packings.begin(), packings.end()}});
 }
 
-Response Ledger::next_answer() {
+Response Archive::next_answer() {
   const Asked asked = std::move(under_way_.front());
   under_way_.pop_front();
   return try_out({&asked.point, 1}, asked.packings).at(0);
 }
 
-std::vector<Response> Ledger::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+std::vector<Response> Archive::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
   return ask(&Objective::evaluate, points, packings);
 }
 
-std::vector<Response> Ledger::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+std::vector<Response> Archive::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
   return ask(&Objective::try_out, points, packings);
 }
 
-std::vector<Response> Ledger::ask(Ask how, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+std::vector<Response> Archive::ask(Ask how, std::span<const UnitPoint> points,
+                                   std::span<const std::uint64_t> packings) {
   std::vector<Response> responses = (objective_.*how)(points, packings);
   // What a stop cuts off counts as failed; it says nothing about the point.
   if (objective_.stop_requested()) return responses;
@@ -70,8 +72,8 @@ std::vector<Response> Ledger::ask(Ask how, std::span<const UnitPoint> points, st
   return responses;
 }
 
-void Ledger::evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points,
-                             std::span<const std::uint64_t> packings) {
+void Archive::evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points,
+                              std::span<const std::uint64_t> packings) {
   (void)coarse.evaluate(points, packings);  // all at once; then each is known
   for (const std::uint64_t packing : packings) {
     std::vector<Response> responses = coarse.evaluate(points, {&packing, 1});
@@ -84,19 +86,19 @@ void Ledger::evaluate_coarse(Objective& coarse, std::span<const UnitPoint> point
   report();
 }
 
-void Ledger::enter(std::string_view phase) {
+void Archive::enter(std::string_view phase) {
   phase_ = phase;
   measure_noise();
   report();
 }
 
-void Ledger::weigh(Response& response) const {
+void Archive::weigh(Response& response) const {
   if (factors_.size() == 0 || !is_feasible(response)) return;
   response.residuals.array() *= factors_.array();
   response.misfit = 0.5 * response.residuals.squaredNorm();
 }
 
-void Ledger::measure_noise() {
+void Archive::measure_noise() {
   // Squares of the laboratory's deviations; the present factors are taken out first.
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(objective_.residuals());
   int freedom = 0;
@@ -129,11 +131,11 @@ void Ledger::measure_noise() {
   }
 }
 
-void Ledger::report(const std::string& note) const {
+void Archive::report(const std::string& note) const {
   if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_misfit_mm_, note});
 }
 
-void Ledger::keep_single(const Response& response, std::vector<Response>& singles) {
+void Archive::keep_single(const Response& response, std::vector<Response>& singles) {
   const auto known = std::ranges::find_if(singles, [&](const Response& single) {
     return single.packings == response.packings && single.point == response.point;
   });
@@ -143,7 +145,7 @@ void Ledger::keep_single(const Response& response, std::vector<Response>& single
     *known = response;
 }
 
-std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings) const {
+std::optional<Response> Archive::best_on(std::span<const std::uint64_t> packings) const {
   Response best;
   for (const Response& response : history_) {
     if (is_whole(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
@@ -154,13 +156,13 @@ std::optional<Response> Ledger::best_on(std::span<const std::uint64_t> packings)
   return best;
 }
 
-std::vector<Response> Ledger::evidence() const {
+std::vector<Response> Archive::evidence() const {
   std::vector<Response> all = corrected(coarse_singles_, singles_);
   all.insert(all.end(), singles_.begin(), singles_.end());
   return all;
 }
 
-UnitPoint Ledger::best_point(std::span<const std::uint64_t> packings) const {
+UnitPoint Archive::best_point(std::span<const std::uint64_t> packings) const {
   if (const auto best = best_on(packings)) return best->point;
   Response best;
   for (const Response& single : evidence()) {
@@ -169,7 +171,7 @@ UnitPoint Ledger::best_point(std::span<const std::uint64_t> packings) const {
   return best.point;
 }
 
-std::optional<Response> Ledger::best_single() const {
+std::optional<Response> Archive::best_single() const {
   Response best;
   for (const Response& single : singles_) {
     if (is_whole(single) && is_better(single, best)) best = single;
@@ -178,12 +180,12 @@ std::optional<Response> Ledger::best_single() const {
   return best;
 }
 
-int Ledger::failures() const {
+int Archive::failures() const {
   return static_cast<int>(
       std::count_if(singles_.begin(), singles_.end(), [](const auto& s) { return !is_feasible(s); }));
 }
 
-bool Ledger::any_feasible() const {
+bool Archive::any_feasible() const {
   return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
 }
 

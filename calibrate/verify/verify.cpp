@@ -1,4 +1,4 @@
-#include "calibrate/verify/check.h"
+#include "calibrate/verify/verify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ void judge(const Check& check, CheckRow& row) {
   if (!row.absolute && !row.bound) row.error /= std::fabs(row.expected);
   // Written so that an error that is no number does not pass.
   const bool good = row.error <= row.tolerance;
-  row.verdict = good ? Verdict::pass : check.known_deviation.empty() ? Verdict::fail : Verdict::known;
+  row.verdict = good ? CaseVerdict::pass : check.known_deviation.empty() ? CaseVerdict::fail : CaseVerdict::known;
   if (!good) row.note = check.known_deviation;
 }
 
@@ -95,8 +95,8 @@ Result<CheckRow> row_of(const Check& check, const Point& point, const Impact& sc
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
-  return verdict == Verdict::pass ? "pass" : verdict == Verdict::known ? "known" : "FAIL";
+std::string_view name_of(CaseVerdict verdict) {
+  return verdict == CaseVerdict::pass ? "pass" : verdict == CaseVerdict::known ? "known" : "FAIL";
 }
 
 Result<std::vector<CheckRow>> verify(const Case& test) {

@@ -19,9 +19,9 @@ namespace pastefit {
 /// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
 /// packings. A reading that wobbles says less. v is measured from candidates that ran on several packings; it changes
 /// only between phases, so that an optimiser's objective stays the same while it runs.
-class Ledger : public Objective {
+class Archive : public Objective {
  public:
-  Ledger(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
+  Archive(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
 
   int parameters() const override { return objective_.parameters(); }
   int residuals() const override { return objective_.residuals(); }

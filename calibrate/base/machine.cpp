@@ -1,0 +1,35 @@
+#include "calibrate/base/machine.h"
+
+#include <gnu/libc-version.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+namespace pastefit {
+
+std::string machine_type() {
+  utsname name{};
+  std::string out = uname(&name) == 0 ? name.machine : "unknown";
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("fma")) out += " fma";
+#endif
+  return out + " glibc " + gnu_get_libc_version();
+}
+
+int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+double memory_available_bytes() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string word; file >> word;) {
+    double kilobytes = 0;
+    if (word == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace pastefit
