@@ -15,19 +15,8 @@ SOURCE = pathlib.Path(sys.argv[1]).resolve()
 FILES = sorted(file for part in ("core", "calibrate") for file in (SOURCE / part).glob("**/*")
                if file.suffix in (".h", ".cpp"))
 
-# Arrows up that are still there, each with its reason. The test fails when one is gone, so that it leaves this list.
-KNOWN = {
-    ("core/laws", "core/rigs"): "materials.h stands in rigs",
-    ("core/world", "core/rigs"): "materials.h stands in rigs",
-    ("core/step", "core/rigs"): "materials.h stands in rigs, the options of a run beside `simulate`",
-}
-
-
 def room_of(path):
-    """The folder of a file. What lies in core itself is used on every floor, so that each file is a room of its own;
-    simulate.h is the door of the rigs."""
-    if path.name == "simulate.h":
-        return "core/rigs"
+    """The folder of a file. What lies in core itself is used on every floor, so that each file is a room of its own."""
     folder = str(path.parent)
     return str(path.with_suffix(".h")) if folder == "core" else folder
 
@@ -84,14 +73,10 @@ class Includes(unittest.TestCase):
 
     def test_folders_do_not_include_each_other_in_a_circle(self):
         found = arrows()
-        circle = circle_in(graph_of(set(found) - set(KNOWN)))
+        circle = circle_in(graph_of(found))
         if circle:
             steps = [found[step][0] for step in zip(circle, circle[1:])]
             self.fail(" -> ".join(circle) + "\n" + "\n".join(steps))
-
-    def test_the_known_arrows_up_are_still_there(self):
-        gone = sorted(set(KNOWN) - set(arrows()))
-        self.assertEqual(gone, [], "these are gone: delete them from KNOWN")
 
     def test_core_includes_nothing_of_calibrate(self):
         places = [place for (one, other), found in arrows().items() if one.startswith("core")

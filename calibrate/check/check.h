@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "calibrate/card/card.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

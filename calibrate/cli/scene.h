@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "core/rigs/impact.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/impact/impact.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -17,8 +17,8 @@
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/fault_text.h"
 #include "core/observe/outline.h"
-#include "core/rigs/ruler.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/ruler.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/world/world.h"
 
 namespace pastefit {

@@ -8,7 +8,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/exports/size_classes.h"
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 
 namespace pastefit {
 

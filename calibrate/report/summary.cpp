@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibrate/base/format.h"
-#include "core/rigs/ruler.h"
+#include "core/rigs/slump/ruler.h"
 
 namespace pastefit {
 

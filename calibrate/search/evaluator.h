@@ -18,8 +18,8 @@
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -4,7 +4,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 
 namespace pastefit {
 

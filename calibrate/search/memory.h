@@ -2,7 +2,7 @@
 
 #include "calibrate/study/study.h"
 #include "core/result.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

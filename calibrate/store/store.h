@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

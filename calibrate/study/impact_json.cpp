@@ -5,7 +5,7 @@
 
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/names.h"
-#include "core/rigs/approach.h"
+#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
 

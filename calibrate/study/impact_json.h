@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "core/rigs/impact.h"
+#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 

@@ -4,7 +4,7 @@
 
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/study.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

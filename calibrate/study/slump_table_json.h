@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/result.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

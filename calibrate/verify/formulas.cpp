@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/laws/constants.h"
-#include "core/rigs/approach.h"
+#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
 

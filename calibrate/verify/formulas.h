@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "core/rigs/impact.h"
+#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rigs/impact.h"
+#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 

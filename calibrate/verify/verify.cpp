@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/simulate.h"
+#include "core/step/run.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {

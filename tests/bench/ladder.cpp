@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 
 namespace pastefit {
 

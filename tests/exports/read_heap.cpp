@@ -13,8 +13,8 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/study/fault_text.h"
-#include "core/rigs/packing.h"
-#include "core/rigs/ruler.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/ruler.h"
 
 using namespace pastefit;
 

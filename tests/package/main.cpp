@@ -3,7 +3,7 @@
 #include "calibrate/search/strategy.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 
 /// Reads an installed study and runs its test once, with coarse grains and the usual parameters.
 int main(int argc, char** argv) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/world/world.h"
 
 namespace pastefit {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "core/random.h"
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/laws/materials.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/vec3.h"
 
 namespace pastefit {

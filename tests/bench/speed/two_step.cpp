@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/world/world.h"
 #include "tests/bench/speed/peer_files.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibrate/check/check.h"
-#include "core/rigs/impact.h"
+#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 

@@ -7,7 +7,7 @@
 #include "calibrate/study/lab.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/rig.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 #include "tests/calibrate/study/files.h"
 
 namespace pastefit {

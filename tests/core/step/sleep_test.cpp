@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "core/random.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/step/stepper.h"
 
 using namespace pastefit;

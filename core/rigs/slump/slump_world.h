@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 #include "core/world/world.h"
 
 namespace pastefit {

@@ -1,4 +1,4 @@
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,10 +1,10 @@
-#include "core/rigs/plate_drop.h"
+#include "core/rigs/slump/plate_drop.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/rigs/rotor.h"
-#include "core/rigs/slump_world.h"
+#include "core/rigs/slump/slump_world.h"
 #include "core/rigs/waiting.h"
 
 namespace pastefit {

@@ -5,8 +5,7 @@
 
 #include "core/laws/materials.h"
 #include "core/result.h"
-#include "core/rigs/slump_table.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/vec3.h"
 
 namespace pastefit {
@@ -35,6 +34,11 @@ struct Filling {
   auto operator<=>(const Filling&) const = default;
 };
 Filling filling_of(const SlumpTable& test);
+
+/// Fills and strikes off the mould of `test`: frictional grains without cohesion, poured as `filling_of` says,
+/// so that the packing serves all tests with the same mould, grain sizes, density, seed and
+/// filling; with `own_fill` under the laws and walls of `test`, for it alone.
+std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
 
 /// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. All lengths of the
 /// column are enlarged (or reduced) until it fills the mould as the packing did, as high and as near to its side: by 2

@@ -1,10 +1,11 @@
+#include "core/rigs/slump/slump_test.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 
 #include "core/observe/outline.h"
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
 #include "core/world/world.h"
 
 using namespace pastefit;

@@ -1,4 +1,4 @@
-#include "core/rigs/approach.h"
+#include "core/rigs/impact/approach.h"
 
 #include <cmath>
 

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "core/observe/heap.h"
-#include "core/rigs/packing.h"
-#include "core/rigs/plate_drop.h"
-#include "core/rigs/slump_world.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/plate_drop.h"
+#include "core/rigs/slump/slump_test.h"
+#include "core/rigs/slump/slump_world.h"
 #include "core/rigs/waiting.h"
-#include "core/simulate.h"
 
 namespace pastefit {
 

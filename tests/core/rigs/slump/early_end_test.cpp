@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 
 using namespace pastefit;
 

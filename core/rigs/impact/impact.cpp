@@ -1,11 +1,11 @@
-#include "core/rigs/impact.h"
+#include "core/rigs/impact/impact.h"
 
 #include <algorithm>
 #include <numbers>
 
-#include "core/rigs/approach.h"
+#include "core/rigs/impact/approach.h"
+#include "core/rigs/impact/swing.h"
 #include "core/rigs/rotor.h"
-#include "core/rigs/swing.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"
 

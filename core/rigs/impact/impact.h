@@ -6,7 +6,7 @@
 
 #include "core/laws/materials.h"
 #include "core/result.h"
-#include "core/simulate.h"
+#include "core/step/run.h"
 #include "core/vec3.h"
 #include "core/world/walls.h"
 

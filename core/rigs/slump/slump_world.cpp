@@ -1,4 +1,4 @@
-#include "core/rigs/slump_world.h"
+#include "core/rigs/slump/slump_world.h"
 
 namespace pastefit {
 

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "core/observe/heap.h"
-#include "core/rigs/packing.h"
-#include "core/rigs/slump_world.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_world.h"
 #include "core/step/runner.h"
 
 namespace pastefit {

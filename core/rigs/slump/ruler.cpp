@@ -1,4 +1,4 @@
-#include "core/rigs/ruler.h"
+#include "core/rigs/slump/ruler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "core/rigs/packing.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/step/kernels.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/rigs/ruler.h"
-#include "core/simulate.h"
+#include "core/rigs/slump/ruler.h"
+#include "core/rigs/slump/slump_test.h"
 #include "core/step/ledger.h"
 #include "core/world/world.h"
 

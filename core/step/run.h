@@ -9,14 +9,13 @@
 
 #include "core/observe/observables.h"
 #include "core/result.h"
-#include "core/rigs/slump_table.h"
 #include "core/step/step_options.h"
 
 namespace pastefit {
 
 class World;
 
-/// The grains in the mould after pouring and strike-off.
+/// The grains that a test starts from.
 struct Packing;
 
 /// Where a run is, handed to the caller between blocks of steps.
@@ -72,17 +71,5 @@ struct Outcome {
   RunSummary run;
   std::optional<Failure> failure;
 };
-
-/// Fills and strikes off the mould of `test`: frictional grains without cohesion, poured as `filling_of` says
-/// (core/rigs/packing.h), so that the packing serves all tests with the same mould, grain sizes, density, seed and
-/// filling; with `own_fill` under the laws and walls of `test`, for it alone.
-std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
-
-/// Runs the slump test. Same test, options and program: same bits.
-/// Requirement: `validate(test)` is empty. Never throws for bad physics: see `Outcome::failure`.
-Outcome simulate(const SlumpTable& test, const RunOptions& options = {});
-
-/// The names of all readings the test will have, in order (with or without step 2).
-std::vector<std::string> observable_names(const SlumpTable& test);
 
 }  // namespace pastefit

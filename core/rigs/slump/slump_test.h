@@ -7,6 +7,7 @@
 #include "core/laws/materials.h"
 #include "core/observe/outline.h"
 #include "core/result.h"
+#include "core/step/run.h"
 
 namespace pastefit {
 
@@ -66,5 +67,12 @@ struct SlumpTable {
 /// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
 /// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.
 Faults validate(const SlumpTable& test);
+
+/// Runs the slump test. Same test, options and program: same bits.
+/// Requirement: `validate(test)` is empty. Never throws for bad physics: see `Outcome::failure`.
+Outcome simulate(const SlumpTable& test, const RunOptions& options = {});
+
+/// The names of all readings the test will have, in order (with or without step 2).
+std::vector<std::string> observable_names(const SlumpTable& test);
 
 }  // namespace pastefit

@@ -6,7 +6,7 @@
 #include "core/observe/heap.h"
 #include "core/observe/observables.h"
 #include "core/observe/outline.h"
-#include "core/rigs/slump_table.h"
+#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 

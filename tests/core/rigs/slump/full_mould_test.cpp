@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/observe/heap.h"
-#include "core/rigs/packing.h"
+#include "core/rigs/slump/packing.h"
 #include "core/world/world.h"
 
 using namespace pastefit;
