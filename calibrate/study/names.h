@@ -4,6 +4,7 @@
 
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/study.h"
+#include "core/laws/table.h"
 #include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
@@ -13,19 +14,18 @@ namespace pastefit {
 inline constexpr std::array<Named<SizeDistribution>, 3> size_distributions{
     {{"mono", SizeDistribution::mono}, {"uniform", SizeDistribution::uniform}, {"normal", SizeDistribution::normal}}};
 
-inline constexpr std::array<Named<BridgeShape>, 5> bridge_shapes{{{"none", BridgeShape::none},
-                                                                  {"polynomial", BridgeShape::polynomial},
-                                                                  {"linear", BridgeShape::linear},
-                                                                  {"exponential", BridgeShape::exponential},
-                                                                  {"capillary", BridgeShape::capillary}}};
+/// Laws bring their words with them.
+template <class... Laws>
+constexpr auto words_of(TypeList<Laws...>) {
+  return std::array{Named{Laws::word, Laws::choice}...};
+}
+
+inline constexpr auto normal_laws = words_of(NormalLaws{});
+inline constexpr auto bridge_shapes = words_of(Attractions{});
+inline constexpr auto rolling_models = words_of(RollingLaws{});
 
 inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
     {{"film", BridgeFormation::film}, {"touch", BridgeFormation::touch}}};
-
-inline constexpr std::array<Named<RollingModel>, 3> rolling_models{
-    {{"none", RollingModel::none},
-     {"spring_dashpot", RollingModel::spring_dashpot},
-     {"constant_torque", RollingModel::constant_torque}}};
 
 inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
     {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}}};

@@ -25,8 +25,9 @@ double bridge_n(const Bridge& bridge, double radius, double overlap) {
       const double gap = -overlap * std::sqrt(radius / bridge.liquid_volume_m3);
       return c / (1 + 1.05 * gap + 2.5 * gap * gap);
     }
+    default:  // without a form of its own here
+      return bridge_force(bridge, radius, overlap);
   }
-  return 0;
 }
 
 }  // namespace

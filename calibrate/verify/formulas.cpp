@@ -123,8 +123,9 @@ double attraction(const Impact& scene, double gap) {
       const double spread = d * std::sqrt(scene.reference_radius_m / b.liquid_volume_m3);
       return at_touch / (1 + 1.05 * spread + 2.5 * spread * spread);
     }
+    default:  // without a form of its own here
+      return share * s * s * bridge_force(b, scene.reference_radius_m, -d);
   }
-  return 0;
 }
 
 /// Work of the attraction between two gaps by Simpson's rule; exact for the polynomial.

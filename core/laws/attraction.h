@@ -1,16 +1,23 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
 #include "core/laws/constants.h"
 #include "core/laws/pack.h"
 
 namespace pastefit {
 
-/// Attraction laws: how hard two grains pull on each other, and how that changes with distance.
-/// Each is a type with one function
-///     at(constants, overlap d <= 0, size scale s = 2 R*/R_ref) -> {force [N], |dF/dd| [N/m]},
-/// and a second one, work(constants, d, s): the work [J] that pulls the pair from d to the rupture gap,
-/// where F/s^2 is a function of d/s, so that grains of other sizes follow the scaling rule of coarse graining.
-/// To add one: a type here, a value of BridgeShape, a row in core/step/kernels.h and its constants in constants.cpp.
+/// Attraction laws: how hard two grains pull on each other across a gap. Each is a type with
+///     choice, word   its name in the program and in files;
+///     present        false: there is none, and the rest is not needed but for the ends;
+///     at_touch, rupture_gap(bridge, radius)   the ends of its range for reference grains: force at d = 0 [N], gap [m];
+///     set(pair, bridge, radius, share)   its own constants (those of the ends are there), `share` of its force;
+///     at(k, overlap d <= 0, size scale s = 2 R*/R_ref) -> {force [N], |dF/dd| [N/m]};
+///     work(k, d, s)   the work [J] that pulls the pair from d to the rupture gap.
+/// F/s^2 is a function of d/s, so that grains of other sizes follow the scaling rule of coarse graining.
+/// The last two are computed in packs too (laws/pack.h). To add one: core/README.md.
 
 template <class Real>
 struct Pull {
@@ -18,12 +25,30 @@ struct Pull {
 };
 
 struct NoAttraction {
+  static constexpr BridgeShape choice = BridgeShape::none;
+  static constexpr std::string_view word = "none";
   static constexpr bool present = false;
+  static double at_touch(const Bridge&, double) { return 0; }
+  static double rupture_gap(const Bridge&, double) { return 0; }
+  static void set(PairConstants&, const Bridge&, double, double) {}
 };
 
-/// F = a d^2 + b d + c (Platzer & Fimbinger 2022); with a = 0 also the straight line.
-struct PolynomialAttraction {
+/// What laws have in common whose ends are given: c and d_c.
+struct GivenEnds {
   static constexpr bool present = true;
+  static double at_touch(const Bridge& bridge, double) { return bridge.c_n; }
+  static double rupture_gap(const Bridge& bridge, double) { return -bridge.d_c_m; }
+};
+
+/// F = a d^2 + b d + c (Platzer & Fimbinger 2022).
+struct PolynomialAttraction : GivenEnds {
+  static constexpr BridgeShape choice = BridgeShape::polynomial;
+  static constexpr std::string_view word = "polynomial";
+
+  static void set(PairConstants& pair, const Bridge& bridge, double, double share) {
+    pair.bridge_a = share * bridge.a_n_m2;
+    pair.bridge_b = share * bridge.b_n_m;
+  }
   template <class Real>
   PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
     const Real slope = fused(Real(k.bridge_a), d, Real(k.bridge_b) * s);
@@ -42,10 +67,23 @@ struct PolynomialAttraction {
   }
 };
 
+/// F = c (1 + d/|d_c|): the polynomial with a = 0.
+struct LinearAttraction : PolynomialAttraction {
+  static constexpr BridgeShape choice = BridgeShape::linear;
+  static constexpr std::string_view word = "linear";
+
+  static void set(PairConstants& pair, const Bridge&, double, double) {
+    pair.bridge_b = pair.bridge_c / pair.rupture_gap;
+  }
+};
+
 /// F = c exp(3 d/|d_c|). The exponent lies in [-3, 0]: the eighth power of a Taylor series of order 11 is exact to
 /// 1e-14.
-struct ExponentialAttraction {
-  static constexpr bool present = true;
+struct ExponentialAttraction : GivenEnds {
+  static constexpr BridgeShape choice = BridgeShape::exponential;
+  static constexpr std::string_view word = "exponential";
+
+  static void set(PairConstants& pair, const Bridge&, double, double) { pair.bridge_b = 3 / pair.rupture_gap; }
   template <class Real>
   PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
     const Real x = larger(Real(k.bridge_b) * d / s, Real(-3.0)) * Real(0.125);
@@ -61,9 +99,24 @@ struct ExponentialAttraction {
   }
 };
 
-/// F = c/(1 + 1.05 S + 2.5 S^2), S = gap sqrt(R/V): liquid bridge between equal spheres (Willett et al. 2000).
+/// F = c/(1 + 1.05 S + 2.5 S^2), S = gap sqrt(R/V): liquid bridge between equal spheres (Willett et al. 2000, Langmuir
+/// 16:9396).
 struct CapillaryAttraction {
+  static constexpr BridgeShape choice = BridgeShape::capillary;
+  static constexpr std::string_view word = "capillary";
   static constexpr bool present = true;
+
+  static double at_touch(const Bridge& bridge, double radius) {
+    return 2 * std::numbers::pi * radius * bridge.surface_tension_n_m * std::cos(bridge.contact_angle_rad);
+  }
+  static double rupture_gap(const Bridge& bridge, double radius) {
+    const double root = std::cbrt(bridge.liquid_volume_m3);
+    return (1 + 0.5 * bridge.contact_angle_rad) * (root + 0.1 * root * root / radius);
+  }
+  static void set(PairConstants& pair, const Bridge& bridge, double radius, double) {
+    pair.bridge_a = 2.5 * radius / bridge.liquid_volume_m3;
+    pair.bridge_b = 1.05 * std::sqrt(radius / bridge.liquid_volume_m3);
+  }
   template <class Real>
   PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
     const Real gap = -d / s;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/laws/table.h"
+
 namespace pastefit {
 
 namespace {
@@ -42,6 +44,10 @@ void set_rolling(PairConstants& pair, double rolling_friction) {
   pair.spin_damping = pair.roll_damping / (4 * 0.4) / pair.spin_damping_share;
 }
 
+void set_adhesion(PairConstants& pair, const ContactModel& grains, double share) {
+  with_law(NormalLaws{}, grains.normal, [&](auto law) { law.set(pair, grains, share); });
+}
+
 void set_attraction(PairConstants& pair, const ContactModel& grains, double radius, double share, double shells) {
   const Bridge& bridge = grains.bridge;
   const double at_touch = attraction_at_touch(bridge, radius);
@@ -50,24 +56,7 @@ void set_attraction(PairConstants& pair, const ContactModel& grains, double radi
   pair.bridge_c = share * at_touch;
   pair.rupture_gap = rupture_gap(bridge, radius);
   pair.formation_gap = bridge.formation == BridgeFormation::film ? shells * bridge.offset_m : 0.0;
-  switch (bridge.shape) {
-    case BridgeShape::polynomial:
-      pair.bridge_a = share * bridge.a_n_m2;
-      pair.bridge_b = share * bridge.b_n_m;
-      break;
-    case BridgeShape::linear:
-      pair.bridge_b = pair.bridge_c / pair.rupture_gap;
-      break;
-    case BridgeShape::exponential:
-      pair.bridge_b = 3 / pair.rupture_gap;
-      break;
-    case BridgeShape::capillary:
-      pair.bridge_a = 2.5 * radius / bridge.liquid_volume_m3;
-      pair.bridge_b = 1.05 * std::sqrt(radius / bridge.liquid_volume_m3);
-      break;
-    case BridgeShape::none:
-      break;
-  }
+  with_law(Attractions{}, bridge.shape, [&](auto law) { law.set(pair, bridge, radius, share); });
 }
 
 }  // namespace
@@ -78,17 +67,21 @@ double damping_ratio(double restitution) {
 }
 
 double attraction_at_touch(const Bridge& bridge, double radius) {
-  if (bridge.shape == BridgeShape::none) return 0;
-  if (bridge.shape != BridgeShape::capillary) return bridge.c_n;
-  return 2 * std::numbers::pi * radius * bridge.surface_tension_n_m * std::cos(bridge.contact_angle_rad);
+  return with_law(Attractions{}, bridge.shape, [&](auto law) { return law.at_touch(bridge, radius); });
 }
 
 double rupture_gap(const Bridge& bridge, double radius) {
-  if (bridge.shape == BridgeShape::none) return 0;
-  if (bridge.shape != BridgeShape::capillary) return -bridge.d_c_m;
-  // Willett et al. 2000, Langmuir 16:9396, equal spheres.
-  const double root = std::cbrt(bridge.liquid_volume_m3);
-  return (1 + 0.5 * bridge.contact_angle_rad) * (root + 0.1 * root * root / radius);
+  return with_law(Attractions{}, bridge.shape, [&](auto law) { return law.rupture_gap(bridge, radius); });
+}
+
+double bridge_force(const Bridge& bridge, double radius, double overlap) {
+  ContactModel model;
+  model.bridge = bridge;
+  const PairConstants pair = grain_pair(model, radius);
+  return with_law(Attractions{}, bridge.shape, [&](auto law) {
+    if constexpr (law.present) return law.at(pair, overlap, 1.0).force;
+    return 0.0;
+  });
 }
 
 PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) {
@@ -97,6 +90,7 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
               grains.restitution);
   set_friction(pair, grains.friction, grains.friction_basis);
   set_rolling(pair, grains.rolling_friction);
+  set_adhesion(pair, grains, 1.0);
   set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
   pair.size_per_radius = 2 / reference_radius_m;
   return pair;
@@ -108,6 +102,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
               wall.restitution);
   set_friction(pair, wall.friction, grains.friction_basis);
   set_rolling(pair, wall.rolling_friction);
+  set_adhesion(pair, grains, wall.cohesion_factor);
   set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
   pair.size_per_radius = 1 / reference_radius_m;
   return pair;
@@ -115,7 +110,9 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
 
 double squeeze(const ContactModel& grains, double radius) {
   const PairConstants pair = grain_pair(grains, radius);
-  return std::pow(pair.cohesion / (pair.hertz * std::sqrt(0.5 * radius)), 2.0 / 3) / (2 * radius);
+  return with_law(NormalLaws{}, grains.normal,
+                  [&](auto law) { return law.overlap_under(pair, 0.5 * radius, pair.cohesion); }) /
+         (2 * radius);
 }
 
 }  // namespace pastefit

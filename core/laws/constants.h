@@ -26,6 +26,7 @@ struct PairConstants {
   double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
   double spin_damping = 0;     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
   double size_per_radius = 0;  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  double tear_gap = 0;         ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
   double cohesion = 0;         ///< constant attraction in overlap [N]
   double bridge_a = 0;         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
   double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
@@ -50,9 +51,12 @@ double damping_ratio(double restitution);
 double attraction_at_touch(const Bridge& bridge, double reference_radius_m);
 double rupture_gap(const Bridge& bridge, double reference_radius_m);
 
+/// Attraction of two reference grains at an overlap d, -rupture gap <= d <= 0 [N], as the engine computes it.
+double bridge_force(const Bridge& bridge, double reference_radius_m, double overlap);
+
 /// Overlap over diameter at which the repulsion of two touching reference grains balances their attraction:
-/// d/(2R) with 4/3 E* sqrt(R/2) d^(3/2) = cohesion. In a column it is within a third of that: 30 %
-/// more at 40,000 Pa, where grains are pulled across gaps as well.
+/// d/(2R); for Hertz with 4/3 E* sqrt(R/2) d^(3/2) = cohesion. In a column it is within a third of that: 30 % more at
+/// 40,000 Pa, where grains are pulled across gaps as well.
 double squeeze(const ContactModel& grains, double reference_radius_m);
 
 }  // namespace pastefit

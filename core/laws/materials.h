@@ -20,13 +20,30 @@ struct GrainSizes {
   double largest_m = 0.008;
 };
 
+// Names of the laws. Each has its row, in the same order, in core/laws/table.h; `last` is the last of them.
+
+/// How overlapping bodies press on each other.
+enum class NormalLaw {
+  hertz,  ///< elastic spheres
+  last = hertz
+};
+
 /// How the attraction of a liquid bridge falls with distance; all have the value c at touch.
 enum class BridgeShape {
   none,         ///< no attraction across a gap
   polynomial,   ///< a d^2 + b d + c
   linear,       ///< falls in a straight line to zero at d_c
   exponential,  ///< c exp(3 d/|d_c|), cut at d_c
-  capillary     ///< liquid bridge of two equal spheres, Willett et al. 2000
+  capillary,    ///< liquid bridge of two equal spheres, Willett et al. 2000
+  last = capillary
+};
+
+/// How rolling is resisted.
+enum class RollingModel {
+  none,
+  spring_dashpot,   ///< elastic-plastic spring and dashpot, Ai et al. 2011 (EPSD)
+  constant_torque,  ///< mu_r N R* against the relative spin, regularised near rest
+  last = constant_torque
 };
 
 /// When a liquid bridge comes into being; it lives until the gap exceeds -d_c.
@@ -53,13 +70,6 @@ struct Bridge {
   double contact_angle_rad = 0;    ///< capillary only
 };
 
-/// How rolling is resisted.
-enum class RollingModel {
-  none,
-  spring_dashpot,  ///< elastic-plastic spring and dashpot, Ai et al. 2011 (EPSD)
-  constant_torque  ///< mu_r N R* against the relative spin, regularised near rest
-};
-
 /// What the friction limit mu N is taken of.
 enum class FrictionBasis {
   elastic,  ///< the elastic repulsion (cohesion strengthens friction)
@@ -73,6 +83,7 @@ struct ContactModel {
   double restitution = 0.3;
   double friction = 0.5;
   double rolling_friction = 0.1;
+  NormalLaw normal = NormalLaw::hertz;
   RollingModel rolling = RollingModel::spring_dashpot;
   FrictionBasis friction_basis = FrictionBasis::elastic;
   std::optional<double> cohesion_n;  ///< constant attraction in overlap [N] at the reference radius; empty: bridge.c_n

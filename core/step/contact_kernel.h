@@ -1,6 +1,8 @@
 // Included once by each of kernels_{sse2,avx2,avx512}.cpp, which name the instruction set and the pack's width.
 // Everything here lives in that namespace or is inlined: see core/laws/pack.h.
 
+#include <utility>
+
 #include "core/laws/contact.h"
 #include "core/laws/pack.h"
 #include "core/laws/transpose.h"
@@ -111,7 +113,7 @@ template <class Rolling>
 PASTEFIT_INLINE Memory<Real> recall(const ContactBatch& c, int lane) {
   Memory<Real> memory;
   memory.slip = load(c.slip, lane);
-  if constexpr (Rolling::present) memory.roll = load(c.roll, lane);
+  if constexpr (Rolling::remembers) memory.roll = load(c.roll, lane);
   memory.root_contact_radius = Real::load(c.root_contact_radius + lane);
   memory.damper = Real::load(c.damper + lane);
   memory.drag = Real::load(c.drag + lane);
@@ -122,14 +124,14 @@ PASTEFIT_INLINE Memory<Real> recall(const ContactBatch& c, int lane) {
 template <class Attraction, class Rolling>
 PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const Memory<Real>& memory) {
   store(c.slip, lane, memory.slip);
-  if constexpr (Rolling::present) store(c.roll, lane, memory.roll);
+  if constexpr (Rolling::remembers) store(c.roll, lane, memory.roll);
   memory.root_contact_radius.store(c.root_contact_radius + lane);
   memory.damper.store(c.damper + lane);
   memory.drag.store(c.drag + lane);
   if constexpr (Attraction::present) memory.bridge.store(c.bridge + lane);
 }
 
-template <class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling>
 PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, ContactBatch& c, int lane,
                                   Tally& tally) {
   const Grains a = gather(task, c.i + lane), b = gather(task, c.j + lane);
@@ -152,7 +154,7 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
   meeting.neighbour_damping = a.damping_rate + b.damping_rate;
 
   Memory<Real> memory = recall<Rolling>(c, lane);
-  const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
+  const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
   remember<Attraction, Rolling>(c, lane, memory);
   tally.count(task.energies, lane, action);
 
@@ -221,7 +223,7 @@ PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& ba
   }
 }
 
-template <class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling>
 void pair_kernel(const KernelTask& task) {
   const PairConstants pair = task.pair;
   const Real dt(task.dt);
@@ -233,7 +235,7 @@ void pair_kernel(const KernelTask& task) {
     if (soon < task.stretch.end) fetch_grains(task, task.contacts[soon], soon < task.stretch.near);
     if (k < task.stretch.near || some_touch(task, batch)) {
       for (int lane = 0; lane < kBatch; lane += kWidth)
-        act_on_pairs<Attraction, Rolling>(task, pair, dt, batch, lane, tally);
+        act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, batch, lane, tally);
     } else if constexpr (Attraction::present) {
       for (int lane = 0; lane < kBatch; lane += kWidth) {
         const Real root_radius = Real::load(batch.root_radius + lane);
@@ -256,7 +258,7 @@ void bridge_kernel(const KernelTask& task) {
   tally.add_to(*task.energy);
 }
 
-template <class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling>
 void wall_kernel(const KernelTask& task) {
   const PairConstants pair = task.pair;
   const Real dt(task.dt);
@@ -280,7 +282,7 @@ void wall_kernel(const KernelTask& task) {
       meeting.neighbour_damping = a.damping_rate;
 
       Memory<Real> memory = recall<Rolling>(c, lane);
-      const Action<Real> action = act<Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
+      const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
       remember<Attraction, Rolling>(c, lane, memory);
       tally.count(task.energies, lane, action);
 
@@ -294,17 +296,35 @@ void wall_kernel(const KernelTask& task) {
 
 }  // namespace
 
-#define PASTEFIT_ROW(kind, attraction) \
-  { kind<attraction, NoRolling>, kind<attraction, SpringDashpotRolling>, kind<attraction, ConstantTorqueRolling> }
+namespace {
 
-const KernelTable kernels = {
-    {PASTEFIT_ROW(pair_kernel, NoAttraction), PASTEFIT_ROW(pair_kernel, PolynomialAttraction),
-     PASTEFIT_ROW(pair_kernel, ExponentialAttraction), PASTEFIT_ROW(pair_kernel, CapillaryAttraction)},
-    {PASTEFIT_ROW(wall_kernel, NoAttraction), PASTEFIT_ROW(wall_kernel, PolynomialAttraction),
-     PASTEFIT_ROW(wall_kernel, ExponentialAttraction), PASTEFIT_ROW(wall_kernel, CapillaryAttraction)},
-    {nullptr, bridge_kernel<PolynomialAttraction>, bridge_kernel<ExponentialAttraction>,
-     bridge_kernel<CapillaryAttraction>},
-    move_grains,
-    PASTEFIT_ISA_NAME};
+/// Kernels of all combinations of laws, in the order of `combination`.
+template <std::size_t at>
+struct Combination {
+  using Normal = Law<NormalLaws, at / (Attractions::size * RollingLaws::size)>;
+  using Attraction = Law<Attractions, at / RollingLaws::size % Attractions::size>;
+  using Rolling = Law<RollingLaws, at % RollingLaws::size>;
+  static constexpr Kernel pair = pair_kernel<Normal, Attraction, Rolling>;
+  static constexpr Kernel wall = wall_kernel<Normal, Attraction, Rolling>;
+};
+
+template <class Attraction>
+constexpr Kernel bridge_kernel_of() {
+  if constexpr (Attraction::present) return bridge_kernel<Attraction>;
+  return nullptr;
+}
+
+template <std::size_t... at, class... Attraction>
+constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction...>) {
+  return {{Combination<at>::pair...},
+          {Combination<at>::wall...},
+          {bridge_kernel_of<Attraction>()...},
+          move_grains,
+          PASTEFIT_ISA_NAME};
+}
+
+}  // namespace
+
+constinit const KernelTable kernels = table_of(std::make_index_sequence<kCombinations>{}, Attractions{});
 
 }  // namespace pastefit::PASTEFIT_ISA

@@ -16,23 +16,4 @@ double total(std::span<const EnergySums> shares, EnergySums::Kind kind) {
   return sum;
 }
 
-int attraction_index(BridgeShape shape) {
-  switch (shape) {
-    case BridgeShape::none:
-      return 0;
-    case BridgeShape::polynomial:
-    case BridgeShape::linear:
-      return 1;
-    case BridgeShape::exponential:
-      return 2;
-    case BridgeShape::capillary:
-      return 3;
-  }
-  return 0;
-}
-
-int rolling_index(RollingModel rolling) {
-  return static_cast<int>(rolling);
-}
-
 }  // namespace pastefit

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-#include "core/laws/constants.h"
 #include "core/laws/contact.h"
-#include "core/laws/materials.h"
+#include "core/laws/table.h"
 #include "core/world/batches.h"
 #include "core/world/particles.h"
 
@@ -69,12 +69,16 @@ struct Moved {
 /// Laws are composed at compile time: one function per combination, chosen once per run.
 using Kernel = void (*)(const KernelTask&);
 
-/// Kernels by attraction (none, polynomial, exponential, capillary) and rolling (none, spring-dashpot, constant
-/// torque).
+inline constexpr std::size_t kCombinations = NormalLaws::size * Attractions::size * RollingLaws::size;
+
+/// Where the kernels of these laws stand in the table.
+constexpr std::size_t combination(NormalLaw normal, BridgeShape attraction, RollingModel rolling) {
+  return (row_of(normal) * Attractions::size + row_of(attraction)) * RollingLaws::size + row_of(rolling);
+}
+
 struct KernelTable {
-  Kernel pair[4][3];
-  Kernel wall[4][3];
-  Kernel bridge[4];  ///< pairs that cannot touch; empty where there is no attraction
+  std::array<Kernel, kCombinations> pair, wall;  ///< by `combination`
+  std::array<Kernel, Attractions::size> bridge;  ///< pairs that cannot touch; empty where there is no attraction
   Moved (*move)(const MoveTask&);
   std::string_view instruction_set;
 };
@@ -91,9 +95,5 @@ extern const KernelTable kernels;
 
 /// The widest kernels this processor runs. All tables give the same bits.
 const KernelTable& kernels_of_this_processor();
-
-/// Columns of the table.
-int attraction_index(BridgeShape shape);
-int rolling_index(RollingModel rolling);
 
 }  // namespace pastefit

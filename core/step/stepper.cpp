@@ -37,10 +37,13 @@ double stiffest_grain(const Particles& particles) {
   return stiffest;
 }
 
-/// What the normal springs of all contacts hold [J].
+/// What the overlaps of all contacts hold [J].
 double elastic_energy(const World& world) {
-  const auto spring = [](const PairConstants& pair, double root_radius, double overlap) {
-    return 0.4 * pair.hertz * root_radius * std::pow(std::max(overlap, 0.0), 2.5);
+  const auto held = [&](const PairConstants& pair, double root_radius, double overlap) {
+    return with_law(NormalLaws{}, world.normal, [&](auto law) {
+      return law.energy(pair, root_radius * root_radius, law.at(pair, root_radius, std::max(overlap, 0.0), 0.0),
+                        overlap);
+    });
   };
   double sum = 0;
   for (const Block& block : world.pairs.blocks)
@@ -49,14 +52,14 @@ double elastic_energy(const World& world) {
       if (i == j) continue;  // padding
       const Motion &a = world.particles.motion[i], &b = world.particles.motion[j];
       const double overlap = a.radius + b.radius - norm(b.position - a.position);
-      sum += spring(world.grain_pair, block.contacts.root_radius(k), overlap);
+      sum += held(world.grain_pair, block.contacts.root_radius(k), overlap);
     }
   for (const Block& block : world.pairs.blocks)
     for (std::size_t w = 0; w < block.walls.size(); ++w)
       for (std::int32_t k = 0; k < block.walls[w].count; ++k) {
         const Motion& grain = world.particles.motion[block.walls[w].contacts.first(k)];
         const double overlap = grain.radius - nearest(world.walls[w].shape, grain.position).distance;
-        sum += spring(world.walls[w].pair, block.walls[w].contacts.root_radius(k), overlap);
+        sum += held(world.walls[w].pair, block.walls[w].contacts.root_radius(k), overlap);
       }
   return sum;
 }
@@ -170,8 +173,8 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
 }
 
 void Stepper::act_on_pairs(int b) {
-  const int attraction = attraction_index(world_.attraction), rolling = rolling_index(world_.rolling);
-  const Kernel pairs = kernels_.pair[attraction][rolling], bridges = kernels_.bridge[attraction];
+  const Kernel pairs = kernels_.pair[combination(world_.normal, world_.attraction, world_.rolling)];
+  const Kernel bridges = kernels_.bridge[row_of(world_.attraction)];
   Block& block = world_.pairs.blocks[b];
   KernelTask mine = task(world_.grain_pair, b);
   mine.contacts = block.contacts.batches.data();
@@ -198,7 +201,7 @@ void Stepper::act_on_wall(std::size_t w, int b, Column<WallBatch>& batches) {
   mine.wall = batches.data();
   mine.stretch = {0, 0, touching.contacts.batch_count()};
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[attraction_index(attraction)][rolling_index(world_.rolling)](mine);
+  kernels_.wall[combination(world_.normal, attraction, world_.rolling)](mine);
   add_loads(wall, touching, batches, share);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/laws/table.h"
+
 namespace pastefit {
 
 namespace {
@@ -27,10 +29,10 @@ double impact_limit(const World& world, const Pace& pace) {
   double loss = world.grain_pair.lost_share;
   for (const Wall& wall : world.walls) loss = std::min(loss, wall.pair.lost_share);
   const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
-  const double modulus = 0.5 * world.grain_pair.normal_stiffness;
   const double speed = std::max(pace.fastest, kSlowest);
-  return std::cbrt(std::max(loss, kLeastLoss)) * 2.87 *
-         std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
+  const double shortest = with_law(NormalLaws{}, world.normal,
+                                   [&](auto law) { return law.collision_time(world.grain_pair, radius, mass, speed); });
+  return std::cbrt(std::max(loss, kLeastLoss)) * shortest;
 }
 
 double bridge_limit(const World& world, const Pace& pace) {

@@ -16,9 +16,9 @@ struct Pace {
 /// The largest step the scene allows now [s], the least of three:
 ///   stability of the leapfrog: safety * 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the largest
 ///   stiffness of a contact, rotation counted);
-///   impacts: the shortest Hertz collision at the largest speed takes impact_resolution/(1 - e^2)^(1/3) steps, at most
-///   6.3 impact_resolution, so that the integration's error, which falls with the cube of their number, stays the same
-///   small share of the energy that the collision loses;
+///   impacts: the shortest collision (laws/normal.h) at the largest speed takes impact_resolution/(1 - e^2)^(1/3)
+///   steps, at most 6.3 impact_resolution, so that the integration's error, which falls with the cube of their number,
+///   stays the same small share of the energy that the collision loses;
 ///   bridges: none is crossed in fewer than bridge_resolution steps. A grain that is ten times as fast as a bridge can
 ///   make it feels a hundredth of its energy there; beyond that the step does not follow the speed any more.
 double advised_step(const World& world, const Pace& pace, const StepOptions& options);

@@ -27,6 +27,11 @@ double size_scale(double r1, double r2, double reference_radius) {
   return 2 * r1 * r2 / ((r1 + r2) * reference_radius);
 }
 
+/// Gap at which a contact is torn apart at the latest. It grows less than the size: with its cube root for JKR.
+double longest_hold(double tear_gap, double size_scale) {
+  return tear_gap * std::max(size_scale, 1.0);
+}
+
 /// Contacts and bridges of the blocks as they were, grouped by the lower index of their grains: found again after the
 /// grains have been sorted. A block's lists are given up when the grains they belong to are done with, so that there
 /// are never two lists of the whole scene.
@@ -160,7 +165,7 @@ void Candidates::add(std::int32_t j, std::int32_t place) {
 void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const AttractionReach& reach, double skin) {
   const std::int32_t n = particles.count();
   const double largest = largest_radius(particles);
-  const double farthest = std::max(reach.formation_gap, reach.rupture_gap) / reach.reference_radius;
+  const double farthest = std::max({reach.formation_gap, reach.rupture_gap, reach.tear_gap}) / reach.reference_radius;
   const Cells cells(particles, 2 * largest + farthest * largest + skin);
   const Sorted sorted = sort_by_cell(particles, cells);
   const std::vector<std::int32_t>& first = sorted.first;
@@ -236,7 +241,9 @@ Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dumm
     const double alive = contact                     ? block.contacts.bridge(place)
                          : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
                                                      : 0.0;
-    const double near = touch + leeway.rooms[i].distance + leeway.rooms[j].distance;
+    double near = touch + leeway.rooms[i].distance + leeway.rooms[j].distance;
+    if (reach.tear_gap > 0 && contact && block.contacts.touched(place))
+      near += longest_hold(reach.tear_gap, size_scale(a.radius, b.radius, reach.reference_radius));
     const bool dormant = leeway.own[i] == 0 && leeway.own[j] == 0;
     if (square >= near * near) {
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
@@ -306,8 +313,9 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
       const double scale = grain.radius / reach.reference_radius;
       const bool bridged = known && contacts.bridge(old) > 0;
       const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
+      const double hold = known && contacts.touched(old) ? longest_hold(wall.pair.tear_gap, scale) : 0.0;
       const double margin = leeway.rooms[i].distance + wall_leeway;
-      const double range = grain.radius + gap * scale + margin;
+      const double range = grain.radius + std::max(gap * scale, hold) + margin;
       if (is_surely_beyond(shape, grain.position, range)) continue;
       if (nearest_on(shape, grain.position).distance >= range) continue;
       chosen.add(i, i, known ? contacts.contact(old) : new_contact(particles, i, i));

@@ -99,10 +99,11 @@ void in_two_rounds(Team& team, int blocks, const Work& work, const Finish& finis
   });
 }
 
-/// How far beyond touching two grains can act on each other.
+/// How far beyond touching two grains of the reference radius can act on each other.
 struct AttractionReach {
-  double formation_gap = 0;  ///< at the reference radius: a bridge may form within it [m]
-  double rupture_gap = 0;    ///< at the reference radius: a living bridge acts within it [m]
+  double formation_gap = 0;  ///< a bridge may form within it [m]
+  double rupture_gap = 0;    ///< a living bridge acts within it [m]
+  double tear_gap = 0;       ///< grains that have touched may stay in contact within it [m]
   double reference_radius = 1;
 };
 

@@ -20,6 +20,7 @@ class World {
   Pairs pairs;
   std::vector<Wall> walls;
   PairConstants grain_pair;
+  NormalLaw normal = NormalLaw::hertz;
   BridgeShape attraction = BridgeShape::none;
   RollingModel rolling = RollingModel::none;
   double reference_radius = 1;  ///< mean radius: the size the bridge's numbers belong to [m]
@@ -29,7 +30,9 @@ class World {
   double time = 0;  ///< [s]
   std::int64_t step = 0;
 
-  AttractionReach reach() const { return {grain_pair.formation_gap, grain_pair.rupture_gap, reference_radius}; }
+  AttractionReach reach() const {
+    return {grain_pair.formation_gap, grain_pair.rupture_gap, grain_pair.tear_gap, reference_radius};
+  }
 };
 
 /// Sets the laws of a contact model between grains; walls are given theirs by `wall_pair`.

@@ -158,9 +158,9 @@ ContactCost cost_of_contact(bool cohesive) {
   Memory<Counted> memory{};
   const PairConstants pair = grain_pair(scene_material(cohesive), kSceneRadius);
   if (cohesive)
-    act<PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
+    act<Hertz, PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
   else
-    act<NoAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
+    act<Hertz, NoAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
   ContactCost cost;
   cost.additions_multiplications = Counted::simple;
   cost.roots_divisions = Counted::roots + Counted::divisions;

@@ -77,7 +77,7 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
     const Meeting<double> meeting{
         of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
         std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
-    const auto action = act<Attraction, Rolling>(pair, meeting, memory, kStep, Energies::none);
+    const auto action = act<Hertz, Attraction, Rolling>(pair, meeting, memory, kStep, Energies::none);
     const Vec3 force = action.traction - action.push * meeting.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
                                      mass, std::min(small, large)},
@@ -133,7 +133,7 @@ const std::string kPlain =
 TEST_CASE("the law that is exported to LAMMPS acts as the engine's, bridge after bridge") {
   compare<NoAttraction>(BridgeShape::none);
   compare<PolynomialAttraction>(BridgeShape::polynomial);
-  compare<PolynomialAttraction>(BridgeShape::linear);
+  compare<LinearAttraction>(BridgeShape::linear);
   compare<ExponentialAttraction>(BridgeShape::exponential);
   compare<CapillaryAttraction>(BridgeShape::capillary);
 }

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "core/laws/constants.h"
+#include "core/laws/pack.h"
+
+namespace pastefit {
+
+/// What a law of the overlap makes of a pair.
+template <class Real>
+struct Press {
+  decltype(Real() > Real()) touching;  ///< whether the bodies are in contact
+  Real contact_radius;  ///< a [m]; stiffnesses follow from it: S_n = 2 E* a, S_t = 8 G* a. 0 out of contact
+  Real force;           ///< repulsion less what the law itself attracts by [N]; 0 out of contact
+  Real load;            ///< elastic part of it, never negative, that friction feels [N]
+  Real reserve;         ///< what friction feels besides where it feels the total force [N]
+};
+
+/// Laws of the overlap d: how hard two bodies press on each other, and what that holds. Each is a type with
+///     choice, word     its name in the program and in files;
+///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::tear_gap or
+///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
+///     set(pair, grains, share)   its own constants, with `share` of the attraction (1 between grains);
+///     at(k, root_radius, overlap, touched)   the `Press` of a pair; root_radius is sqrt(R*), radius R*;
+///     energy(k, radius, press, overlap)   what it holds [J], 0 out of contact; the derivative by d is the force;
+///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
+///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: push of a spring that grows with a [N];
+///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
+///     collision_time(k, radius, mass, speed)   of a collision at that speed, for the choice of the step [s].
+/// The last two, and `set`, are computed once and in plain numbers; the others in packs too (laws/pack.h).
+/// To add one: core/README.md.
+
+/// Elastic spheres: F = 4/3 E* sqrt(R*) d^(3/2), a = sqrt(R* d).
+struct Hertz {
+  static constexpr NormalLaw choice = NormalLaw::hertz;
+  static constexpr std::string_view word = "hertz";
+  static constexpr bool reaches = false;
+
+  static void set(PairConstants&, const ContactModel&, double) {}
+
+  template <class Real>
+  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real) {
+    const Real depth = larger(overlap, Real(0.0));
+    const Real contact_radius = root_radius * square_root(depth);
+    const Real repulsion = Real(k.hertz) * contact_radius * depth;
+    return {overlap > Real(0.0), contact_radius, repulsion, repulsion, Real(0.0)};
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+    return Real(0.4) * press.force * overlap;
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real widening(const PairConstants&, Real radius, Real energy, Real inverse_contact_radius) {
+    return Real(0.5) * energy * radius * inverse_contact_radius * inverse_contact_radius;
+  }
+  static double overlap_under(const PairConstants& k, double radius, double load) {
+    return std::pow(load / (k.hertz * std::sqrt(radius)), 2.0 / 3);
+  }
+  static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
+    const double modulus = 0.5 * k.normal_stiffness;
+    return 2.87 * std::pow(mass * mass / (radius * modulus * modulus * speed), 0.2);
+  }
+};
+
+}  // namespace pastefit

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/laws/constants.h"
+#include "core/laws/contact_plane.h"
+#include "core/laws/meeting.h"
+
+namespace pastefit {
+
+/// A contact as its resistance to rolling sees it.
+template <class Real>
+struct RollingContact {
+  decltype(Real() > Real()) touching;
+  BasicVec3<Real> spin;         ///< relative spin across the normal [rad/s]
+  detail::Turned<Real> turned;  ///< what `Memory::roll` holds, turned with the contact, if the law says `turns`
+  Real restored;                ///< factor that gives it its length back
+  Real radius, smaller_radius;  ///< R*, of the two radii [m]
+  Real root_mass;               ///< sqrt(m*)
+  Real stiffness_n, stiffness_t;
+  Real old_stiffness_n;        ///< S_n of the step before [N/m]
+  Real softened;               ///< min(1, a_old/a) of the contact radius a
+  Real root_impedance;         ///< sqrt(S_n m*)
+  Real brake, inverse_brakes;  ///< a dashpot is weakened by both, as the damper along the normal
+  Real limit;                  ///< largest moment mu_r N R* [N m]
+};
+
+/// Laws of rolling resistance. Each is a type with
+///     choice, word   its name in the program and in files;
+///     remembers      whether it uses `Memory::roll`;
+///     turns          whether that is a vector of the contact plane, which turns with the contact;
+///     act(k, contact, dt, counted, roll, action)   its moment on body i, its heat and what it stores if energies are
+///                    `counted`, its part in damping and stiffness of `action`; and what it will remember.
+/// To add one: core/README.md.
+
+struct NoRolling {
+  static constexpr RollingModel choice = RollingModel::none;
+  static constexpr std::string_view word = "none";
+  static constexpr bool remembers = false, turns = false;
+
+  template <class Real>
+  PASTEFIT_INLINE static void act(const PairConstants&, const RollingContact<Real>&, Real, bool, BasicVec3<Real>&,
+                                  Action<Real>&) {}
+};
+
+/// Elastic-plastic spring and dashpot (EPSD) of Ai et al. 2011: k_r = 2.25 S_n (mu_r R*)^2, moment at most mu_r N R*,
+/// dashpot 2 eta sqrt(I_r k_r) with eta = 0.3 while the spring has not yielded; I_r is the inertia of relative rolling
+/// about the contact, (1/(I_i + m_i r_i^2) + ...)^-1: 7/5 m* R*^2 for equal grains; the same expression serves all
+/// sizes.
+///
+/// The spring, whose moment has no potential of its own, is shortened when the contact stiffens (`softened`):
+/// stiffening adds no energy, and unloading releases the moment with the area.
+struct SpringDashpotRolling {
+  static constexpr RollingModel choice = RollingModel::spring_dashpot;
+  static constexpr std::string_view word = "spring_dashpot";
+  static constexpr bool remembers = true, turns = true;
+
+  template <class Real>
+  PASTEFIT_INLINE static void act(const PairConstants& k, const RollingContact<Real>& c, Real dt, bool counted,
+                                  BasicVec3<Real>& memory, Action<Real>& action) {
+    const Real zero(0.0), one(1.0), half(0.5);
+    const Real lever = Real(k.rolling_friction) * c.radius;
+    const Real stiffness = Real(2.25) * c.stiffness_n * lever * lever;
+    const BasicVec3<Real> roll = fused(c.softened * c.restored, c.turned.vector, dt * c.spin);
+    const Real roll_square = dot(roll, roll);
+    const Real moment_square = larger(stiffness * stiffness * roll_square, Real(detail::kFloor));
+    const Real kept = detail::cap(moment_square, c.limit);
+    const Real kept_stiffness = kept * stiffness;
+    memory = select(c.touching, kept, zero) * roll;
+    const Real dashpot = Real(k.roll_damping) * c.root_impedance * c.radius * c.radius * c.brake * c.inverse_brakes;
+    const Real braking = select(kept < one, zero, dashpot);
+    action.moment = -fused(kept_stiffness, roll, braking * c.spin);
+    action.damping = fused(Real(k.spin_damping), c.root_impedance, action.damping);
+    action.stiffness = larger(
+        action.stiffness, fused(Real(kSurfaceLightness), c.stiffness_t, Real(k.roll_stiffness_share) * c.stiffness_n));
+    if (!counted) return;
+    const Real old_stiffness = Real(2.25) * c.old_stiffness_n * lever * lever;
+    const Real old_energy = half * old_stiffness * (c.turned.square + c.turned.lost);
+    const Real energy = half * kept_stiffness * kept * roll_square;
+    const Real work = half * fused(old_stiffness, dot(c.turned.vector, c.spin), kept_stiffness * dot(roll, c.spin));
+    action.heat_rolling = fused(dt, fused(braking, dot(c.spin, c.spin), work), old_energy - energy);
+    action.stored = action.stored + energy;
+  }
+};
+
+/// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot: without that the torque's
+/// sign would alternate and heat the heap. In one step a dashpot takes at most a fifth of a grain's spin, a tenth among
+/// equal grains, so that all the contacts of a grain together stay below twice of it. It remembers its last torque.
+struct ConstantTorqueRolling {
+  static constexpr RollingModel choice = RollingModel::constant_torque;
+  static constexpr std::string_view word = "constant_torque";
+  static constexpr bool remembers = true, turns = false;
+
+  template <class Real>
+  PASTEFIT_INLINE static void act(const PairConstants&, const RollingContact<Real>& c, Real dt, bool counted,
+                                  BasicVec3<Real>& memory, Action<Real>& action) {
+    const Real floor(detail::kFloor);
+    const Real spin_square = larger(dot(c.spin, c.spin), floor);
+    const Real gentle =
+        Real(0.08) * c.smaller_radius * c.smaller_radius * c.root_mass * c.root_mass / larger(dt, floor);
+    const Real resistance = smaller(c.limit / square_root(spin_square), gentle);
+    const BasicVec3<Real> torque = resistance * c.spin;
+    action.moment = -torque;
+    if (counted) action.heat_rolling = Real(0.5) * dt * dot(torque + memory, c.spin);
+    memory = torque;
+  }
+};
+
+}  // namespace pastefit

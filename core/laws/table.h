@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+
+#include "core/laws/attraction.h"
+#include "core/laws/normal.h"
+#include "core/laws/rolling.h"
+
+namespace pastefit {
+
+template <class... Laws>
+struct TypeList {
+  static constexpr std::size_t size = sizeof...(Laws);
+};
+
+/// All laws, in the order of their names in materials.h. Kernels, words of files and constants of pairs are made from
+/// these rows.
+using NormalLaws = TypeList<Hertz>;
+using Attractions =
+    TypeList<NoAttraction, PolynomialAttraction, LinearAttraction, ExponentialAttraction, CapillaryAttraction>;
+using RollingLaws = TypeList<NoRolling, SpringDashpotRolling, ConstantTorqueRolling>;
+
+template <class List, std::size_t row>
+struct LawOf;
+template <class... Laws, std::size_t row>
+struct LawOf<TypeList<Laws...>, row> {
+  using type = std::tuple_element_t<row, std::tuple<Laws...>>;
+};
+template <class List, std::size_t row>
+using Law = typename LawOf<List, row>::type;
+
+/// The row of a law.
+template <class Choice>
+constexpr std::size_t row_of(Choice choice) {
+  return static_cast<std::size_t>(choice);
+}
+
+/// Calls `look(Law{})` with the law of that name, a type without data, and returns what it returns.
+template <class... Laws, class Choice, class Look>
+auto with_law(TypeList<Laws...>, Choice choice, const Look& look) {
+  using Result = std::common_type_t<decltype(look(Laws{}))...>;
+  if constexpr (std::is_void_v<Result>) {
+    (void)((Laws::choice == choice && (look(Laws{}), true)) || ...);
+  } else {
+    Result result{};
+    (void)((Laws::choice == choice && (result = look(Laws{}), true)) || ...);
+    return result;
+  }
+}
+
+namespace detail {
+
+/// Every name has its row, and every row the place of its name.
+template <class Choice, class... Laws>
+constexpr bool is_complete(TypeList<Laws...>) {
+  std::size_t row = 0;
+  return ((row_of(Laws::choice) == row++) && ...) && row == row_of(Choice::last) + 1;
+}
+static_assert(is_complete<NormalLaw>(NormalLaws{}), "NormalLaw and NormalLaws differ");
+static_assert(is_complete<BridgeShape>(Attractions{}), "BridgeShape and Attractions differ");
+static_assert(is_complete<RollingModel>(RollingLaws{}), "RollingModel and RollingLaws differ");
+
+}  // namespace detail
+
+}  // namespace pastefit
