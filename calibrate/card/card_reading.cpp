@@ -1,3 +1,4 @@
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card.h"
@@ -16,6 +17,7 @@ using nlohmann::json;
 
 constexpr Range kAny;
 constexpr Range kNotNegative{0};
+constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
 constexpr auto kRequired = Need::required;
 constexpr auto kOptional = Need::optional;
 
@@ -31,6 +33,7 @@ CardObservable read_observable(ObjectReader& reader, std::string name) {
   reader.number("standard_deviation", out.standard_deviation, kNotNegative, need);
   reader.integer("repeats", out.repeats, 0, 1'000'000, need);
   reader.number("weight", out.weight, kNotNegative, need);
+  reader.number("tolerance", out.tolerance, kPositive, need);
   reader.number("difference", derived, kAny, Need::optional);
   if (double band = 0; reader.number("band", band, kNotNegative, Need::optional)) out.band = band;
   return out;
@@ -261,8 +264,7 @@ Result<Card> card_from_json(const json& document) {
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);
-      confirmation.number("misfit_mm", card.confirmation.misfit_mm, kNotNegative, kRequired);
-      confirmation.number("tolerance_mm", card.confirmation.tolerance_mm, kNotNegative, kRequired);
+      confirmation.number("misfit", card.confirmation.misfit, kNotNegative, kRequired);
       confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
     });
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/content_hash.h"
+#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 
@@ -21,11 +22,11 @@ std::optional<HeightWindow> window_of(const Study& study, std::size_t test) {
   bool second_step = false;
   for (std::size_t k = 0; k < one.lab.measurements.size(); ++k) {
     const Measurement& measurement = one.lab.measurements[k];
-    if (one.weights.at(k).weight == 0) continue;
+    if (one.targets.at(k).weight == 0) continue;
     second_step = second_step || measurement.observable.starts_with("step2.");
     if (measurement.observable != height) continue;
-    const double level =
-        std::max(level_in_tolerances * study.search.tolerance_mm, level_in_deviations * measurement.standard_deviation);
+    const double level = std::max(level_in_tolerances * tolerance_of(study, test, k),
+                                  level_in_deviations * measurement.standard_deviation);
     window = HeightWindow{1e-3 * (measurement.value - level), 1e-3 * (measurement.value + level)};
   }
   if (window && !second_step) window->highest_m = HeightWindow{}.highest_m;

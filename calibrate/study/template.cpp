@@ -80,6 +80,8 @@ constexpr std::string_view study_text =
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
   "weights": {"step1.height_mm": 1, "step1.spread_mm": 0},
+  // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
+  // deviation of the laboratory: "tolerances": {"step1.spread_mm": 15},
 
   "search": {
     "strategy": "default",
@@ -89,7 +91,7 @@ constexpr std::string_view study_text =
     "lag": 1,                    // candidates under way when the next is proposed; more for more than 4 cores
     "confirmation_packings": 8,  // fresh fillings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
-    "tolerance_mm": 5,           // good enough
+    "tolerance_mm": 5,           // good enough: for every fitted length without a tolerance of its own
     "coarse_first": false,       // true: look with grains 1.5 times as large first; fewer simulations, confirmed as ever
     "end_early": true,           // candidates that are far off end early; false: every simulation runs to its end
     "seed": 1

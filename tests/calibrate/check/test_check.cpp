@@ -174,6 +174,7 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   low.name = "step1.height_axis_mm";
   low.measured = 48;
   low.weight = 1;
+  low.tolerance = 5;
   lower.observables.push_back(low);
   card.further.push_back(lower);
   const double radius = 1.25 * card.test.grains.radius_m;
@@ -194,7 +195,7 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   const Rescaling::Bias bias = measured.value().rescaled.back().bias.back();
   CHECK(bias.observable == "low mould: step1.height_axis_mm");
   CHECK(bias.after - bias.before == Approx(3));
-  CHECK(measured.value().confirmation.misfit_mm == Approx(5));
+  CHECK(measured.value().confirmation.misfit == Approx(1));
 }
 
 TEST_CASE("readings without scatter may differ by rounding only") {
