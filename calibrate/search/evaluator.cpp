@@ -13,6 +13,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
+#include "core/rigs/slump_readings.h"
 
 namespace pastefit {
 
@@ -27,9 +28,10 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The worst miss a heap can have, in the measurement's unit.
-double worst_miss(const Measurement& measurement, const Mould& mould) {
-  if (is_length(measurement.observable)) return std::max(std::abs(measurement.value), 1000 * mould.height_m);
-  return std::max(std::abs(measurement.value), 10 * measurement.standard_deviation);
+double worst_miss(const Measurement& measurement, const SlumpTable& test) {
+  const ReadingKind* kind = reading_kind(measurement.observable);
+  const bool bounded = kind && kind->worst_miss;
+  return std::max(std::abs(measurement.value), bounded ? kind->worst_miss(test) : 10 * measurement.standard_deviation);
 }
 
 Failure stopped(std::string message) {
@@ -330,8 +332,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
     if (out.failed)
-      out.observables[i] =
-          measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test.mould);
+      out.observables[i] = measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test);
     double miss = out.observables[i] - measurement.value;
     if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;

@@ -39,8 +39,9 @@ constexpr std::string_view lab_text =
   "grains": {"distribution": "mono", "radius_mm": 8},
 
   // Either value and standard deviation of one reading, or all repeats.
-  // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm.
-  // Step 2, plate dropped: the same with step2, and step2.plateau_sag_mm, step2.plateau_width_mm.
+  // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm. Forms of these by
+  // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.
+  // Step 2, plate dropped: the same with step2 but the shift, and step2.plateau_sag_mm, step2.plateau_width_mm.
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {

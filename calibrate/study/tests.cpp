@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/tolerance.h"
+#include "core/rigs/slump_readings.h"
 
 namespace pastefit {
 
@@ -19,12 +19,13 @@ constexpr std::size_t most_tests = 20;
 template <class Set>
 void read_numbers(ObjectReader& reader, const std::vector<Measurement>& measurements, std::vector<Target>& targets,
                   const Range& range, Set set) {
-  for (const ReadingKey& key : reading_keys()) {
-    const auto target = std::ranges::find(targets, key.observable, &Target::observable);
+  for (const ReadingKind& kind : reading_kinds()) {
+    if (kind.key.empty()) continue;
+    const auto target = std::ranges::find(targets, kind.measure, &Target::observable);
     double number = 0;
     if (target == targets.end() && !measurements.empty())
-      reader.refuse(key.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
-    else if (reader.number(key.key, number, range, Need::optional) && target != targets.end())
+      reader.refuse(kind.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
+    else if (reader.number(kind.key, number, range, Need::optional) && target != targets.end())
       set(*target, number);
   }
 }

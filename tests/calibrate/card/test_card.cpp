@@ -209,6 +209,24 @@ TEST_CASE("a card of every version ever written is read, and keeps its numbers")
   }
 }
 
+TEST_CASE("readings of a card that no heap of its test can have are refused, each with its place") {
+  const auto good = text_and_back(to_json(card()));
+  auto bad = good;
+  bad["observables"]["step1.height_mm"]["simulated"] = 2000;  // in a mould of 200 mm
+  bad["observables"]["step1.height_mm"]["measured"] = -5;
+  bad["baseline"]["readings"]["step1.height_mm"][1] = -150;
+  const auto read = card_from_json(bad);
+  REQUIRE_FALSE(read.ok());
+  REQUIRE(read.faults().size() == 3);
+  CHECK(read.faults()[0].where == "observables.step1.height_mm.simulated");
+  CHECK(read.faults()[1].where == "observables.step1.height_mm.measured");
+  CHECK_THAT(read.faults()[2].where, Catch::StartsWith("baseline.readings.step1.height_mm"));
+  bad = good;
+  bad["observables"]["step1.another_mm"] = bad["observables"]["step1.spread_mm"];  // of another version
+  bad["observables"]["step1.another_mm"]["simulated"] = -7000;
+  CHECK(card_from_json(bad).ok());
+}
+
 TEST_CASE("a card of a newer version, of none, and one cut short are refused with a reason") {
   auto document = text_and_back(to_json(card()));
   document["format"] = "pastefit-card-99";
