@@ -92,6 +92,21 @@ class Readme(unittest.TestCase):
         names = list(schema["properties"]["parameters"]["properties"])
         self.assertEqual([cells[0].strip("`") for cells in rows("name")], names)
 
+    def test_readings_are_those_of_laboratory_files(self):
+        # The schema is held against the program's table by a test of its own (tests/calibrate/study/test_study.cpp).
+        schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
+        keys = set(schema["properties"]["measurements"]["properties"])
+        told = set()
+        for cells in rows("reading"):
+            for name in re.findall(r"`(\w+)`", cells[0]):
+                steps = [step for step in ("step1", "step2") if f"{step}.{name}" in keys]
+                self.assertTrue(steps, f"{name} is no reading of a laboratory file")
+                self.assertEqual("step 1 only" in cells[1], steps == ["step1"], name)
+                self.assertEqual(cells[1].startswith("step 2"), steps == ["step2"], name)
+                told |= {f"{step}.{name}" for step in steps}
+        told |= set(re.findall(r"Readings of a laboratory file: `([\w.]+)`", README))
+        self.assertEqual(told, keys)
+
     def test_the_example_does_what_it_says(self):
         commands = "\n".join(re.findall(r"```sh\n(.*?)```", README, re.S))
         with tempfile.TemporaryDirectory(prefix="pastefit-readme-") as folder:

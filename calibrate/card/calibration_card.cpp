@@ -9,6 +9,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
+#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 
@@ -45,7 +46,9 @@ std::vector<Observables> runs_of(const Study& study, std::size_t test, const std
 }
 
 /// Every reading of the runs, beside the laboratory's where it has one.
-std::vector<CardObservable> observables_of(const StudyTest& test, const std::vector<Observables>& runs) {
+std::vector<CardObservable> observables_of(const Study& study, std::size_t index,
+                                           const std::vector<Observables>& runs) {
+  const StudyTest& test = study.tests[index];
   std::vector<CardObservable> out;
   for (const auto& reading : runs.at(0).all()) {
     auto observable = mean_of(reading.name, runs);
@@ -56,7 +59,8 @@ std::vector<CardObservable> observables_of(const StudyTest& test, const std::vec
       observable->measured = measurement.value;
       observable->standard_deviation = measurement.standard_deviation;
       observable->repeats = measurement.repeats;
-      observable->weight = test.weights[i].weight;
+      observable->weight = test.targets[i].weight;
+      observable->tolerance = tolerance_of(study, index, i);
     }
     out.push_back(std::move(*observable));
   }
@@ -98,7 +102,7 @@ CardTest further_of(const Study& study, std::size_t index, const std::vector<dou
   out.test = test_with(test.lab.test, values, packings.at(0));
   const auto runs = runs_of(study, index, values, packings, store);
   if (runs.empty()) return out;
-  out.observables = observables_of(test, runs);
+  out.observables = observables_of(study, index, runs);
   out.baseline = baseline_of(runs, packings, store);
   if (out.hold_out) judge(out, packings.size());
   return out;
@@ -122,15 +126,14 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
 
   const auto runs = runs_of(study, 0, values, shown.packings, store);
   card.baseline = baseline_of(runs, shown.packings, store);
-  card.observables = observables_of(first, runs);
+  card.observables = observables_of(study, 0, runs);
   for (const auto& observable : card.observables)
     if (observable.name == "fill.solid_fraction")
       card.grain_density_kg_m3 = card.test.bulk_density_kg_m3 / observable.simulated;
   for (std::size_t i = 1; i < study.tests.size(); ++i)
     card.further.push_back(further_of(study, i, values, shown.packings, store));
 
-  card.confirmation = {shown.packings, fresh, shown.misfit_mm, options.tolerance_mm,
-                       fresh && verdict_on(shown, options.tolerance_mm) == Verdict::holds};
+  card.confirmation = {shown.packings, fresh, shown.miss, fresh && verdict_on(shown) == Verdict::holds};
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

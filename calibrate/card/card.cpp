@@ -27,6 +27,7 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
     out["standard_deviation"] = observable.standard_deviation;
     out["repeats"] = observable.repeats;
     out["weight"] = observable.weight;
+    out["tolerance"] = observable.tolerance;
     out["difference"] = observable.simulated - *observable.measured;
   }
   if (observable.band) out["band"] = *observable.band;
@@ -119,6 +120,18 @@ std::vector<TestOfCard> tests_of(Card& card) {
   return tests;
 }
 
+MisfitUnit misfit_unit_of(const Card& card) {
+  std::vector<std::pair<std::string_view, double>> fitted;
+  const auto add = [&](const std::vector<CardObservable>& observables) {
+    for (const auto& one : observables)
+      if (one.measured && one.weight > 0) fitted.emplace_back(one.name, one.tolerance);
+  };
+  add(card.observables);
+  for (const auto& test : card.further)
+    if (!test.hold_out) add(test.observables);
+  return misfit_unit_of(fitted);
+}
+
 ordered_json to_json(const Card& card) {
   ordered_json out;
   out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
@@ -144,8 +157,7 @@ ordered_json to_json(const Card& card) {
   for (const auto& test : card.further) out["further_tests"].push_back(further_to_json(test, packings));
   out["confirmation"] = {{"packings", card.confirmation.packings},
                          {"fresh", card.confirmation.fresh},
-                         {"misfit_mm", card.confirmation.misfit_mm},
-                         {"tolerance_mm", card.confirmation.tolerance_mm},
+                         {"misfit", card.confirmation.misfit},
                          {"meets_laboratory", card.confirmation.meets_laboratory}};
   const auto& search = card.search;
   out["search"] = {{"strategy", search.strategy},      {"status", search.status},

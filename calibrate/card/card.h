@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/study/study.h"
+#include "calibrate/study/tolerance.h"
 #include "core/observe/observables.h"
 
 namespace pastefit {
@@ -22,6 +23,7 @@ struct CardObservable {
   double standard_deviation = 0;            ///< of one measurement
   int repeats = 0;
   double weight = 0;                          ///< in the fit; 0: reported only
+  double tolerance = 0;                       ///< how far off it may be for the material to do; 0: not measured
   std::optional<double> band = std::nullopt;  ///< of a hold-out: |simulated - measured| that the noise of both explains
 };
 
@@ -52,9 +54,8 @@ struct CardTest {
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds of the packings that the simulated readings are means over
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
-  double misfit_mm = 0;                 ///< root mean square difference of the fitted lengths, all tests together
-  double tolerance_mm = 0;              ///< what the study asked for
-  bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
+  double misfit = 0;  ///< root mean square difference of the fitted readings over their tolerances; 1 is asked for
+  bool meets_laboratory = false;  ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
 };
 
 /// How the material was found.
@@ -126,7 +127,7 @@ struct Rescaling {
 };
 
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
-/// comes from. File format "pastefit-card-2", `data/schema/card.schema.json`.
+/// comes from. File format "pastefit-card-3", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
   SlumpTable test;                            ///< apparatus, grains and contact laws, in SI
@@ -155,6 +156,9 @@ struct TestOfCard {
 
 /// The card's own test, then the further ones. They belong to the card.
 std::vector<TestOfCard> tests_of(Card& card);
+
+/// In which people are told the card's misfit.
+MisfitUnit misfit_unit_of(const Card& card);
 
 /// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws.
 /// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated

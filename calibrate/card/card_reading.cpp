@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card.h"
@@ -7,6 +9,7 @@
 #include "calibrate/study/names.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/slump_table_json.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -16,42 +19,55 @@ using nlohmann::json;
 
 constexpr Range kAny;
 constexpr Range kNotNegative{0};
+constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
 constexpr auto kRequired = Need::required;
 constexpr auto kOptional = Need::optional;
 
-CardObservable read_observable(ObjectReader& reader, std::string name) {
+CardObservable read_observable(ObjectReader& reader, const Range& range, std::string name) {
   CardObservable out;
   out.name = std::move(name);
   double derived = 0;
-  reader.number("simulated", out.simulated, kAny, kRequired);
+  reader.number("simulated", out.simulated, range, kRequired);
   reader.number("simulated_standard_deviation", out.simulated_standard_deviation, kNotNegative, kRequired);
   reader.number("standard_error", derived, kNotNegative, Need::optional);
-  reader.nullable_number("measured", out.measured, kAny, kRequired);
+  reader.nullable_number("measured", out.measured, range, kRequired);
   const auto need = out.measured ? Need::required : Need::optional;
   reader.number("standard_deviation", out.standard_deviation, kNotNegative, need);
   reader.integer("repeats", out.repeats, 0, 1'000'000, need);
   reader.number("weight", out.weight, kNotNegative, need);
+  reader.number("tolerance", out.tolerance, kPositive, need);
   reader.number("difference", derived, kAny, Need::optional);
   if (double band = 0; reader.number("band", band, kNotNegative, Need::optional)) out.band = band;
   return out;
 }
 
-void read_observables(ObjectReader& card, const json& document, std::vector<CardObservable>& target) {
+/// What a simulation can read, in the test of a card. Heaps of coarse grains leave the range of a laboratory by some: a
+/// spread begins at nothing, and everything may be half as large again. Any number for readings this program has not.
+Range simulated_range(const std::string& name, const SlumpTable* test) {
+  const ReadingKind* kind = reading_kind(name);
+  if (!kind || !test) return kAny;
+  const auto [smallest, largest] = kind->possible(*test);
+  return {1.5 * std::min(smallest, 0.0), 1.5 * largest};
+}
+
+void read_observables(ObjectReader& card, const json& document, const SlumpTable* test,
+                      std::vector<CardObservable>& target) {
   card.object("observables", kRequired, [&](ObjectReader& observables) {
     for (const auto& [name, value] : document["observables"].items())
       observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {
-        target.push_back(read_observable(observable, key));
+        target.push_back(read_observable(observable, simulated_range(key, test), key));
       });
   });
 }
 
-/// A test with a reader of its own, which knows its fields.
-SlumpTable read_test(const json& document, const std::string& place, Faults& faults) {
+/// A test with a reader of its own, which knows its fields; whether it could be read.
+bool read_test(const json& document, const std::string& place, SlumpTable& target, Faults& faults) {
   const auto test = slump_table_from_json(document.is_object() ? document.value("test", json()) : json());
-  if (test.ok()) return test.value();
+  if (test.ok()) target = test.value();
+  if (test.ok()) return true;
   for (const auto& fault : test.faults())
     faults.push_back({fault.where.empty() ? place : joined(place, fault.where), fault.what, fault.remedy});
-  return {};
+  return false;
 }
 
 void read_lab_provenance(ObjectReader& reader, Provenance& target) {
@@ -63,7 +79,7 @@ void read_lab_provenance(ObjectReader& reader, Provenance& target) {
   });
 }
 
-void read_baseline(ObjectReader& reader, const json& document, Baseline& baseline) {
+void read_baseline(ObjectReader& reader, const json& document, const SlumpTable* test, Baseline& baseline) {
   reader.text("program", baseline.program, kRequired);
   reader.text("machine", baseline.machine, kRequired);
   std::vector<std::uint64_t> packings;
@@ -72,7 +88,8 @@ void read_baseline(ObjectReader& reader, const json& document, Baseline& baselin
   reader.object("readings", kRequired, [&](ObjectReader& readings) {
     for (const auto& [name, value] : document["readings"].items()) {
       std::vector<double> column;
-      if (!readings.numbers(name, column, kAny, kRequired, packings.size(), packings.size())) continue;
+      if (!readings.numbers(name, column, simulated_range(name, test), kRequired, packings.size(), packings.size()))
+        continue;
       if (column.size() != packings.size()) continue;  // no packings, but readings: the length is a fault already
       for (std::size_t i = 0; i < column.size(); ++i) baseline.runs[i].observables.set(name, column[i]);
     }
@@ -86,11 +103,12 @@ void read_further(ObjectReader& reader, const json& document, CardTest& test) {
   reader.text("lab_hash", test.lab_hash, kRequired);
   read_lab_provenance(reader, test.lab);
   reader.known("test");
-  test.test = read_test(document, reader.place("test"), reader.faults());
-  read_observables(reader, document, test.observables);
+  const bool has_test = read_test(document, reader.place("test"), test.test, reader.faults());
+  const SlumpTable* ranges = has_test ? &test.test : nullptr;
+  read_observables(reader, document, ranges, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
   reader.object("baseline", kOptional,
-                [&](ObjectReader& baseline) { read_baseline(baseline, document["baseline"], test.baseline); });
+                [&](ObjectReader& baseline) { read_baseline(baseline, document["baseline"], ranges, test.baseline); });
 }
 
 void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
@@ -242,7 +260,7 @@ Result<Card> card_from_json(const json& document) {
   Card card;
   Faults faults;
   const json& rest = upgraded.value();
-  card.test = read_test(rest, "test", faults);
+  const SlumpTable* ranges = read_test(rest, "test", card.test, faults) ? &card.test : nullptr;
   {
     ObjectReader reader(rest, "", faults);
     reader.known("format");
@@ -255,14 +273,13 @@ Result<Card> card_from_json(const json& document) {
       material.nullable_number("grain_density_kg_m3", card.grain_density_kg_m3, kNotNegative, kRequired);
     });
     read_parameters(reader, card.parameters);
-    read_observables(reader, rest, card.observables);
+    read_observables(reader, rest, ranges, card.observables);
     reader.text("test_name", card.test_name, kOptional);
     read_list(reader, rest, "further_tests", card.further, read_further);
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);
-      confirmation.number("misfit_mm", card.confirmation.misfit_mm, kNotNegative, kRequired);
-      confirmation.number("tolerance_mm", card.confirmation.tolerance_mm, kNotNegative, kRequired);
+      confirmation.number("misfit", card.confirmation.misfit, kNotNegative, kRequired);
       confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
     });
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
@@ -270,7 +287,7 @@ Result<Card> card_from_json(const json& document) {
                   [&](ObjectReader& provenance) { read_provenance(provenance, card.provenance); });
     read_inference(reader, rest, card.inference);
     reader.object("baseline", kRequired,
-                  [&](ObjectReader& baseline) { read_baseline(baseline, rest["baseline"], card.baseline); });
+                  [&](ObjectReader& baseline) { read_baseline(baseline, rest["baseline"], ranges, card.baseline); });
     read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,8 +27,38 @@ void from_1(json& card) {
   card["baseline"] = {{"program", ""}, {"machine", ""}, {"packings", json::array()}, {"readings", json::object()}};
 }
 
+/// The number with this key; nothing if the value is no object or has none. Such faults are named when the card is
+/// read.
+std::optional<double> number_in(const json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+void give_tolerances(json& test, double tolerance_mm) {
+  const auto observables = test.is_object() ? test.find("observables") : test.end();
+  if (observables == test.end() || !observables->is_object()) return;
+  for (auto& [name, observable] : observables->items()) {
+    if (!number_in(observable, "measured")) continue;
+    const auto tolerance = is_length(name) ? std::optional(tolerance_mm) : number_in(observable, "standard_deviation");
+    if (tolerance) observable["tolerance"] = *tolerance;
+  }
+}
+
+void from_2(json& card) {
+  const auto confirmation = card.find("confirmation");
+  if (confirmation == card.end()) return;
+  const auto tolerance_mm = number_in(*confirmation, "tolerance_mm"), misfit_mm = number_in(*confirmation, "misfit_mm");
+  if (!misfit_mm || !(tolerance_mm > 0.0)) return;
+  confirmation->erase("misfit_mm");
+  confirmation->erase("tolerance_mm");
+  (*confirmation)["misfit"] = *misfit_mm / *tolerance_mm;
+  give_tolerances(card, *tolerance_mm);
+  if (const auto further = card.find("further_tests"); further != card.end() && further->is_array())
+    for (json& test : *further) give_tolerances(test, *tolerance_mm);
+}
+
 /// The n-th step leads from version n + 1 to the next one.
-constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1};
+constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1, from_2};
 
 /// The number after the prefix; 0 if it is none.
 int version_of(const std::string& format) {

@@ -21,7 +21,7 @@ Result<Card> rescaled(Card card, double radius) {
   for (auto& test : card.further) test.within_noise.reset();
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = false;
-  card.confirmation.misfit_mm = 0;
+  card.confirmation.misfit = 0;
   card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
   card.rebaselined.clear();
   return card;

@@ -13,6 +13,7 @@
 #include "calibrate/store/program.h"
 #include "calibrate/study/fault_text.h"
 #include "calibrate/study/parameters.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -20,12 +21,10 @@ namespace {
 
 constexpr std::ptrdiff_t kQuickPackings = 2;
 
-/// Readings that say something of their own: not the slump, which is the height again, nor counts.
+/// Whether a reading says something of its own.
 bool is_checked(const std::string& name) {
-  constexpr std::array<std::string_view, 5> kChecked{".height_axis_mm", ".height_max_mm", ".spread_mm",
-                                                     ".plateau_sag_mm", ".plateau_width_mm"};
-  return name == "fill.mass_kg" || name == "fill.solid_fraction" ||
-         std::ranges::any_of(kChecked, [&](auto ending) { return name.ends_with(ending); });
+  const ReadingKind* kind = reading_kind(name);
+  return kind && kind->checked;
 }
 
 /// What the card promises for a reading: from its single runs, or from mean and deviation if it keeps none.

@@ -24,10 +24,10 @@ Result<std::vector<Baseline::Run>> runs_of(const TestOfCard& test, const std::ve
   return runs;
 }
 
-/// Root mean square over the fitted lengths, as in the search, of their difference from the laboratory and of their
-/// standard error.
+/// Root mean square over the fitted readings, as in the search, of their difference from the laboratory and of their
+/// standard error, each over its tolerance.
 struct Misfit {
-  double difference_mm = 0, noise_mm = 0;
+  double difference = 0, noise = 0;
 };
 
 Misfit misfit_of(Card& card, double packings) {
@@ -36,14 +36,14 @@ Misfit misfit_of(Card& card, double packings) {
   for (const auto& test : tests_of(card)) {
     if (!test.fitted) continue;
     for (const auto& observable : test.observables) {
-      if (!observable.measured || observable.weight <= 0 || !observable.name.ends_with("_mm")) continue;
-      squares.difference_mm += std::pow(observable.simulated - *observable.measured, 2);
-      squares.noise_mm += std::pow(observable.simulated_standard_deviation, 2) / packings;
+      if (!observable.measured || observable.weight <= 0) continue;
+      squares.difference += std::pow((observable.simulated - *observable.measured) / observable.tolerance, 2);
+      squares.noise += std::pow(observable.simulated_standard_deviation / observable.tolerance, 2) / packings;
       ++fitted;
     }
   }
   if (fitted == 0) return {};
-  return {std::sqrt(squares.difference_mm / fitted), std::sqrt(squares.noise_mm / fitted)};
+  return {std::sqrt(squares.difference / fitted), std::sqrt(squares.noise / fitted)};
 }
 
 }  // namespace
@@ -83,9 +83,8 @@ Result<Card> with_measured_bias(const Card& given, Card after, int count, const 
   confirmation.packings = packings;
   confirmation.fresh = true;
   const Misfit misfit = misfit_of(after, count);
-  confirmation.misfit_mm = misfit.difference_mm;
-  confirmation.meets_laboratory =
-      verdict_on(misfit.difference_mm, misfit.noise_mm, confirmation.tolerance_mm) == Verdict::holds;
+  confirmation.misfit = misfit.difference;
+  confirmation.meets_laboratory = verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
   return after;
 }
 

@@ -138,7 +138,7 @@ int calibrate(const CalibrateOptions& options) {
               budget, store.value().size());
   std::printf("%s%s", changes_in(study, store.value()).c_str(),
               warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
-  ProgressLine line(budget);
+  ProgressLine line(budget, misfit_unit_of(study));
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
   evaluator.budget = budget;

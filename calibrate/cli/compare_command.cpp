@@ -39,38 +39,39 @@ const std::string kFigure = "comparison.svg";
 const std::vector<std::string> kComparison = with_store({kTable, kCourse, kFigure});
 constexpr std::uint64_t kFirstJudge = 1'000'000'001;  // packings far from those of any search
 
-std::string table_of(const std::vector<StrategyTrial>& trials) {
-  std::string out = "strategy,seed,status,simulations,failures,judged_misfit_mm\n";
+std::string table_of(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
+  std::string out = std::string("strategy,seed,status,simulations,failures,judged_misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
     out += format("%s,%llu,%s,%d,%d,", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed),
                   std::string(name_of(trial.status)).c_str(), trial.simulations, trial.failures) +
-           (trial.judged_mm >= 0 ? format("%.4g", trial.judged_mm) : "") + "\n";
+           (trial.judged >= 0 ? format("%.4g", unit.of(trial.judged)) : "") + "\n";
   return out;
 }
 
-std::string course_of(const std::vector<StrategyTrial>& trials) {
-  std::string out = "strategy,seed,simulations,misfit_mm\n";
+std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
+  std::string out = std::string("strategy,seed,simulations,misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
-    for (std::size_t i = 0; i < trial.misfit_mm.size(); ++i)
-      if (trial.misfit_mm[i] >= 0 && (i == 0 || trial.misfit_mm[i] != trial.misfit_mm[i - 1]))
+    for (std::size_t i = 0; i < trial.miss.size(); ++i)
+      if (trial.miss[i] >= 0 && (i == 0 || trial.miss[i] != trial.miss[i - 1]))
         out += format("%s,%llu,%zu,%.4g\n", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed), i + 1,
-                      trial.misfit_mm[i]);
+                      unit.of(trial.miss[i]));
   return out;
 }
 
-void print(const std::vector<StrategySummary>& rows, double tolerance_mm) {
-  std::printf("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations", "judged misfit mm", "worst mm");
+void print(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+  std::printf("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
+              unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
   for (const auto& row : rows) {
     std::printf("%-22s %6d of %d %12.0f", row.strategy.c_str(), row.confirmed, row.trials, row.simulations);
-    if (row.judged_mm >= 0)
-      std::printf(" %18.2f %12.2f\n", row.judged_mm, row.worst_judged_mm);
+    if (row.judged >= 0)
+      std::printf(" %18.2f %12.2f\n", unit.of(row.judged), unit.of(row.worst_judged));
     else
       std::printf(" %18s %12s\n", "-", "-");
   }
   std::printf(
-      "Medians over the seeds; confirmed: within %g mm on packings that the search had not seen; judged on others,"
+      "Medians over the seeds; confirmed: within %s on packings that the search had not seen; judged on others,"
       " the same for all.\n",
-      tolerance_mm);
+      unit.tolerance_mm ? unit.words(1, "%g").c_str() : "the tolerances");
 }
 
 /// The strategies that were asked for, or all that can search so many parameters.
@@ -101,6 +102,7 @@ int compare(const CompareOptions& options) {
   const auto& study = read.value();
   if (const auto faults = validate_memory(study, options.threads); !faults.empty())
     return report(in_file(faults, options.study));
+  const MisfitUnit unit = misfit_unit_of(study);
   ComparisonOptions comparison;
   comparison.search = study.search;
   if (options.budget > 0) comparison.search.budget_simulations = options.budget;
@@ -129,11 +131,10 @@ int compare(const CompareOptions& options) {
     evaluator.stop = &stop;
     return std::make_unique<SimulationObjective>(study, store.value(), evaluator);
   };
-  const auto trials = compare_strategies(objective, comparison, [](const StrategyTrial& trial) {
+  const auto trials = compare_strategies(objective, comparison, [&](const StrategyTrial& trial) {
     std::printf("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
                 static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(),
-                trial.simulations, trial.failures,
-                trial.judged_mm >= 0 ? format("%.2f mm", trial.judged_mm).c_str() : "-");
+                trial.simulations, trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
     std::fflush(stdout);
   });
   if (trials.empty()) {
@@ -143,11 +144,10 @@ int compare(const CompareOptions& options) {
   if (trials.size() < comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds))
     std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
   const auto rows = summary_of(trials);
-  print(rows, comparison.search.tolerance_mm);
-  const std::vector<std::pair<std::string, std::string>> files{
-      {kTable, table_of(trials)},
-      {kCourse, course_of(trials)},
-      {kFigure, misfit_figure(rows, comparison.search.tolerance_mm, study.title)}};
+  print(rows, unit);
+  const std::vector<std::pair<std::string, std::string>> files{{kTable, table_of(trials, unit)},
+                                                               {kCourse, course_of(trials, unit)},
+                                                               {kFigure, misfit_figure(rows, unit, study.title)}};
   for (const auto& [name, content] : files) {
     if (const auto faults = write_atomically(folder.value().file(name), content); !faults.empty())
       return report(faults, kFailed);

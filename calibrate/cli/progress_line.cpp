@@ -16,13 +16,14 @@ constexpr std::chrono::seconds kPlain{5};
 
 }  // namespace
 
-ProgressLine::ProgressLine(int budget) : terminal_(isatty(STDOUT_FILENO) == 1), budget_(budget) {}
+ProgressLine::ProgressLine(int budget, const MisfitUnit& unit)
+    : terminal_(isatty(STDOUT_FILENO) == 1), budget_(budget), unit_(unit) {}
 
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const bool new_phase = progress.phase != phase_;
   phase_ = progress.phase;
-  best_misfit_mm_ = progress.best_misfit_mm;
+  best_miss_ = progress.best_miss;
   print(new_phase);
   if (progress.note.empty()) return;
   std::printf("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
@@ -45,7 +46,7 @@ std::string ProgressLine::text() const {
   std::string line = format("%-12s %d of %d simulations", phase_.c_str(), done, budget_);
   if (counts_.answered > 0) line += format(" (%d known)", counts_.answered);
   if (failed > 0) line += format(", %d failed", failed);
-  line += best_misfit_mm_ < 0 ? ", no misfit yet" : format(", best misfit %.2f mm", best_misfit_mm_);
+  line += best_miss_ < 0 ? ", no misfit yet" : ", best misfit " + unit_.words(best_miss_, "%.2f");
   line += format(", %.2f a second", rate);
   if (rate > 0) line += format(", at most %.0f s left", std::max(0, budget_ - done) / rate);
   return line;

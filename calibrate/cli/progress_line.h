@@ -13,7 +13,7 @@ namespace pastefit {
 /// each phase and every few seconds. Thread-safe.
 class ProgressLine {
  public:
-  explicit ProgressLine(int budget);
+  ProgressLine(int budget, const MisfitUnit& unit);
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
   void end();                                 ///< ends the rewritten line
@@ -26,9 +26,10 @@ class ProgressLine {
   const Clock::time_point start_ = Clock::now();
   const bool terminal_;
   const int budget_;
+  const MisfitUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
-  double best_misfit_mm_ = -1;
+  double best_miss_ = -1;
   EvaluationCounts counts_;
   Clock::time_point printed_{};
   std::string last_;

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "calibrate/inference/posterior.h"
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -246,8 +246,8 @@ Moments moments_of(const std::vector<UnitPoint>& sample) {
 /// before a slash where a study has several.
 bool measurable(const std::string& name) {
   const std::string own = name.substr(name.find('/') + 1);
-  return std::ranges::any_of(reading_keys(),
-                             [&](const ReadingKey& key) { return key.advised && key.observable == own; });
+  const ReadingKind* kind = reading_kind(own);
+  return kind && kind->advised;
 }
 
 /// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.

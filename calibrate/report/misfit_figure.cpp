@@ -17,22 +17,23 @@ constexpr std::array colours = {"#1b6ac9", "#c2571a", "#2f8f4e", "#8a3fa0", "#b8
 /// Simulations along, misfit up, both from the rows.
 struct Axes {
   double simulations = 1;
-  double low = 0, high = 1;  ///< decimal logarithms of the misfit in mm
+  double low = 0, high = 1;  ///< decimal logarithms of the misfit
 
   double x(double simulation) const { return left + (right - left) * simulation / simulations; }
-  double y(double misfit_mm) const {
-    const double share = (std::log10(std::max(misfit_mm, 1e-3)) - low) / (high - low);
+  double y(double misfit) const {
+    const double share = (std::log10(std::max(misfit, 1e-3)) - low) / (high - low);
     return bottom - (bottom - top) * std::clamp(share, 0.0, 1.0);
   }
 };
 
-Axes axes_of(const std::vector<StrategySummary>& rows, double tolerance_mm) {
+Axes axes_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
   Axes axes;
-  double least = tolerance_mm, most = 2 * tolerance_mm;
+  double least = unit.of(1), most = 2 * unit.of(1);
   for (const StrategySummary& row : rows) {
-    axes.simulations = std::max(axes.simulations, static_cast<double>(row.misfit_mm.size()));
-    for (const double misfit : row.misfit_mm) {
-      if (misfit <= 0) continue;
+    axes.simulations = std::max(axes.simulations, static_cast<double>(row.miss.size()));
+    for (const double miss : row.miss) {
+      if (miss <= 0) continue;
+      const double misfit = unit.of(miss);
       least = std::min(least, misfit);
       most = std::max(most, misfit);
     }
@@ -46,7 +47,7 @@ std::string text(double x, double y, const std::string& words, const char* ancho
   return format("<text x='%.1f' y='%.1f' text-anchor='%s' fill='%s'>", x, y, anchor, colour) + words + "</text>\n";
 }
 
-std::string frame(const Axes& axes, double tolerance_mm) {
+std::string frame(const Axes& axes, const MisfitUnit& unit) {
   std::string out = format("<rect x='%g' y='%g' width='%g' height='%g' fill='none' stroke='#888'/>\n", left, top,
                            right - left, bottom - top);
   for (int k = 0; k <= 5; ++k) {
@@ -57,18 +58,19 @@ std::string frame(const Axes& axes, double tolerance_mm) {
     if (std::log10(misfit) >= axes.low && std::log10(misfit) <= axes.high)
       out += text(left - 6, axes.y(misfit) + 4, format("%g", misfit), "end");
   out += text((left + right) / 2, bottom + 38, "simulations", "middle");
-  out += text(left, top - 8, "misfit of the incumbent [mm]", "start");
+  out += text(left, top - 8, std::string("misfit of the incumbent [") + unit.name() + "]", "start");
   out += format("<line x1='%g' y1='%.1f' x2='%g' y2='%.1f' stroke='#222' stroke-dasharray='5 4'/>\n", left,
-                axes.y(tolerance_mm), right, axes.y(tolerance_mm));
+                axes.y(unit.of(1)), right, axes.y(unit.of(1)));
   return out;
 }
 
 /// Steps, because an incumbent stands until it is beaten.
-std::string course(const Axes& axes, const StrategySummary& row, const char* colour, double stroke) {
+std::string course(const Axes& axes, const MisfitUnit& unit, const StrategySummary& row, const char* colour,
+                   double stroke) {
   std::string points;
   double before = -1;
-  for (std::size_t i = 0; i < row.misfit_mm.size(); ++i) {
-    const double misfit = row.misfit_mm[i];
+  for (std::size_t i = 0; i < row.miss.size(); ++i) {
+    const double misfit = unit.of(row.miss[i]);
     if (misfit < 0) continue;
     const double x = axes.x(static_cast<double>(i + 1));
     if (before >= 0 && before != misfit) points += format("%.1f,%.1f ", x, axes.y(before));
@@ -80,17 +82,17 @@ std::string course(const Axes& axes, const StrategySummary& row, const char* col
 
 }  // namespace
 
-std::string misfit_figure(const std::vector<StrategySummary>& rows, double tolerance_mm, const std::string& title) {
-  const Axes axes = axes_of(rows, tolerance_mm);
+std::string misfit_figure(const std::vector<StrategySummary>& rows, const MisfitUnit& unit, const std::string& title) {
+  const Axes axes = axes_of(rows, unit);
   std::string out = format("<svg xmlns='http://www.w3.org/2000/svg' width='%g' height='%g' ", width, height) +
                     "font-family='sans-serif' font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n";
-  out += text(left, 18, title, "start") + frame(axes, tolerance_mm);
+  out += text(left, 18, title, "start") + frame(axes, unit);
   std::string lines, legend;
   std::size_t coloured = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool shown = coloured < colours.size() && (coloured + 1 < colours.size() || rows[i].strategy == "default");
     const char* colour = shown ? colours[coloured++] : "#bbb";
-    lines += course(axes, rows[i], colour, rows[i].strategy == "default" ? 3 : shown ? 1.6 : 0.8);
+    lines += course(axes, unit, rows[i], colour, rows[i].strategy == "default" ? 3 : shown ? 1.6 : 0.8);
     legend +=
         text(right + 12, top + 10 + 17 * static_cast<double>(i), rows[i].strategy, "start", shown ? colour : "#777");
   }

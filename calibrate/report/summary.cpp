@@ -106,13 +106,14 @@ std::string sheared_lines(const Card& card) {
 
 std::string verdict_of(const Card& card) {
   const auto& confirmation = card.confirmation;
-  const auto misfit = format("%.2f mm over %zu packings, asked for %.2f mm", confirmation.misfit_mm,
-                             confirmation.packings.size(), confirmation.tolerance_mm);
+  const MisfitUnit unit = misfit_unit_of(card);
+  const auto misfit = unit.words(confirmation.misfit, "%.2f") +
+                      format(" over %zu packings, asked for ", confirmation.packings.size()) + unit.words(1, "%.2f");
   if (confirmation.meets_laboratory) return "The material meets the laboratory: " + misfit + ".";
   if (!confirmation.fresh)
     return "Not confirmed on fresh packings: " + misfit + ", on packings that the search has seen. " +
            card.search.reason;
-  if (confirmation.misfit_mm <= confirmation.tolerance_mm)
+  if (confirmation.misfit <= 1)
     return "It is not sure that the material meets the laboratory: " + misfit + ". " + card.search.reason;
   return "The material does not meet the laboratory: " + misfit + ". " + card.search.reason;
 }

@@ -63,8 +63,8 @@ std::vector<Response> Archive::ask(Ask how, std::span<const UnitPoint> points,
   history_.insert(history_.end(), responses.begin(), responses.end());
   for (const Response& response : responses) {
     if (!is_whole(response) || packings.size() < best_packings_) continue;
-    if (packings.size() > best_packings_ || response.misfit_mm < best_misfit_mm_) {
-      best_misfit_mm_ = response.misfit_mm;
+    if (packings.size() > best_packings_ || response.miss < best_miss_) {
+      best_miss_ = response.miss;
       best_packings_ = packings.size();
     }
   }
@@ -132,7 +132,7 @@ void Archive::measure_noise() {
 }
 
 void Archive::report(const std::string& note) const {
-  if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_misfit_mm_, note});
+  if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_miss_, note});
 }
 
 void Archive::keep_single(const Response& response, std::vector<Response>& singles) {

@@ -29,6 +29,8 @@ class Archive : public Objective {
   bool stop_requested() const override { return objective_.stop_requested(); }
   int budget_left() const override;  ///< without what is held back or under way
   int simulations_each() const override { return objective_.simulations_each(); }
+  double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
+  MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
 
@@ -81,7 +83,7 @@ class Archive : public Objective {
   int budget_ = 0;
   int held_back_ = 0;
   std::string_view phase_;
-  double best_misfit_mm_ = -1;
+  double best_miss_ = -1;
   std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
   double common_packings_ = 1;
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1

@@ -62,7 +62,7 @@ class Residuals : public ceres::CostFunction {
     if (!is_feasible(response)) return;
     residuals = response.residuals;
     last_ = response;
-    if (options_.goal_mm > 0 && response.misfit_mm <= options_.goal_mm) {
+    if (options_.goal > 0 && response.miss <= options_.goal) {
       end(SearchStatus::converged, "the goal is met");
     }
   }
@@ -275,8 +275,7 @@ SearchRun search_ceres(Objective& objective, std::span<const std::uint64_t> pack
   if (residuals.blind_columns() > 0) {
     run.reason +=
         "; up to " + std::to_string(residuals.blind_columns()) + " parameters were held where all probes failed";
-    if (run.status == SearchStatus::converged && run.best.misfit_mm > options.goal_mm)
-      run.status = SearchStatus::stalled;
+    if (run.status == SearchStatus::converged && run.best.miss > options.goal) run.status = SearchStatus::stalled;
   }
   return run;
 }

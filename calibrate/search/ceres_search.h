@@ -27,7 +27,7 @@ struct CeresOptions {
   double difference_step = 0.1;  ///< probe for the Jacobian, in the unit cube; 0 < step <= 0.5; see `noise_step`
   double step_tolerance = 0.01;  ///< steps shorter than this, in the unit cube, end the run; > 0
   int evaluations = 100;         ///< most points asked, the start and the probes included; > 0
-  double goal_mm = 0;            ///< a feasible misfit_mm at or below it ends the run; 0: none
+  double goal = 0;               ///< a feasible miss at or below it ends the run; 0: none
   double noise = 0;              ///< an accepted step that improves the misfit by no more ends the run; >= 0
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Asked = std::tuple<std::vector<double>, std::uint64_t, bool>;
 
-/// Misfit of the incumbent after each simulation. A misfit on more packings says more than one on fewer, and replaces
+/// Miss of the incumbent after each simulation. A miss on more packings says more than one on fewer, and replaces
 /// it even if it is larger: what was lucky is found out.
 std::vector<double> course_of(const std::vector<Response>& history) {
   std::vector<double> course;
@@ -22,8 +22,8 @@ std::vector<double> course_of(const std::vector<Response>& history) {
       asked.insert({std::vector<double>(response.point.begin(), response.point.end()), one.packing, one.ended_early});
     course.resize(asked.size(), best);
     if (!is_whole(response) || response.packings.size() < packings) continue;
-    if (best >= 0 && response.packings.size() == packings && response.misfit_mm >= best) continue;
-    best = response.misfit_mm;
+    if (best >= 0 && response.packings.size() == packings && response.miss >= best) continue;
+    best = response.miss;
     packings = response.packings.size();
     course.back() = best;
   }
@@ -61,7 +61,7 @@ std::vector<StrategyTrial> compare_strategies(const std::function<std::unique_pt
         const auto judge = objective(static_cast<int>(options.judge_packings.size()));
         const Response judged = judge->evaluate({&calibration.best.point, 1}, options.judge_packings).at(0);
         if (judge->stop_requested()) return trials;
-        if (is_feasible(judged)) trial.judged_mm = judged.misfit_mm;
+        if (is_feasible(judged)) trial.judged = judged.miss;
       }
       if (finished) finished(trial);
       trials.push_back(std::move(trial));
@@ -84,18 +84,18 @@ std::vector<StrategySummary> summary_of(const std::vector<StrategyTrial>& trials
       own.push_back(&other);
       row.confirmed += other.status == CalibrationStatus::confirmed ? 1 : 0;
       simulations.push_back(other.simulations);
-      if (other.judged_mm >= 0) judged.push_back(other.judged_mm);
-      longest = std::max(longest, other.misfit_mm.size());
+      if (other.judged >= 0) judged.push_back(other.judged);
+      longest = std::max(longest, other.miss.size());
     }
     row.trials = static_cast<int>(own.size());
     row.simulations = median_of(simulations);
-    row.judged_mm = median_of(judged);
-    if (!judged.empty()) row.worst_judged_mm = *std::ranges::max_element(judged);
+    row.judged = median_of(judged);
+    if (!judged.empty()) row.worst_judged = *std::ranges::max_element(judged);
     for (std::size_t i = 0; i < longest; ++i) {
       std::vector<double> at;
       for (const StrategyTrial* one : own)
-        if (!one->misfit_mm.empty()) at.push_back(one->misfit_mm[std::min(i, one->misfit_mm.size() - 1)]);
-      row.misfit_mm.push_back(median_of(at));
+        if (!one->miss.empty()) at.push_back(one->miss[std::min(i, one->miss.size() - 1)]);
+      row.miss.push_back(median_of(at));
     }
     rows.push_back(std::move(row));
   }

@@ -6,29 +6,33 @@ namespace pastefit {
 
 namespace {
 
+std::string tolerance_in_words(const MisfitUnit& unit) {
+  return unit.tolerance_mm ? "the tolerance of " + unit.words(1) : "the tolerances of the readings";
+}
+
 /// Why the best candidate does not count as confirmed.
-std::string doubt_about(const Calibration& result, double tolerance_mm, const std::string& spent) {
+std::string doubt_about(const Calibration& result, const MisfitUnit& unit, const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
-  const std::string tolerance = "the tolerance of " + format("%.3g", tolerance_mm) + " mm";
-  std::string words = "The best candidate misses the laboratory by " + format("%.3g", told.misfit_mm) + " mm";
-  if (told.misfit_mm > tolerance_mm) return words + ", more than " + tolerance + spent;
+  const std::string tolerance = tolerance_in_words(unit);
+  std::string words = "The best candidate misses the laboratory by " + unit.words(told.miss);
+  if (told.miss > 1) return words + ", more than " + tolerance + spent;
   if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
-  return words + " +- " + format("%.3g", told.noise_mm) + " mm: its packings scatter too much to be sure of " +
-         tolerance + spent + " Allow more simulations.";
+  return words + " +- " + unit.words(told.noise) + ": its packings scatter too much to be sure of " + tolerance +
+         spent + " Allow more simulations.";
 }
 
 }  // namespace
 
-void explain(Calibration& result, const Ending& ending, double tolerance_mm, std::span<const std::string> readings,
+void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, std::span<const std::string> readings,
              std::span<const std::string> parameters) {
   const std::string coarse =
       ending.with_coarse ? " and " + std::to_string(result.coarse_simulations) + " with coarse grains" : "";
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
   if (ending.confirmed) {
     result.status = CalibrationStatus::confirmed;
-    result.reason = "The candidate misses the laboratory by " + format("%.3g", result.confirmation.misfit_mm) +
-                    " mm on " + std::to_string(result.confirmation.packings.size()) +
-                    " fresh packings, within the tolerance of " + format("%.3g", tolerance_mm) + " mm" + spent;
+    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.miss) + " on " +
+                    std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
+                    tolerance_in_words(unit) + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;
     result.reason = "The search was stopped; the best so far is given" + spent;
@@ -43,7 +47,7 @@ void explain(Calibration& result, const Ending& ending, double tolerance_mm, std
     result.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
   } else {
     result.status = CalibrationStatus::unconfirmed;
-    result.reason = doubt_about(result, tolerance_mm, spent);
+    result.reason = doubt_about(result, unit, spent);
     for (std::size_t k = 0; k < result.reach.size(); ++k) {
       const Reach& reach = result.reach[k];
       const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);

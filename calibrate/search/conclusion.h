@@ -20,8 +20,8 @@ struct Ending {
 };
 
 /// Gives a calibration its status and the reason for it, in sentences for a person. Requirements: everything else in
-/// `result` is there. `readings`, `parameters`: names; may be left empty.
-void explain(Calibration& result, const Ending& ending, double tolerance_mm, std::span<const std::string> readings,
+/// `result` is there. `unit`: for people. `readings`, `parameters`: names; may be left empty.
+void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, std::span<const std::string> readings,
              std::span<const std::string> parameters);
 
 }  // namespace pastefit

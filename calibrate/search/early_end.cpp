@@ -4,13 +4,17 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/content_hash.h"
+#include "calibrate/study/tolerance.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
 namespace {
 
 constexpr double level_in_tolerances = 8, level_in_deviations = 4;
-const std::string height = "step1.height_mm";
+
+/// The reading on which a run may end.
+const std::string height(std::ranges::find(reading_kinds(), true, &ReadingKind::ends_early)->name);
 
 }  // namespace
 
@@ -21,11 +25,11 @@ std::optional<HeightWindow> window_of(const Study& study, std::size_t test) {
   bool second_step = false;
   for (std::size_t k = 0; k < one.lab.measurements.size(); ++k) {
     const Measurement& measurement = one.lab.measurements[k];
-    if (one.weights.at(k).weight == 0) continue;
-    second_step = second_step || measurement.observable.starts_with("step2.");
+    if (one.targets.at(k).weight == 0) continue;
+    second_step = second_step || stage_of(measurement.observable) == Stage::step2;
     if (measurement.observable != height) continue;
-    const double level =
-        std::max(level_in_tolerances * study.search.tolerance_mm, level_in_deviations * measurement.standard_deviation);
+    const double level = std::max(level_in_tolerances * tolerance_of(study, test, k),
+                                  level_in_deviations * measurement.standard_deviation);
     window = HeightWindow{1e-3 * (measurement.value - level), 1e-3 * (measurement.value + level)};
   }
   if (window && !second_step) window->highest_m = HeightWindow{}.highest_m;
@@ -44,7 +48,7 @@ StoredEvaluation seen_through(const HeightWindow& window, StoredEvaluation evalu
   if (!below && !(1e-3 * *read > window.highest_m)) return evaluation;
   Observables seen;
   for (const auto& [name, value] : evaluation.observables.all())
-    if (name.starts_with("fill.") || (!below && name.starts_with("step1."))) seen.set(name, value);
+    if (stage_of(name) <= (below ? Stage::fill : Stage::step1)) seen.set(name, value);
   if (below) seen.set(height, 1e3 * window.lowest_m);
   evaluation.observables = std::move(seen);
   evaluation.run.ended_early = true;

@@ -13,6 +13,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -26,14 +27,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool is_length(std::string_view observable) {
-  return observable.ends_with("_mm");
-}
-
 /// The worst miss a heap can have, in the measurement's unit.
-double worst_miss(const Measurement& measurement, const Mould& mould) {
-  if (is_length(measurement.observable)) return std::max(std::abs(measurement.value), 1000 * mould.height_m);
-  return std::max(std::abs(measurement.value), 10 * measurement.standard_deviation);
+double worst_miss(const Measurement& measurement, const SlumpTable& test) {
+  const ReadingKind* kind = reading_kind(measurement.observable);
+  const bool bounded = kind && kind->worst_miss;
+  return std::max(std::abs(measurement.value), bounded ? kind->worst_miss(test) : 10 * measurement.standard_deviation);
 }
 
 Failure stopped(std::string message) {
@@ -61,8 +59,8 @@ SimulationObjective::SimulationObjective(const Study& study, Store& store, Evalu
   }
   if (fitted_.empty()) throw std::logic_error("a study needs a test that is fitted");
   for (const auto& reading : readings_)
-    if (!(reading.measurement.standard_deviation > 0))
-      throw std::logic_error("the standard deviation of " + reading.name + " must be positive");
+    if (!(reading.measurement.standard_deviation > 0 && reading.tolerance > 0))
+      throw std::logic_error("standard deviation and tolerance of " + reading.name + " must be positive");
 }
 
 SimulationObjective::~SimulationObjective() {
@@ -181,9 +179,8 @@ std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoin
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && !response.ended_early &&
-        (counts_.best_misfit_mm < 0 || response.misfit_mm < counts_.best_misfit_mm))
-      counts_.best_misfit_mm = response.misfit_mm;
+    if (!response.failed && !response.ended_early && (counts_.best_miss < 0 || response.miss < counts_.best_miss))
+      counts_.best_miss = response.miss;
   if (options_.observer) options_.observer(counts_);
   return responses;
 }
@@ -330,25 +327,24 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     const auto& [coordinate, prior] = known_[i];
     out.residuals[count + static_cast<Eigen::Index>(i)] = (out.point[coordinate] - prior.mean) / prior.deviation;
   }
-  double squares_mm = 0, noise_squares_mm = 0;
-  int lengths = 0;
+  double squares = 0, noise_squares = 0;
+  int fitted = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [test, name, measurement, weight] = readings_[static_cast<std::size_t>(i)];
+    const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
     if (out.failed)
-      out.observables[i] =
-          measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test.mould);
+      out.observables[i] = measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test);
     double miss = out.observables[i] - measurement.value;
     if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
-    if (weight > 0 && is_length(measurement.observable)) {
-      squares_mm += miss * miss;
-      noise_squares_mm += squared_standard_error(out, static_cast<std::size_t>(i));
-      ++lengths;
+    if (weight > 0) {
+      squares += std::pow(miss / tolerance, 2);
+      noise_squares += squared_standard_error(out, static_cast<std::size_t>(i)) / (tolerance * tolerance);
+      ++fitted;
     }
   }
   out.misfit = 0.5 * out.residuals.squaredNorm();
-  out.misfit_mm = lengths > 0 ? std::sqrt(squares_mm / lengths) : std::sqrt(2 * out.misfit);
-  out.noise_mm = lengths > 0 ? std::sqrt(noise_squares_mm / lengths) : 0;
+  out.miss = std::sqrt(squares / std::max(fitted, 1));
+  out.noise = std::sqrt(noise_squares / std::max(fitted, 1));
   return out;
 }
 

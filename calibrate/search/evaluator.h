@@ -18,6 +18,7 @@
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
+#include "calibrate/study/tolerance.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/slump_test.h"
 
@@ -35,7 +36,7 @@ struct EvaluationCounts {
   int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
   int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
-  double best_misfit_mm = -1;             ///< of the candidates that did not fail; negative: none yet
+  double best_miss = -1;                  ///< of the candidates that did not fail; negative: none yet
 };
 
 struct EvaluatorOptions {
@@ -60,8 +61,8 @@ struct EvaluatorOptions {
 /// what is fitted.
 ///
 /// A candidate that failed in some test on some packing answers as if every measurement had been missed by `factor`
-/// times the worst miss a heap can have (the mould's height for lengths, the measured value or ten standard deviations
-/// for others),
+/// times the worst miss a heap can have (`ReadingKind::worst_miss`; without one ten standard deviations; at least the
+/// measured value),
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///
@@ -74,7 +75,8 @@ struct EvaluatorOptions {
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
 /// answer that may depend on the machine's load.
 ///
-/// Requirements: `study` and `store` outlive the objective; every measurement has a standard deviation > 0.
+/// Requirements: `study` and `store` outlive the objective; every measurement has a standard deviation
+/// and a tolerance > 0.
 /// Limits: a batch that exceeds the budget is answered in full; the search looks at `budget_left` before it asks.
 /// Errors: throws std::logic_error for points outside the unit cube. A full disk: `store_faults`, and a stop request.
 class SimulationObjective : public Objective {
@@ -92,6 +94,8 @@ class SimulationObjective : public Objective {
   void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   int budget_left() const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
+  double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
+  MisfitUnit misfit_unit() const override { return misfit_unit_of(study_); }
   std::vector<Response> earlier() const override;
   bool stop_requested() const override;
 

@@ -74,7 +74,7 @@ class Answerer {
     const Response response = objective_.evaluate({&point, 1}, packings_).at(0);
     if (run_.evaluations == 0) scale_ = std::isfinite(response.misfit) && response.misfit > 0 ? response.misfit : 1;
     keep(response);
-    if (is_feasible(response) && options_.goal_mm > 0 && response.misfit_mm <= options_.goal_mm) {
+    if (is_feasible(response) && options_.goal > 0 && response.miss <= options_.goal) {
       end(SearchStatus::converged, "the goal is met");
     }
     if (options_.patience > 0 && since_improvement_ >= options_.patience) {

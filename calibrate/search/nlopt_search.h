@@ -16,7 +16,7 @@ struct NloptOptions {
   int evaluations = 100;             ///< most points asked, the start included; > 0
   double initial_step = 0.2;         ///< first step of the local algorithms, in the unit cube; 0 < step <= 0.5
   double step_tolerance = 1e-3;      ///< steps shorter than this, in the unit cube, end the run; > 0
-  double goal_mm = 0;                ///< a feasible misfit_mm at or below it ends the run; 0: none
+  double goal = 0;                   ///< a feasible miss at or below it ends the run; 0: none
   double noise = 0;                  ///< improvements of the misfit up to it do not count; >= 0
   int patience = 0;                  ///< points without an improvement beyond `noise` that end the run; 0: no end
   std::uint64_t seed = 1;            ///< of the algorithms that draw random numbers

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/study/tolerance.h"
 #include "core/result.h"
 
 namespace pastefit {
@@ -31,11 +32,12 @@ struct Response {
   /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
   /// their standard deviations. Finite; graded if it failed.
   Eigen::VectorXd residuals;
-  double misfit = 0;     ///< half the squared norm of the residuals: what is minimised; always finite
-  double misfit_mm = 0;  ///< root mean square difference of the fitted lengths [mm]
-  /// What the noise of the packings makes of `misfit_mm` by itself: root mean square of the standard errors of the
-  /// fitted lengths. 0: a single packing, or a failure.
-  double noise_mm = 0;
+  double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
+  /// Root mean square difference of the fitted readings, each over its tolerance: what is judged; 1 is asked for.
+  double miss = 0;
+  /// What the noise of the packings makes of `miss` by itself: root mean square of the standard errors of the fitted
+  /// readings over their tolerances. 0: a single packing, or a failure.
+  double noise = 0;
   bool failed = false;  ///< some packing ended in a failure
   /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
   /// bound of that of the whole test, and not one that makes a candidate the best.
@@ -51,6 +53,10 @@ class Objective {
   virtual int residuals() const = 0;
   /// How many of them are readings: the first ones. The others stand for what is known beforehand (priors).
   virtual int readings() const { return residuals(); }
+  /// How far off a reading may be, in its unit.
+  virtual double tolerance(std::size_t) const { return 1; }
+  /// In which people are told what a candidate misses by.
+  virtual MisfitUnit misfit_unit() const { return {}; }
   /// Answers all points on the same packings; the answers are in the order of the points.
   /// Points outside the unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,

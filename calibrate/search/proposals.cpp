@@ -96,7 +96,7 @@ bool Proposals::imagine_answers(Surrogate& model) const {
 /// The goal as a misfit, by the ratio of both in the best simulation.
 double Proposals::goal_misfit() const {
   const auto best = archive_.best_single();
-  return best && best->misfit_mm > 0 ? best->misfit * std::pow(goal_mm_ / best->misfit_mm, 2) : 0;
+  return best && best->miss > 0 ? best->misfit * std::pow(goal_ / best->miss, 2) : 0;
 }
 
 bool Proposals::was_asked(const UnitPoint& point) const {

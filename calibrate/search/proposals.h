@@ -27,10 +27,10 @@ inline constexpr double same_point = 0.01;
 /// Requirements: some evidence is feasible. `common` and the others outlive the object.
 class Proposals {
  public:
-  /// `goal_mm`: misfit at which a candidate is good enough.
+  /// `goal`: miss at which a candidate is good enough.
   Proposals(Archive& archive, Objective* coarse, const SearchOptions& options, std::span<const std::uint64_t> common,
-            double goal_mm)
-      : archive_(archive), coarse_(coarse), options_(options), common_(common), goal_mm_(goal_mm) {}
+            double goal)
+      : archive_(archive), coarse_(coarse), options_(options), common_(common), goal_(goal) {}
 
   /// None if nothing new comes to mind before the next answer.
   std::optional<UnitPoint> next();
@@ -49,7 +49,7 @@ class Proposals {
   Objective* coarse_;
   const SearchOptions& options_;
   std::span<const std::uint64_t> common_;
-  double goal_mm_;
+  double goal_;
 };
 
 }  // namespace pastefit

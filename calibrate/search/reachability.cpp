@@ -123,7 +123,7 @@ std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint6
 
 std::optional<OutOfReach> examine(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
   const int parameters = archive.parameters();
-  const double tolerance = options.tolerance_mm * std::sqrt(archive.readings());
+  const double tolerance = archive.tolerance(reading) * std::sqrt(archive.readings());
   while (!archive.stop_requested()) {
     const Approach approach(archive.singles(), reading, tolerance);
     if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;

@@ -28,13 +28,12 @@ struct OutOfReach {
 struct ReachOptions {
   std::uint64_t packing = 1;  ///< of the probes
   int probes = 12;            ///< simulations that may be spent
-  double tolerance_mm = 5;    ///< a reading nearer than this is met
 };
 
 /// Asks whether the laboratory's readings lie within what the model can do, before a search is paid for.
 ///
 /// Suspect is a fitted reading that all simulations so far miss on the same side, by more than two standard deviations
-/// of the laboratory and by more than the tolerance. A Gaussian process of the reading then says how far any candidate
+/// of the laboratory and by more than its tolerance. A Gaussian process of the reading then says how far any candidate
 /// may get at best: its mean less three standard deviations of its doubt and of one simulation's noise together. The
 /// candidate that may get farthest is simulated, and so on (a lower confidence bound; Cox & John 1992), until the
 /// reading is met (it is within reach), nothing is left that might meet it (it is out of reach, which is the answer),

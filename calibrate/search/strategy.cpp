@@ -20,7 +20,7 @@
 namespace pastefit {
 namespace {
 
-constexpr double goal_share = 0.6;             // of the tolerance, on the common packings
+constexpr double goal_share = 0.6;             // of the tolerances, on the common packings
 constexpr double far_from_prior = 2;           // standard deviations at which a candidate contradicts what is known
 constexpr int fruitless_proposals = 4;         // proposals in a row without a better candidate that end the search
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
@@ -93,8 +93,7 @@ class Search {
   /// Says what the screening tells of the reach, and whether a search would be in vain.
   bool is_out_of_reach() {
     const int spare = archive_.budget_left() - static_cast<int>(common_.size());
-    out_of_reach_ =
-        find_out_of_reach(archive_, {common_.front(), std::min(options_.screening, spare), options_.tolerance_mm});
+    out_of_reach_ = find_out_of_reach(archive_, {common_.front(), std::min(options_.screening, spare)});
     if (!archive_.any_feasible() || archive_.stop_requested()) return false;
     archive_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
                                : words_of_screening(archive_.singles(), readings_));
@@ -138,9 +137,8 @@ class Search {
   static bool beats(double misfit, const Response& other) { return other.point.size() == 0 || misfit < other.misfit; }
 
   bool goal_is_met() const {
-    return std::ranges::any_of(candidates(), [&](const Response& one) {
-      return one.misfit_mm <= goal_share * options_.tolerance_mm && agrees_with_priors(one);
-    });
+    return std::ranges::any_of(candidates(),
+                               [&](const Response& one) { return one.miss <= goal_share && agrees_with_priors(one); });
   }
 
   bool agrees_with_priors(const Response& response) const {
@@ -148,10 +146,8 @@ class Search {
     return (response.residuals.tail(priors).array().abs() <= far_from_prior).all();
   }
 
-  /// The misfit at which an optimiser may end by itself; none where what is known beforehand has a say.
-  double optimisers_goal_mm() const {
-    return objective_.residuals() > objective_.readings() ? 0 : goal_share * options_.tolerance_mm;
-  }
+  /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
+  double optimisers_goal() const { return objective_.residuals() > objective_.readings() ? 0 : goal_share; }
 
   /// Brings candidates on the common packings; false if not a single one could be had.
   bool look_for_candidate() {
@@ -164,7 +160,7 @@ class Search {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
       nlopt.evaluations = std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size()));
-      nlopt.goal_mm = optimisers_goal_mm();
+      nlopt.goal = optimisers_goal();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
       search_nlopt(archive_, common_, archive_.best_point(common_), nlopt);
@@ -172,18 +168,17 @@ class Search {
     return archive_.best_on(common_).has_value();
   }
 
-  /// A point of the screening that reads within the tolerance may do already, and one of its packings is known.
+  /// A point of the screening that reads within the tolerances may do already, and one of its packings is known.
   void begin_with_what_is_there() {
     const auto best = archive_.best_single();
-    if (best && !archive_.best_on(common_) && best->misfit_mm <= options_.tolerance_mm && may_go_on())
-      archive_.begin(best->point, common_);
+    if (best && !archive_.best_on(common_) && best->miss <= 1 && may_go_on()) archive_.begin(best->point, common_);
   }
 
   /// Proposes, and takes the answers in the order of the proposals. Proposal k knows the answers up to k - 1 - lag, of
   /// the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
     begin_with_what_is_there();
-    Proposals proposals(archive_, coarse_, options_, common_, goal_share * options_.tolerance_mm);
+    Proposals proposals(archive_, coarse_, options_, common_, goal_share);
     int fruitless = 0;
     bool nothing_new = false;  // until the next answer
     while (true) {
@@ -237,17 +232,17 @@ class Search {
     return noise_step(deviation, 4 * (most - least).maxCoeff());
   }
 
-  /// What the luck of the common packings makes of a candidate's misfit, root mean square over the candidates [mm].
-  double noise_mm() const {
+  /// What the luck of the common packings makes of a candidate's miss, root mean square over the candidates.
+  double luck() const {
     double squares = 0;
     const std::vector<Response> seen = candidates();
-    for (const Response& one : seen) squares += one.noise_mm * one.noise_mm;
+    for (const Response& one : seen) squares += one.noise * one.noise;
     return seen.empty() ? 0 : std::sqrt(squares / static_cast<double>(seen.size()));
   }
 
   /// Descends on what the common packings say, unless that is luck for the most part.
   void refine() {
-    if (goal_is_met() || !may_go_on() || noise_mm() > options_.tolerance_mm) return;
+    if (goal_is_met() || !may_go_on() || luck() > 1) return;
     archive_.enter("refinement");
     descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
   }
@@ -256,7 +251,7 @@ class Search {
     CeresOptions ceres;
     ceres.trust_region = trust_region;
     ceres.evaluations = evaluations;
-    ceres.goal_mm = optimisers_goal_mm();
+    ceres.goal = optimisers_goal();
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
@@ -273,12 +268,12 @@ class Search {
     const std::size_t most = most_confirmations * static_cast<std::size_t>(options_.confirmation_packings);
     std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
     Response confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
-    Verdict verdict = verdict_on(confirmation, options_.tolerance_mm);
+    Verdict verdict = verdict_on(confirmation);
     while (verdict == Verdict::undecided && fresh.size() < most && affordable(fresh.size()) &&
            !archive_.stop_requested()) {
       std::ranges::copy(fresh_packings(static_cast<int>(fresh.size())), std::back_inserter(fresh));
       confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
-      verdict = verdict_on(confirmation, options_.tolerance_mm);
+      verdict = verdict_on(confirmation);
     }
     if (archive_.stop_requested()) return false;
     ++result_.rounds;
@@ -323,7 +318,7 @@ class Search {
     }
     Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), coarse_ != nullptr, out_of_reach_};
     ending.some_ended_early = std::ranges::any_of(archive_.singles(), &Response::ended_early);
-    explain(result_, ending, options_.tolerance_mm, readings_, parameters_);
+    explain(result_, ending, objective_.misfit_unit(), readings_, parameters_);
     return std::move(result_);
   }
 

@@ -26,11 +26,11 @@ std::string_view name_of(CalibrationStatus status);
 
 /// Where a search is, for a person who waits.
 struct Progress {
-  std::string_view phase;      ///< "screening", "search", "refinement", "confirmation"
-  int simulations = 0;         ///< done
-  int budget = 0;              ///< allowed in all
-  double best_misfit_mm = -1;  ///< of the best candidate so far; negative: none yet
-  std::string note;            ///< something to be told once; mostly empty
+  std::string_view phase;  ///< "screening", "search", "refinement", "confirmation"
+  int simulations = 0;     ///< done
+  int budget = 0;          ///< allowed in all
+  double best_miss = -1;   ///< of the best candidate so far, in tolerances; negative: none yet
+  std::string note;        ///< something to be told once; mostly empty
 };
 
 /// What the model did with one reading in all simulations that ended well.

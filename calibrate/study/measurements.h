@@ -1,29 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
-
-/// What a reading is, which decides what values it can have.
-enum class ReadingKind { height, slump, spread, shift, profile, plateau_sag, plateau_width, mass };
-
-/// A key of "measurements" in a laboratory file.
-struct ReadingKey {
-  std::string_view key;         ///< as it is written, with its unit
-  std::string_view observable;  ///< the reading of the simulation it is compared with; differs from `key` for a slump
-  ReadingKind kind;
-  bool second_step = false;  ///< needs the drop plate
-  bool advised = true;       ///< as what to measure next; not if it is another form of a reading that is
-};
-
-/// Every key a laboratory file may use, in the order in which measurements are kept.
-std::span<const ReadingKey> reading_keys();
 
 /// The object "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
 /// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound.

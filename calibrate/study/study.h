@@ -55,10 +55,11 @@ struct Parameter {
   std::optional<Prior> prior = std::nullopt;  ///< of a free parameter; without one every value is as good as any other
 };
 
-/// Weight of one measurement in the fit; 0: reported, not fitted.
-struct Weight {
+/// What a study asks of one measurement.
+struct Target {
   std::string observable;
-  double weight = 1;
+  double weight = 1;                               ///< in the fit; 0: reported, not fitted
+  std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tolerance.h`
 };
 
 /// How to search.
@@ -70,7 +71,7 @@ struct SearchOptions {
   int lag = 1;                       ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
-  double tolerance_mm = 5;           ///< a confirmed misfit below it ends the search
+  double tolerance_mm = 5;           ///< of each fitted length that has none of its own
   bool coarse_first = false;         ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
   bool end_early = true;             ///< candidates need not run to their end (`calibrate/search/early_end.h`)
   std::uint64_t seed = 1;
@@ -81,7 +82,7 @@ struct StudyTest {
   std::string name;      ///< unique; empty if the study has one test only
   std::string lab_file;  ///< as the study names it
   Lab lab;
-  std::vector<Weight> weights;  ///< one per measurement, in the order of `lab.measurements`
+  std::vector<Target> targets;  ///< one per measurement, in the order of `lab.measurements`
   bool hold_out = false;        ///< predicted and judged, never fitted
 };
 

@@ -39,8 +39,9 @@ constexpr std::string_view lab_text =
   "grains": {"distribution": "mono", "radius_mm": 8},
 
   // Either value and standard deviation of one reading, or all repeats.
-  // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm.
-  // Step 2, plate dropped: the same with step2, and step2.plateau_sag_mm, step2.plateau_width_mm.
+  // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm. Forms of these by
+  // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.
+  // Step 2, plate dropped: the same with step2 but the shift, and step2.plateau_sag_mm, step2.plateau_width_mm.
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {
@@ -80,6 +81,8 @@ constexpr std::string_view study_text =
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
   "weights": {"step1.height_mm": 1, "step1.spread_mm": 0},
+  // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
+  // deviation of the laboratory: "tolerances": {"step1.spread_mm": 15},
 
   "search": {
     "strategy": "default",
@@ -89,7 +92,7 @@ constexpr std::string_view study_text =
     "lag": 1,                    // candidates under way when the next is proposed; more for more than 4 cores
     "confirmation_packings": 8,  // fresh fillings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
-    "tolerance_mm": 5,           // good enough
+    "tolerance_mm": 5,           // good enough: for every fitted length without a tolerance of its own
     "coarse_first": false,       // true: look with grains 1.5 times as large first; fewer simulations, confirmed as ever
     "end_early": true,           // candidates that are far off end early; false: every simulation runs to its end
     "seed": 1

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "calibrate/study/measurements.h"
+#include "calibrate/study/tolerance.h"
+#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -13,24 +14,38 @@ using nlohmann::json;
 
 constexpr std::size_t most_tests = 20;
 
-/// `measurements` is empty if the laboratory file could not be read: any known reading may then have a weight.
-std::vector<Weight> read_weights(ObjectReader& document, const std::vector<Measurement>& measurements, bool hold_out) {
-  std::vector<Weight> weights;
-  for (const Measurement& measurement : measurements) weights.push_back({measurement.observable, 1});
+/// Reads an object that has a number for some readings; `set` takes it to the reading's target. `measurements` is empty
+/// if the laboratory file could not be read: any known reading may then have one.
+template <class Set>
+void read_numbers(ObjectReader& reader, const std::vector<Measurement>& measurements, std::vector<Target>& targets,
+                  const Range& range, Set set) {
+  for (const ReadingKind& kind : reading_kinds()) {
+    if (kind.key.empty()) continue;
+    const auto target = std::ranges::find(targets, kind.measure, &Target::observable);
+    double number = 0;
+    if (target == targets.end() && !measurements.empty())
+      reader.refuse(kind.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
+    else if (reader.number(kind.key, number, range, Need::optional) && target != targets.end())
+      set(*target, number);
+  }
+}
+
+/// "weights" and "tolerances".
+std::vector<Target> read_targets(ObjectReader& document, const std::vector<Measurement>& measurements, bool hold_out) {
+  std::vector<Target> targets;
+  for (const Measurement& measurement : measurements) targets.push_back({measurement.observable, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    for (const ReadingKey& key : reading_keys()) {
-      const auto weight = std::ranges::find(weights, key.observable, &Weight::observable);
-      double ignored = 0;
-      if (weight == weights.end() && !measurements.empty())
-        reader.refuse(key.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
-      else
-        reader.number(key.key, weight == weights.end() ? ignored : weight->weight, {0, 1e6}, Need::optional);
-    }
-    if (!weights.empty() && std::ranges::all_of(weights, [](const Weight& weight) { return weight.weight == 0; }))
+    read_numbers(reader, measurements, targets, {0, 1e6},
+                 [](Target& target, double weight) { target.weight = weight; });
+    if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
       document.fault("weights", hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
                      "give at least one measurement a weight above 0");
   });
-  return weights;
+  document.object("tolerances", Need::optional, [&](ObjectReader& reader) {
+    read_numbers(reader, measurements, targets, {0, 1e6, true},
+                 [](Target& target, double tolerance) { target.tolerance = tolerance; });
+  });
+  return targets;
 }
 
 void read_lab_of(ObjectReader& reader, const std::filesystem::path& folder, StudyTest& test, Faults& in_labs) {
@@ -59,7 +74,7 @@ void read_one_of_many(ObjectReader& reader, const std::filesystem::path& folder,
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
   read_lab_of(reader, folder, test, in_labs);
-  test.weights = read_weights(reader, test.lab.measurements, test.hold_out);
+  test.targets = read_targets(reader, test.lab.measurements, test.hold_out);
   tests.push_back(std::move(test));
 }
 
@@ -82,7 +97,7 @@ std::vector<StudyReading> readings_of(const Study& study) {
     const StudyTest& test = study.tests[i];
     for (std::size_t k = 0; k < test.lab.measurements.size(); ++k)
       out.push_back({i, reading_name(test, test.lab.measurements[k].observable), test.lab.measurements[k],
-                     test.weights.at(k).weight});
+                     test.targets.at(k).weight, tolerance_of(study, i, k)});
   }
   return out;
 }
@@ -93,12 +108,13 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
     read_lab_of(document, folder, only, in_labs);
-    only.weights = read_weights(document, only.lab.measurements, false);
+    only.targets = read_targets(document, only.lab.measurements, false);
     return tests;
   }
   document.known("tests");
   document.refuse("lab", "stands beside \"tests\"", "name the laboratory file in the tests");
   document.refuse("weights", "stand beside \"tests\"", "give each test weights of its own");
+  document.refuse("tolerances", "stand beside \"tests\"", "give each test tolerances of its own");
   const json& list = study["tests"];
   if (!list.is_array() || list.empty() || list.size() > most_tests) {
     document.fault("tests", "is no list of 1 to " + std::to_string(most_tests) + " tests",

@@ -15,7 +15,8 @@ struct StudyReading {
   std::size_t test = 0;  ///< of `Study::tests`
   std::string name;      ///< unique in the study
   Measurement measurement;
-  double weight = 1;  ///< 0: reported, not fitted
+  double weight = 1;     ///< 0: reported, not fitted
+  double tolerance = 1;  ///< in the unit of the measurement (`calibrate/study/tolerance.h`)
 };
 
 /// The name of a test's reading beside those of other tests: "slow/step1.height_mm"; without the test's name if it has
@@ -28,7 +29,8 @@ std::vector<StudyReading> readings_of(const Study& study);
 /// The tests that are fitted, or those held out, as indices.
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 
-/// Reads "lab" and "weights" of a study of one test, or "tests", a list of {"name", "lab", "weights", "hold_out"}.
+/// Reads "lab", "weights" and "tolerances" of a study of one test, or "tests", a list of {"name", "lab", "weights",
+/// "tolerances", "hold_out"}.
 /// The first fitted test is moved to the front: it is the one a card is exported and checked with.
 /// Faults of the laboratory files go to `in_labs`, their places beginning with the file.
 std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study,

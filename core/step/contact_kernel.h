@@ -300,7 +300,7 @@ namespace {
 
 /// Kernels of all combinations of laws, in the order of `combination`.
 template <std::size_t at>
-struct Combination {
+struct LawTriple {
   using Normal = Law<NormalLaws, at / (Attractions::size * RollingLaws::size)>;
   using Attraction = Law<Attractions, at / RollingLaws::size % Attractions::size>;
   using Rolling = Law<RollingLaws, at % RollingLaws::size>;
@@ -316,8 +316,8 @@ constexpr Kernel bridge_kernel_of() {
 
 template <std::size_t... at, class... Attraction>
 constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction...>) {
-  return {{Combination<at>::pair...},
-          {Combination<at>::wall...},
+  return {{LawTriple<at>::pair...},
+          {LawTriple<at>::wall...},
           {bridge_kernel_of<Attraction>()...},
           move_grains,
           PASTEFIT_ISA_NAME};

@@ -114,7 +114,7 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   const bool fresh = calibration.confirmation.point.size() > 0 && is_feasible(calibration.confirmation);
   const Response& shown = fresh ? calibration.confirmation : calibration.best;
   for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
-    if (twin.study.tests[0].weights[m].weight == 0) continue;
+    if (twin.study.tests[0].targets[m].weight == 0) continue;
     const Measurement& measurement = twin.study.tests[0].lab.measurements[m];
     const double mean = shown.observables[static_cast<Eigen::Index>(m)];
     const double error =

@@ -89,26 +89,6 @@ class MouldLift {
   double lost_below_ = 0;  ///< highest point [m]
 };
 
-}  // namespace
-
-std::vector<std::string> observable_names(const SlumpTable& test) {
-  std::vector<std::string> names{"fill.mass_kg", "fill.solid_fraction"};
-  const auto add = [&](const std::string& step, const std::vector<OutlinePoint>& measured) {
-    for (const char* name : {".spilled_share", ".height_mm", ".slump_mm", ".height_axis_mm", ".height_max_mm",
-                             ".lateral_shift_mm", ".spread_mm", ".spread_orthogonal_mm"})
-      names.push_back(step + name);
-    if (!measured.empty()) names.push_back(step + ".profile_mm");
-  };
-  add("step1", test.reading.outline_step1);
-  if (!test.drop) return names;
-  add("step2", test.reading.outline_step2);
-  names.push_back("step2.plateau_sag_mm");
-  names.push_back("step2.plateau_width_mm");
-  return names;
-}
-
-namespace {
-
 void add_work(RunSummary& sum, const RunSummary& part) {
   sum.steps += part.steps;
   sum.particle_steps += part.particle_steps;

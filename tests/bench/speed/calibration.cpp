@@ -99,7 +99,8 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   cost.coarse_simulations = calibration.coarse_simulations;
   cost.simulation_s = cost.core_s / std::max(1, calibration.simulations);
   cost.status = calibration.status;
-  if (calibration.confirmation.point.size() > 0) cost.confirmed_mm = calibration.confirmation.misfit_mm;
+  if (calibration.confirmation.point.size() > 0)
+    cost.confirmed_mm = calibration.confirmation.miss * study.search.tolerance_mm;
   engine.tell(cost);
   return cost;
 }

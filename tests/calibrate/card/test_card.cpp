@@ -32,8 +32,8 @@ Card card() {
   out.test = with_contact_of(out.test, values);
   out.test.drop = DropPlate{};
   out.grain_density_kg_m3 = 2238 / 0.6;
-  out.observables = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
-  out.confirmation = {{18446744073709551615u, 9007199254740993u, 3, 4}, true, 1.3, 5, true};
+  out.observables = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
+  out.confirmation = {{18446744073709551615u, 9007199254740993u, 3, 4}, true, 0.26, true};
   out.search = {"default", "confirmed", "It fits.", 42, {1, 2}, 60, 38, {{"never_settled", 2}}};
   auto& provenance = out.provenance;
   provenance.study_file = "study.json";
@@ -146,12 +146,26 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
   CHECK_THAT(verdict_of(material), Catch::Contains("meets the laboratory") && Catch::Contains("1.30 mm"));
   material.confirmation.meets_laboratory = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("not sure that the material meets"));
-  material.confirmation.misfit_mm = 5.2;
+  material.confirmation.misfit = 1.04;
   CHECK_THAT(verdict_of(material), Catch::Contains("does not meet"));
   material.confirmation.fresh = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));
   CHECK_THAT(summary_of(material), Catch::Contains("a_n_m2") && Catch::Contains("strength_pa") &&
                                        Catch::Contains("2 failed (never_settled)") && Catch::Contains("twin"));
+}
+
+TEST_CASE(
+    "people are told the misfit in mm where all that is fitted are lengths of one tolerance, else in tolerances") {
+  auto material = card();
+  CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm over 4 packings, asked for 5.00 mm"));
+  material.observables.push_back({"fill.mass_kg", 9.1, 0.1, 9.0, 0.1, 1, 0, 0.1});
+  CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));  // the mass is not fitted
+  material.observables.back().weight = 1;
+  CHECK_THAT(verdict_of(material), Catch::Contains("0.26 tolerances over 4 packings, asked for 1.00 tolerances"));
+  material.observables.back() = {"step2.height_mm", 90, 2, 91, 7, 1, 1, 5};
+  CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));
+  material.observables.back().tolerance = 2;
+  CHECK_THAT(verdict_of(material), Catch::Contains("tolerances"));
 }
 
 TEST_CASE("the summary counts the fillings that sheared off, with the mean with and without them") {
@@ -186,10 +200,31 @@ TEST_CASE("a card of every version ever written is read, and keeps its numbers")
     const auto before = written.flatten(), flat = again.flatten();
     for (const auto& [place, value] : before.items()) {
       INFO(place);
-      if (place != "/format" && !place.starts_with("/provenance"))
+      if (place != "/format" && !place.ends_with("_mm") && !place.starts_with("/provenance"))
         CHECK(flat.value(place, nlohmann::json("absent")) == value);
     }
+    CHECK(again["confirmation"]["misfit"].get<double>() * 5 == Approx(0.040223408152215256));
+    for (const auto& [name, observable] : again["observables"].items())
+      CHECK(observable.value("tolerance", 0.0) == (observable["measured"].is_null() ? 0 : 5));
   }
+}
+
+TEST_CASE("readings of a card that no heap of its test can have are refused, each with its place") {
+  const auto good = text_and_back(to_json(card()));
+  auto bad = good;
+  bad["observables"]["step1.height_mm"]["simulated"] = 2000;  // in a mould of 200 mm
+  bad["observables"]["step1.height_mm"]["measured"] = -5;
+  bad["baseline"]["readings"]["step1.height_mm"][1] = -150;
+  const auto read = card_from_json(bad);
+  REQUIRE_FALSE(read.ok());
+  REQUIRE(read.faults().size() == 3);
+  CHECK(read.faults()[0].where == "observables.step1.height_mm.simulated");
+  CHECK(read.faults()[1].where == "observables.step1.height_mm.measured");
+  CHECK_THAT(read.faults()[2].where, Catch::StartsWith("baseline.readings.step1.height_mm"));
+  bad = good;
+  bad["observables"]["step1.another_mm"] = bad["observables"]["step1.spread_mm"];  // of another version
+  bad["observables"]["step1.another_mm"]["simulated"] = -7000;
+  CHECK(card_from_json(bad).ok());
 }
 
 TEST_CASE("a card of a newer version, of none, and one cut short are refused with a reason") {
@@ -241,7 +276,7 @@ TEST_CASE("the other tests of a study, its hold-outs and what was known beforeha
   fitted.lab_hash = "00000000000000aa";
   fitted.test = written.test;
   fitted.test.mould.height_m = 0.2;
-  fitted.observables = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1}};
+  fitted.observables = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1, 5}};
   CardTest held = fitted;
   held.name = "fast";
   held.hold_out = true;

@@ -118,7 +118,7 @@ TEST_CASE("a robust loss lets one measurement that contradicts the others go") {
 TEST_CASE("a start that meets the goal costs one point") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   CeresOptions options;
-  options.goal_mm = 0.2;
+  options.goal = 0.04;
   const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.3, 0.3), options);
   CHECK(run.status == SearchStatus::converged);
   CHECK(objective.answered.size() == 1);

@@ -35,19 +35,19 @@ TEST_CASE("strategies are compared with the same budget and judged on the same p
   for (const StrategyTrial& trial : trials) {
     CAPTURE(trial.strategy, trial.seed);
     CHECK(trial.simulations <= 60);
-    CHECK(trial.misfit_mm.size() == static_cast<std::size_t>(trial.simulations));
-    CHECK(trial.judged_mm >= 0);
-    CHECK(trial.judged_mm < 40);
+    CHECK(trial.miss.size() == static_cast<std::size_t>(trial.simulations));
+    CHECK(trial.judged >= 0);
+    CHECK(trial.judged < 8);
   }
-  CHECK(trials[0].misfit_mm[11] == trials[1].misfit_mm[11]);  // the screening is the same
+  CHECK(trials[0].miss[11] == trials[1].miss[11]);  // the screening is the same
 }
 
 TEST_CASE("a comparison is repeated exactly") {
   const auto once = compare_strategies(fake, options_for({"default"}));
   const auto again = compare_strategies(fake, options_for({"default"}));
   for (std::size_t i = 0; i < once.size(); ++i) {
-    CHECK(once[i].misfit_mm == again[i].misfit_mm);
-    CHECK(once[i].judged_mm == again[i].judged_mm);
+    CHECK(once[i].miss == again[i].miss);
+    CHECK(once[i].judged == again[i].judged);
   }
 }
 
@@ -70,8 +70,8 @@ TEST_CASE("rows are ordered by what was confirmed, then by what it cost, and dra
   REQUIRE(rows.size() == 3);
   CHECK(rows[0].strategy == "cheap");
   CHECK(rows[1].strategy == "good");
-  CHECK(rows[2].judged_mm == -1);
-  const std::string figure = misfit_figure(rows, 5, "title");
+  CHECK(rows[2].judged == -1);
+  const std::string figure = misfit_figure(rows, MisfitUnit{5.0}, "title");
   CHECK(figure.find("<svg") == 0);
   CHECK(figure.find("cheap") != std::string::npos);
   CHECK(figure.find("nan") == std::string::npos);
@@ -92,7 +92,7 @@ TEST_CASE("no strategy hangs, loses its best or confirms what fails, whatever fa
       CHECK(calibration.simulations == objective.simulations);
       if (calibration.best.point.size() == 0) continue;
       CHECK(is_feasible(calibration.best));
-      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.misfit_mm <= 5);
+      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.miss <= 1);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "calibrate/search/strategy.h"
 #include "fake_slump.h"
+#include "laboratory.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;
@@ -33,22 +34,22 @@ SearchOptions generous_options(std::uint64_t seed) {
 
 TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
   struct Case {
-    double misfit_mm, noise_mm;
+    double miss, noise;
     Verdict verdict;
   };
   const Case cases[] = {
-      {0, 0, Verdict::holds},        {5, 5, Verdict::holds},          {5.01, 0, Verdict::refuted},
-      {0, 5.01, Verdict::undecided}, {6, 3, Verdict::refuted},        {6, 4, Verdict::undecided},
-      {13.01, 12, Verdict::refuted}, {12.99, 12, Verdict::undecided},
+      {0, 0, Verdict::holds},         {1, 1, Verdict::holds},           {1.002, 0, Verdict::refuted},
+      {0, 1.002, Verdict::undecided}, {1.2, 0.6, Verdict::refuted},     {1.2, 0.8, Verdict::undecided},
+      {2.602, 2.4, Verdict::refuted}, {2.598, 2.4, Verdict::undecided},
   };
   for (const Case& one : cases) {
-    CAPTURE(one.misfit_mm, one.noise_mm);
-    CHECK(verdict_on(one.misfit_mm, one.noise_mm, 5) == one.verdict);
+    CAPTURE(one.miss, one.noise);
+    CHECK(verdict_on(one.miss, one.noise) == one.verdict);
   }
   Response failed;
   failed.point = UnitPoint::Constant(2, 0.5);
   failed.failed = true;
-  CHECK(verdict_on(failed, 5) == Verdict::refuted);
+  CHECK(verdict_on(failed) == Verdict::refuted);
 }
 
 TEST_CASE("the noise of a mean is the scatter of its packings over the root of their number") {
@@ -61,8 +62,8 @@ TEST_CASE("the noise of a mean is the scatter of its packings over the root of t
   const std::vector<std::uint64_t> four{1, 2, 3, 4}, one{1};
   const UnitPoint point = UnitPoint::Constant(2, 0.5);
   // Standard errors sqrt(4 * 9/(4 * 3)) and 0, root mean square of both.
-  CHECK(objective.evaluate({&point, 1}, four).at(0).noise_mm == Approx(std::sqrt(3.0 / 2)));
-  CHECK(objective.evaluate({&point, 1}, one).at(0).noise_mm == 0);
+  CHECK(objective.evaluate({&point, 1}, four).at(0).noise == Approx(std::sqrt(3.0 / 2) / 5));
+  CHECK(objective.evaluate({&point, 1}, one).at(0).noise == 0);
 }
 
 TEST_CASE("where packings scatter, more of them are asked until luck cannot confirm a candidate") {
@@ -84,7 +85,7 @@ TEST_CASE("where packings scatter, more of them are asked until luck cannot conf
     ++confirmed;
     widened += fresh > 8;
     near += std::abs(mean_height(calibration.best.point) - height) <= 10;
-    CHECK(calibration.confirmation.noise_mm <= 5);
+    CHECK(calibration.confirmation.noise <= 1);
   }
   CAPTURE(confirmed, widened, near);
   CHECK(confirmed >= 28);
@@ -114,10 +115,30 @@ TEST_CASE("a mean within the tolerance that may be luck is told so when the budg
     const Calibration calibration = search(objective, options);
     CHECK(calibration.status != CalibrationStatus::confirmed);
     const Response& told = calibration.confirmation;
-    if (told.point.size() == 0 || told.misfit_mm > 5 || told.noise_mm <= 5) continue;
+    if (told.point.size() == 0 || told.miss > 1 || told.noise <= 1) continue;
     ++luck;
     CHECK(calibration.reason.find("scatter too much") != std::string::npos);
     CHECK(calibration.reason.find("more than the tolerance") == std::string::npos);
   }
   CHECK(luck >= 3);
+}
+
+TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit of a height is") {
+  test::Laboratory laboratory;
+  laboratory.study.tests[0].targets[0].weight = 0;  // the mass alone is fitted
+  double scatter_kg = 4;
+  laboratory.twist = [&](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+    outcome.observables.set("fill.mass_kg", 9 + (test.packing_seed % 2 == 0 ? scatter_kg : -scatter_kg));
+  };
+  laboratory.study.search.screening = 4;
+  for (const bool calm : {false, true}) {
+    CAPTURE(calm);
+    if (calm) scatter_kg = 0.05;  // half of the laboratory's deviation
+    const test::Folder folder;
+    auto opened = Store::open(folder.path() / "evaluations.sqlite", {"program", "inputs"});
+    REQUIRE(opened.ok());
+    SimulationObjective objective(laboratory.study, opened.value(), laboratory.options);
+    const Calibration calibration = search(objective, laboratory.study.search);
+    CHECK((calibration.status == CalibrationStatus::confirmed) == calm);
+  }
 }

@@ -25,7 +25,7 @@ struct TwoSteps : Laboratory {
   TwoSteps() {
     study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 4, 3}, {"step1.spread_mm", 400, 10, 1}, {"step2.height_mm", 80, 4, 3}};
-    study.tests[0].weights = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}, {"step2.height_mm", 1}};
+    study.tests[0].targets = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}, {"step2.height_mm", 1}};
     study.search.budget_simulations = 60;
     study.search.packings = 2;
     study.search.screening = 12;
@@ -81,11 +81,11 @@ TEST_CASE("the window lies about the laboratory's height, as wide as tolerance a
   CHECK(window->highest_m == Approx(0.140));
   study.tests[0].lab.measurements[0].standard_deviation = 15;
   CHECK(window_of(study, 0)->lowest_m == Approx(0.040));
-  study.tests[0].weights[2].weight = 0;  // step 2 is not fitted
+  study.tests[0].targets[2].weight = 0;  // step 2 is not fitted
   CHECK(std::isinf(window_of(study, 0)->highest_m));
-  study.tests[0].weights[0].weight = 0;
+  study.tests[0].targets[0].weight = 0;
   CHECK_FALSE(window_of(study, 0));
-  study.tests[0].weights[0].weight = 1;
+  study.tests[0].targets[0].weight = 1;
   study.search.end_early = false;
   CHECK_FALSE(window_of(study, 0));
 }
@@ -139,7 +139,7 @@ TEST_CASE("an evaluation that ended early never stands in for a whole one, and a
   const std::vector<UnitPoint> low{at(0.05, 0.5)}, lower{at(0.02, 0.5)};
   CHECK(objective.try_out(low, kPackings).at(0).ended_early);
   CHECK(laboratory.runs == 2);
-  CHECK(objective.counts().best_misfit_mm < 0);
+  CHECK(objective.counts().best_miss < 0);
   const Response whole = objective.evaluate(low, kPackings).at(0);
   CHECK(laboratory.runs == 4);
   CHECK_FALSE(whole.ended_early);

@@ -33,7 +33,7 @@ struct Laboratory {
     study.tests.emplace_back();
     study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
-    study.tests[0].weights = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
+    study.tests[0].targets = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
     study.search.budget_simulations = 20;
     options.threads = 4;
     options.simulator.fill = [this](const SlumpTable&, const RunOptions&) {

@@ -118,10 +118,10 @@ TEST_CASE("an algorithm ends with the evaluations, the budget or the wish to sto
 TEST_CASE("a goal ends the run at the first point that meets it") {
   Synthetic objective = bowl(point_of({0.31, 0.62}));
   NloptOptions options = options_for("nelder_mead", 500);
-  options.goal_mm = 0.1;
+  options.goal = 0.02;
   const SearchRun run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options);
   CHECK(run.status == SearchStatus::converged);
-  CHECK(objective.answered.back().misfit_mm <= 0.1);
+  CHECK(objective.answered.back().miss <= 0.02);
   CHECK(objective.answered.back().misfit == run.best.misfit);
 }
 

@@ -143,10 +143,10 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
     CAPTURE(lag);
     std::size_t most = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      VirtualCores objective(fake_slump(150, seed), 64);
-      SearchOptions options = lagging_options(seed, lag);
-      options.tolerance_mm = 0.1;  // no candidate is so good that it is waited for
-      CHECK(search(objective, options).simulations <= 60);
+      Synthetic slump = fake_slump(150, seed);
+      slump.tolerance_mm = 0.1;  // no candidate is so good that it is waited for
+      VirtualCores objective(slump, 64);
+      CHECK(search(objective, lagging_options(seed, lag)).simulations <= 60);
       most = std::max(most, objective.most_begun);
     }
     CHECK(most == static_cast<std::size_t>(lag) + 1);

@@ -53,6 +53,7 @@ class Synthetic : public Objective {
   /// A try whose first reading is off by more ends early: below it reads the level and nothing else, above it lacks the
   /// other readings. 0: every one runs to its end.
   double level = 0;
+  double tolerance_mm = 5;  ///< of every reading
   int budget = std::numeric_limits<int>::max();
   std::function<bool()> stop = [] { return false; };
 
@@ -65,6 +66,8 @@ class Synthetic : public Objective {
   }
   int readings() const override { return static_cast<int>(measured.size()); }
   int budget_left() const override { return budget - simulations; }
+  double tolerance(std::size_t) const override { return tolerance_mm; }
+  MisfitUnit misfit_unit() const override { return {tolerance_mm}; }
   bool stop_requested() const override { return stop(); }
 
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
@@ -132,8 +135,8 @@ class Synthetic : public Objective {
     }
     if (response.failed) response.residuals.setConstant(failure_value(point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
-    response.misfit_mm = response.failed ? response.residuals[0] : std::sqrt(squares / count);
-    response.noise_mm = std::sqrt(noise_squares / count);
+    response.miss = (response.failed ? response.residuals[0] : std::sqrt(squares / count)) / tolerance_mm;
+    response.noise = std::sqrt(noise_squares / count) / tolerance_mm;
     return response;
   }
 

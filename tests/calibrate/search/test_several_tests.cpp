@@ -18,7 +18,7 @@ void add_low_mould(Laboratory& laboratory, bool hold_out) {
   tests[1].hold_out = hold_out;
   tests[1].lab.test.mould.height_m = 0.06;
   tests[1].lab.measurements = {{"step1.height_mm", 20, 1, 2}};
-  tests[1].weights = {{"step1.height_mm", 1}};
+  tests[1].targets = {{"step1.height_mm", 1}};
   laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
     if (test.mould.height_m != 0.06) return;
     outcome.observables.set("step1.height_mm", 20 + static_cast<double>(test.packing_seed));
@@ -40,7 +40,7 @@ TEST_CASE("two tests of one material are one residual vector, each reading under
   CHECK(response.observables[0] == Approx(102));
   CHECK(response.observables[3] == Approx(22));
   CHECK(response.residuals[3] == Approx(2));
-  CHECK(response.misfit_mm == Approx(2));
+  CHECK(response.miss == Approx(std::sqrt((2 * std::pow(2.0 / 5, 2) + 1) / 3)));
   CHECK(laboratory.runs == 4);
   CHECK(laboratory.fills == 4);
   CHECK(objective.counts().simulated == 4);
@@ -85,7 +85,7 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
     add_low_mould(laboratory, true);
     auto& held = laboratory.study.tests[1];
     held.lab.measurements = {{"step1.height_mm", measured, 1, 2}, {"step1.spread_mm", 900, 1, 2}};
-    held.weights = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}};
+    held.targets = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}};
     auto store = laboratory.store();
     SimulationObjective objective(laboratory.study, store, laboratory.options);
     Calibration calibration;

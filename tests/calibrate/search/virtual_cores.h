@@ -22,6 +22,8 @@ class VirtualCores : public Objective {
   int readings() const override { return objective_.readings(); }
   int budget_left() const override { return objective_.budget_left(); }
   bool stop_requested() const override { return objective_.stop_requested(); }
+  double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
+  MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
 
   void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
     schedule(points, packings);

@@ -5,8 +5,8 @@
 #include "calibrate/base/content_hash.h"
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/rig.h"
+#include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
 #include "tests/calibrate/study/files.h"
 
@@ -334,8 +334,17 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
   test.drop.emplace();
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
-  for (const ReadingKey& key : reading_keys())
-    CHECK(std::find(names.begin(), names.end(), key.observable) != names.end());
+  CHECK(names.size() == reading_kinds().size());
+  for (const ReadingKind& kind : reading_kinds()) {
+    INFO(kind.name);
+    CHECK(kind.key.empty() == kind.measure.empty());
+    if (!kind.key.empty()) CHECK(std::find(names.begin(), names.end(), kind.measure) != names.end());
+    for (const Ceiling& ceiling : kind.ceilings) CHECK((ceiling.name.empty() || reading_kind(ceiling.name)));
+    CHECK(kind.name.starts_with(kind.stage == Stage::fill    ? "fill."
+                                : kind.stage == Stage::step1 ? "step1."
+                                                             : "step2."));
+    CHECK(stage_of(kind.name) == kind.stage);
+  }
 }
 
 }  // namespace

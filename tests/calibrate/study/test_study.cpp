@@ -1,12 +1,13 @@
 #include <catch2/catch.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/study/json_reader.h"
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/template.h"
 #include "calibrate/study/tests.h"
+#include "core/rigs/slump/slump_readings.h"
 #include "tests/calibrate/study/files.h"
 
 namespace pastefit {
@@ -55,10 +56,10 @@ TEST_CASE("the shipped studies are read, with the height to fit and the spread t
     INFO((study.ok() ? "" : message_of(study.faults())));
     REQUIRE(study.ok());
     ++studies;
-    REQUIRE(study.value().tests[0].weights.size() == 2);
-    CHECK(study.value().tests[0].weights[0].observable == "step1.height_mm");
-    CHECK(study.value().tests[0].weights[0].weight == 1);
-    CHECK(study.value().tests[0].weights[1].weight == 0);
+    REQUIRE(study.value().tests[0].targets.size() == 2);
+    CHECK(study.value().tests[0].targets[0].observable == "step1.height_mm");
+    CHECK(study.value().tests[0].targets[0].weight == 1);
+    CHECK(study.value().tests[0].targets[1].weight == 0);
     CHECK(free_count(study.value()) == 5);
     CHECK(study.value().tests[0].lab.provenance.licence == "CC BY 4.0");
   }
@@ -75,7 +76,7 @@ TEST_CASE("what a study does not name has its usual value") {
   CHECK(study.parameters[5].value == 0.4);
   CHECK(study.parameters[7].value == parameter_kinds()[7].usual);
   CHECK(study.search.budget_simulations == SearchOptions{}.budget_simulations);
-  for (const Weight& weight : study.tests[0].weights) CHECK(weight.weight == 1);
+  for (const Target& target : study.tests[0].targets) CHECK(target.weight == 1);
 }
 
 TEST_CASE("contact choices of the study reach the test") {
@@ -130,8 +131,33 @@ TEST_CASE("a weight of what was not measured is a fault, and a slump's weight is
   document["weights"] = {{"step1.slump_mm", 0.25}};
   const Result<Study> study = Desk().read(document);
   REQUIRE(study.ok());
-  CHECK(study.value().tests[0].weights[0].observable == "step1.height_mm");
-  CHECK(study.value().tests[0].weights[0].weight == 0.25);
+  CHECK(study.value().tests[0].targets[0].observable == "step1.height_mm");
+  CHECK(study.value().tests[0].targets[0].weight == 0.25);
+}
+
+TEST_CASE(
+    "a reading's tolerance is its own, else tolerance_mm for a length and the laboratory's deviation for others") {
+  const Desk desk;
+  json lab = json::parse(template_text("lab").value(), nullptr, true, true);
+  lab["measurements"]["fill.mass_kg"] = {{"value", 12.6}, {"standard_deviation", 0.3}};
+  desk.folder().write("lab.json", lab.dump());
+  json document = Desk::study();
+  document["search"] = {{"tolerance_mm", 4}};
+  const auto tolerances = [&] {
+    const Result<Study> study = desk.read(document);
+    INFO((study.ok() ? "" : message_of(study.faults())));
+    REQUIRE(study.ok());
+    std::map<std::string, double> out;
+    for (const StudyReading& reading : readings_of(study.value())) out[reading.name] = reading.tolerance;
+    return out;
+  };
+  using Tolerances = std::map<std::string, double>;
+  CHECK(tolerances() == Tolerances{{"fill.mass_kg", 0.3}, {"step1.height_mm", 4}, {"step1.spread_mm", 4}});
+  document["tolerances"] = {{"fill.mass_kg", 0.1}, {"step1.slump_mm", 2}};
+  CHECK(tolerances() == Tolerances{{"fill.mass_kg", 0.1}, {"step1.height_mm", 2}, {"step1.spread_mm", 4}});
+  document["tolerances"] = {{"step2.height_mm", 1}, {"step1.height_mm", 0}};
+  CHECK(says(at(desk.faults(document), "tolerances.step2.height_mm"), "no such measurement"));
+  CHECK(says(at(desk.faults(document), "tolerances.step1.height_mm"), "0"));
 }
 
 TEST_CASE("a study may name several laboratory files, fitted ones first, hold-outs kept apart") {
@@ -298,12 +324,21 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
     CHECK(value.at("maximum").get<double>() == kind.largest);
   }
   const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
-  CHECK(lab.size() == reading_keys().size());
-  CHECK(study.at("weights").at("properties").size() == reading_keys().size());
-  for (const ReadingKey& key : reading_keys()) {
-    CHECK(lab.contains(key.key));
-    CHECK(study.at("weights").at("properties").contains(key.key));
+  const std::string lab_template(template_text("lab").value());
+  std::size_t keys = 0;
+  for (const ReadingKind& kind : reading_kinds()) {
+    if (kind.key.empty()) continue;
+    INFO(kind.key);
+    ++keys;
+    CHECK(lab.contains(kind.key));
+    CHECK(study.at("weights").at("properties").contains(kind.key));
+    CHECK(study.at("tolerances").at("properties").contains(kind.key));
+    // The template names a reading of step 2 as one of step 1, or in full.
+    CHECK(lab_template.find(kind.key.substr(kind.key.find('.'))) != std::string::npos);
   }
+  CHECK(lab.size() == keys);
+  CHECK(study.at("weights").at("properties").size() == keys);
+  CHECK(study.at("tolerances").at("properties").size() == keys);
 }
 
 TEST_CASE("the hash of a study follows its content") {

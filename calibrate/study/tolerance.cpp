@@ -1,0 +1,41 @@
+#include "calibrate/study/tolerance.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "calibrate/base/format.h"
+#include "calibrate/study/tests.h"
+
+namespace pastefit {
+
+bool is_length(std::string_view observable) {
+  return observable.ends_with("_mm");
+}
+
+double tolerance_of(const Study& study, std::size_t test, std::size_t measurement) {
+  const StudyTest& one = study.tests.at(test);
+  const Measurement& read = one.lab.measurements.at(measurement);
+  if (const auto& own = one.targets.at(measurement).tolerance) return *own;
+  return is_length(read.observable) ? study.search.tolerance_mm : read.standard_deviation;
+}
+
+std::string MisfitUnit::words(double misfit, const char* pattern) const {
+  return format(pattern, of(misfit)) + " " + name();
+}
+
+MisfitUnit misfit_unit_of(std::span<const std::pair<std::string_view, double>> fitted) {
+  const bool in_mm = !fitted.empty() && std::ranges::all_of(fitted, [&](const auto& one) {
+    return is_length(one.first) && one.second == fitted.front().second;
+  });
+  return in_mm ? MisfitUnit{fitted.front().second} : MisfitUnit{};
+}
+
+MisfitUnit misfit_unit_of(const Study& study) {
+  const std::vector<StudyReading> readings = readings_of(study);
+  std::vector<std::pair<std::string_view, double>> fitted;
+  for (const StudyReading& reading : readings)
+    if (reading.weight > 0) fitted.emplace_back(reading.measurement.observable, reading.tolerance);
+  return misfit_unit_of(fitted);
+}
+
+}  // namespace pastefit

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pastefit {
+
+struct Study;
+
+/// True if the reading is a length in mm.
+bool is_length(std::string_view observable);
+
+/// How far off a reading may be for the material to do, in the reading's unit: what the study's "tolerances" say of it;
+/// else its "tolerance_mm" for a length, and one standard deviation of the laboratory for anything else.
+/// Requirements: `test` and `measurement` are indices in `study.tests` and its `lab.measurements`.
+double tolerance_of(const Study& study, std::size_t test, std::size_t measurement);
+
+/// A misfit has no unit: it is the root mean square of the fitted readings' differences from the laboratory, each over
+/// its tolerance, and 1 is asked for. People are told it in mm where all that is fitted are lengths of one tolerance.
+struct MisfitUnit {
+  std::optional<double> tolerance_mm;  ///< that one tolerance; none: people are told tolerances
+
+  double of(double misfit) const { return misfit * tolerance_mm.value_or(1); }
+  const char* name() const { return tolerance_mm ? "mm" : "tolerances"; }
+  /// "3.94 mm" or "0.788 tolerances"; `pattern`: printf's for the number.
+  std::string words(double misfit, const char* pattern = "%.3g") const;
+};
+
+/// The unit for readings with these names and tolerances, all that are fitted.
+MisfitUnit misfit_unit_of(std::span<const std::pair<std::string_view, double>> fitted);
+MisfitUnit misfit_unit_of(const Study& study);
+
+}  // namespace pastefit
