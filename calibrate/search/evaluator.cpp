@@ -109,20 +109,20 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
     for (const auto seed : packings) {
       for (const auto test : tests) {
         auto key = key_of(study_, test, values, seed, store_.identity().program);
-        const auto window = tried ? window_of(study_, test) : std::nullopt;
-        const auto [entry, added] = tasks_.try_emplace(window ? key_of_ended(key, *window) : key);
+        const auto cutoff = tried ? cutoff_of(study_, test) : std::nullopt;
+        const auto [entry, added] = tasks_.try_emplace(cutoff ? key_of_ended(key, *cutoff) : key);
         Task& task = entry->second;
         tasks.push_back(&task);
         if (!added) continue;  // and may be under way: nothing of it is touched here
+        task.index = test;
         task.tried = tried;
-        task.window = window;
-        if (auto known = find(store_, key, window)) {
+        task.cutoff = cutoff;
+        if (auto known = find(store_, study_.tests[test].lab.test, key, cutoff)) {
           task.evaluation = std::move(*known);
           task.finished = true;
           count(task.evaluation, test, true);
           continue;
         }
-        task.index = test;
         auto& evaluation = task.evaluation;
         evaluation.key = std::move(key);
         evaluation.point.assign(point.begin(), point.end());
@@ -146,7 +146,8 @@ std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitP
   for (Task* task : tasks) {
     if (task->done.valid()) task->done.get();  // throws what the engine threw
     if (task->finished) asked_.insert(task->evaluation.key);
-    out.push_back(task->window ? seen_through(*task->window, task->evaluation) : task->evaluation);
+    out.push_back(task->cutoff ? seen_through(study_.tests[task->index].lab.test, *task->cutoff, task->evaluation)
+                               : task->evaluation);
   }
   return out;
 }
@@ -208,7 +209,7 @@ void SimulationObjective::run(Task& task) {
   if (!options.own_fill) options.packing = packing(task.index, test);
   if (stop_requested()) return;
   options.steps.ledger = options.steps.ledger && !task.tried;
-  options.window = task.window;
+  options.cutoff = task.cutoff;
 
   bool by_user = false;
   const auto start = Clock::now();
@@ -227,7 +228,7 @@ void SimulationObjective::run(Task& task) {
   evaluation.failure = outcome.failure;
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
-  if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.window.value());
+  if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.cutoff.value());
   evaluation.wall_s = seconds_since(start);
   task.finished = true;
 

@@ -111,14 +111,14 @@ class SimulationObjective : public Objective {
   struct Task {
     std::size_t index = 0;               // of the test in the study
     bool tried = false;                  // only tried out
-    std::optional<HeightWindow> window;  // if it is
+    std::optional<Cutoff> cutoff;  // if it is
     StoredEvaluation evaluation;
     bool finished = false;          // not cut off by a stop
     std::shared_future<void> done;  // none if it is known from the store
   };
 
   /// Finds, or begins to simulate, every point on every packing in every one of these tests; in that order. `tried`:
-  /// only as long as they are within their window (`early_end.h`).
+  /// only as long as they are within their cutoff (`early_end.h`).
   std::vector<Task*> begun(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                            std::span<const std::size_t> tests, bool tried);
   /// Waits for the same.

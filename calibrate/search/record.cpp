@@ -21,8 +21,8 @@ std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std:
                                         std::span<const double> values, std::uint64_t packing, int before, bool tried) {
   std::vector<StoredEvaluation> found;
   for (const std::size_t test : tests) {
-    const auto window = tried ? window_of(study, test) : std::nullopt;
-    auto evaluation = find(store, key_of(study, test, values, packing, store.identity().program), window);
+    const auto cutoff = tried ? cutoff_of(study, test) : std::nullopt;
+    auto evaluation = find(store, study.tests[test].lab.test, key_of(study, test, values, packing, store.identity().program), cutoff);
     if (!evaluation || evaluation->epoch >= before) return std::nullopt;
     found.push_back(std::move(*evaluation));
   }
@@ -89,8 +89,8 @@ std::size_t holding(const Study& study, const Store& store) {
   return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {
     for (std::size_t test = 0; test < study.tests.size(); ++test) {
       const std::string key = key_of(study, test, one.values, one.packing, store.identity().program);
-      const auto window = window_of(study, test);
-      if (key == one.key || (window && key_of_ended(key, *window) == one.key)) return true;
+      const auto cutoff = cutoff_of(study, test);
+      if (key == one.key || (cutoff && key_of_ended(key, *cutoff) == one.key)) return true;
     }
     return false;
   }));

@@ -27,10 +27,11 @@ struct Moment {
   int drop = 0;  ///< which of the drops of one heap it belongs to, from 0
 };
 
-/// Heights after step 1 (`step1.height_mm`) [m] beyond which the rest of a test is of no use to the caller.
-struct HeightWindow {
-  double lowest_m = 0;
-  double highest_m = std::numeric_limits<double>::infinity();
+/// Values of a reading, in its unit, beyond which the rest of a test is of no use to the caller.
+struct Cutoff {
+  std::string reading;
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
 };
 
 /// What the caller may ask of a run besides its answer.
@@ -43,12 +44,10 @@ struct RunOptions {
   double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
   std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
-  /// Given: a run ends as soon as it is certain to read less, without any reading of step 1, or after step 1 where that
-  /// reads beyond it, without step 2; `RunSummary::ended_early` says so. Until then the run is the same, bit for bit.
-  /// Certain means: the highest point and the roughness of the fill lie a grain's radius below it. No reading is above
-  /// those two, and while nothing lifts a heap that only sinks, but for a column that swings, a grain that hops, a
-  /// mould that drags them along (by less than half a radius, `tests/bench/README.md`).
-  std::optional<HeightWindow> window;
+  /// Given: a run ends as soon as it is certain that the reading will be lower, without any reading of its stage, or
+  /// after its stage where it lies beyond; `RunSummary::ended_early` says so. Until then the run is the same, bit for
+  /// bit. Which reading may be asked for, and what is certain, is the rig's word.
+  std::optional<Cutoff> cutoff;
 };
 
 /// How the run went.
@@ -60,7 +59,7 @@ struct RunSummary {
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
   bool settled = false;                ///< every rest phase ended by its criterion, not by its cap
-  bool ended_early = false;            ///< the heap left `RunOptions::window`: the later readings were not taken
+  bool ended_early = false;            ///< the run left `RunOptions::cutoff`: the later readings were not taken
   std::optional<double> energy_error;  ///< unexplained energy over energy put in; none without `StepOptions::ledger`
   double asleep_share = 0;             ///< of the particle steps after the fill; `StepOptions::sleep`
 };

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/laws/materials.h"
 #include "core/observe/outline.h"
 #include "core/result.h"
+#include "core/rigs/specimen.h"
 #include "core/step/run.h"
 
 namespace pastefit {
@@ -46,22 +46,18 @@ struct Reading {
   std::vector<OutlinePoint> outline_step1, outline_step2;
 };
 
-/// The slump test as one value: apparatus, material, grains, contact model.
+/// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
+/// apparatus. The density of a grain follows from the packing.
 /// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): turn the plate up, let it fall once.
-struct SlumpTable {
+struct SlumpTable : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
   double table_length_m = 0.700;  ///< side of the square table (and of the plate)
   std::optional<DropPlate> drop;
   Reading reading;
 
-  double bulk_density_kg_m3 = 2300;  ///< of the fresh material in the mould; the grain density follows from the fill
-  GrainSizes grains;
-  ContactModel contact;
   WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
   WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
-
-  std::uint64_t packing_seed = 1;
 };
 
 /// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
@@ -69,7 +65,8 @@ struct SlumpTable {
 Faults validate(const SlumpTable& test);
 
 /// Runs the slump test. Same test, options and program: same bits.
-/// Requirement: `validate(test)` is empty. Never throws for bad physics: see `Outcome::failure`.
+/// Requirement: `validate(test)` is empty; a cutoff is of `step1.height_mm`. Never throws for bad physics: see
+/// `Outcome::failure`.
 Outcome simulate(const SlumpTable& test, const RunOptions& options = {});
 
 /// The names of all readings the test will have, in order (with or without step 2).

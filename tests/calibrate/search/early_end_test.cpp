@@ -17,9 +17,9 @@ using namespace pastefit::test;
 namespace {
 
 /// The two-step slump test of the fake slumps in the engine's place: 100 mm are measured, and 80 mm after the drop. The
-/// level is 40 mm. A heap is certain to be lost 10 mm below the window only, as with a real ruler.
+/// level is 40 mm. A heap is certain to be lost 10 mm below the cutoff only, as with a real ruler.
 struct TwoSteps : Laboratory {
-  bool heeds_window = true;
+  bool heeds_cutoff = true;
   std::atomic<int> ended = 0;
 
   TwoSteps() {
@@ -37,13 +37,13 @@ struct TwoSteps : Laboratory {
       const double height = 20 + 250 * strength + 10 * test.contact.friction + noise;
       outcome.observables = {};
       outcome.observables.set("fill.mass_kg", 9);
-      const double lowest = run.window ? 1e3 * run.window->lowest_m : 0;
-      const double highest = run.window ? 1e3 * run.window->highest_m : 1e9;
-      outcome.run.ended_early = heeds_window && height < lowest - 10;
+      const double lowest = run.cutoff ? run.cutoff->lowest : 0;
+      const double highest = run.cutoff ? run.cutoff->highest : 1e9;
+      outcome.run.ended_early = heeds_cutoff && height < lowest - 10;
       if (!outcome.run.ended_early) {
         outcome.observables.set("step1.height_mm", height);
         outcome.observables.set("step1.spread_mm", 600 - height);
-        outcome.run.ended_early = heeds_window && (height < lowest || height > highest);
+        outcome.run.ended_early = heeds_cutoff && (height < lowest || height > highest);
       }
       if (outcome.run.ended_early) {
         ++ended;
@@ -72,27 +72,27 @@ bool same(const Response& a, const Response& b) {
 
 }  // namespace
 
-TEST_CASE("the window lies about the laboratory's height, as wide as tolerance and deviation ask") {
+TEST_CASE("the cutoff lies about the laboratory's height, as wide as tolerance and deviation ask") {
   TwoSteps laboratory;
   Study& study = laboratory.study;
-  auto window = window_of(study, 0);
-  REQUIRE(window);
-  CHECK(window->lowest_m == Approx(0.060));
-  CHECK(window->highest_m == Approx(0.140));
+  auto cutoff = cutoff_of(study, 0);
+  REQUIRE(cutoff);
+  CHECK(cutoff->lowest == Approx(60));
+  CHECK(cutoff->highest == Approx(140));
   study.tests[0].lab.measurements[0].standard_deviation = 15;
-  CHECK(window_of(study, 0)->lowest_m == Approx(0.040));
+  CHECK(cutoff_of(study, 0)->lowest == Approx(40));
   study.tests[0].targets[2].weight = 0;  // step 2 is not fitted
-  CHECK(std::isinf(window_of(study, 0)->highest_m));
+  CHECK(std::isinf(cutoff_of(study, 0)->highest));
   study.tests[0].targets[0].weight = 0;
-  CHECK_FALSE(window_of(study, 0));
+  CHECK_FALSE(cutoff_of(study, 0));
   study.tests[0].targets[0].weight = 1;
   study.search.end_early = false;
-  CHECK_FALSE(window_of(study, 0));
+  CHECK_FALSE(cutoff_of(study, 0));
 }
 
 TEST_CASE("a simulation that was ended and one that was not answer the same") {
   TwoSteps cut, whole;
-  whole.heeds_window = false;
+  whole.heeds_cutoff = false;
   auto store_cut = cut.store(), store_whole = whole.store();
   SimulationObjective ended(cut.study, store_cut, cut.options), run_through(whole.study, store_whole, whole.options);
   int below = 0, within = 0, above = 0;

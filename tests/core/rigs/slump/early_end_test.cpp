@@ -30,7 +30,7 @@ SlumpTable slumping(bool drop) {
   return test;
 }
 
-/// The test without a window.
+/// The test without a cutoff.
 Outcome whole_run(const SlumpTable& test, std::shared_ptr<const Packing> packing) {
   RunOptions options;
   options.packing = std::move(packing);
@@ -42,13 +42,13 @@ Outcome whole_run(const SlumpTable& test, std::shared_ptr<const Packing> packing
 Outcome run(const SlumpTable& test, std::shared_ptr<const Packing> packing, double lowest_mm, double highest_mm = 1e9) {
   RunOptions options;
   options.packing = std::move(packing);
-  options.window = HeightWindow{1e-3 * lowest_mm, 1e-3 * highest_mm};
+  options.cutoff = Cutoff{"step1.height_mm", lowest_mm, highest_mm};
   return simulate(test, options);
 }
 
 }  // namespace
 
-TEST_CASE("a heap that has sunk below its window ends early, and only such a one") {
+TEST_CASE("a heap that has sunk below its cutoff ends early, and only such a one") {
   const SlumpTable test = slumping(false);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);
@@ -64,7 +64,7 @@ TEST_CASE("a heap that has sunk below its window ends early, and only such a one
   CHECK_FALSE(lost.observables.find("step1.height_mm"));
   CHECK(lost.observables.find("fill.mass_kg") == whole.observables.find("fill.mass_kg"));
 
-  // Within the window by a hair: the same bits as without a window.
+  // Within the cutoff by a hair: the same bits as without a cutoff.
   const Outcome kept = run(test, packing, height - 0.001);
   CHECK_FALSE(kept.run.ended_early);
   CHECK(kept.run.steps == whole.run.steps);
@@ -72,7 +72,7 @@ TEST_CASE("a heap that has sunk below its window ends early, and only such a one
   CHECK(kept.observables.find("step1.spread_mm") == whole.observables.find("step1.spread_mm"));
 }
 
-TEST_CASE("no heap that ends early would have read more than the lower end of its window", "[campaign]") {
+TEST_CASE("no heap that ends early would have read more than the lower end of its cutoff", "[campaign]") {
   for (const double strength : {500.0, 1500.0, 4000.0, 9000.0}) {
     SlumpTable test = slumping(false);
     Bridge& bridge = test.contact.bridge;
@@ -89,7 +89,7 @@ TEST_CASE("no heap that ends early would have read more than the lower end of it
   }
 }
 
-TEST_CASE("step 2 is not run where step 1 reads beyond the window on either side") {
+TEST_CASE("step 2 is not run where step 1 reads beyond the cutoff on either side") {
   const SlumpTable test = slumping(true);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);

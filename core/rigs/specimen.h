@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/laws/materials.h"
+
+namespace pastefit {
+
+/// What every test starts with: the grains of a material, and which of their random packings.
+struct Specimen {
+  double bulk_density_kg_m3 = 2300;  ///< of the material as the laboratory prepares it
+  GrainSizes grains;
+  ContactModel contact;
+  std::uint64_t packing_seed = 1;
+};
+
+}  // namespace pastefit
