@@ -95,6 +95,8 @@ void read_contact(ObjectReader& reader, ContactModel& contact) {
   reader.number("restitution", contact.restitution, kRestitution, Need::optional);
   reader.number("friction", contact.friction, kShare, Need::optional);
   reader.number("rolling_friction", contact.rolling_friction, kShare, Need::optional);
+  reader.choice("normal", contact.normal, normal_laws, Need::optional);
+  reader.number("surface_energy_j_m2", contact.surface_energy_j_m2, {0, 1e6}, Need::optional);
   reader.choice("rolling", contact.rolling, rolling_models, Need::optional);
   reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
   reader.nullable_number("cohesion_n", contact.cohesion_n, {0, 1e9}, Need::optional);
@@ -210,7 +212,7 @@ void read_impact(ObjectReader& reader, const json& object, Impact& test) {
   if (!test.grains.empty()) test.reference_radius_m = test.grains[0].radius_m;
   reader.number("reference_radius_m", test.reference_radius_m, kLength, Need::optional);
   reader.number("gravity_m_s2", test.gravity_m_s2, {0, 1e4}, Need::optional);
-  reader.numbers("pull_gaps_m", test.pull_gaps_m, {0, 1e3}, Need::optional, 1);
+  reader.numbers("pull_gaps_m", test.pull_gaps_m, {-1e3, 1e3}, Need::optional, 1);
   read_step(reader, object, test);
   if (reader.faults().size() == before) {
     read_duration(reader, object, test);

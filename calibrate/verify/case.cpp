@@ -42,7 +42,7 @@ void read_formula(ObjectReader& reader, ByFormula& by) {
   if (reader.integer("grain", grain, 0, 1, Need::optional)) by.arguments.grain = static_cast<std::size_t>(grain);
   if (reader.choice("axis", axis, kAxes, Need::optional))
     by.arguments.axis = kAxes[static_cast<std::size_t>(axis)].name;
-  reader.number("gap_m", by.arguments.gap_m, {0, 1e3}, Need::optional);
+  reader.number("gap_m", by.arguments.gap_m, {-1e3, 1e3}, Need::optional);
 }
 
 void read_expected(ObjectReader& reader, const json& object, Check& check) {

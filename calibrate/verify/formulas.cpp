@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "calibrate/verify/jkr.h"
 #include "core/laws/constants.h"
 #include "core/rigs/impact/approach.h"
 
@@ -175,6 +177,35 @@ Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
   return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
 }
 
+// Contacts that stick
+
+double surface_energy(const Impact& scene) {
+  const double share = scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
+  return share * scene.contact.surface_energy_j_m2;
+}
+
+Result<double> jkr_force(const Impact& scene, const Arguments& arguments) {
+  const Approach pair = pair_of(scene);
+  const double gamma = surface_energy(scene);
+  if (arguments.gap_m > jkr_tear_gap(pair, gamma)) return outside("no contact reaches as far");
+  return jkr_pull(pair, gamma, arguments.gap_m);
+}
+
+Result<double> jkr_pull_off(const Impact& scene, const Arguments&) {
+  return 3 * std::numbers::pi * surface_energy(scene) * pair_of(scene).radius;
+}
+
+Result<double> jkr_loop_area(const Impact& scene, const Arguments&) {
+  return jkr_work(pair_of(scene), surface_energy(scene));
+}
+
+/// Relative speed after an elastic collision of a pair that comes from afar; 0 if it sticks.
+Result<double> speed_after_parting(const Impact& scene, const Arguments&) {
+  const Approach pair = pair_of(scene);
+  const double lost = 2 * jkr_work(pair, surface_energy(scene)) / pair.mass;
+  return std::sqrt(std::max(pair.speed * pair.speed - lost, 0.0));
+}
+
 // Sliding and rolling on a wall, along x
 
 struct Slope {
@@ -320,6 +351,10 @@ constexpr Formula kFormulas[] = {
     {"bridge_loop_area", bridge_loop_area, "integral of F from the formation gap to rupture"},
     {"speed_after_rupture", speed_after_rupture, "sqrt(v^2 - 2 W/m*), from touch"},
     {"speed_after_rebound", speed_after_rebound, "sqrt(v^2 - 2 W/m*), W from the formation gap to rupture"},
+    {"jkr_force", jkr_force, "JKR at a gap; a negative one is an overlap; 8/3 pi gamma R* at touch"},
+    {"jkr_pull_off", jkr_pull_off, "3 pi gamma R*"},
+    {"jkr_loop_area", jkr_loop_area, "integral of JKR's force from touch to the end of the contact"},
+    {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
     {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls"},
     {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan"},
     {"sliding_speed", sliding_speed, "v + g (sin - mu cos) t"},

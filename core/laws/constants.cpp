@@ -44,7 +44,7 @@ void set_rolling(PairConstants& pair, double rolling_friction) {
   pair.spin_damping = pair.roll_damping / (4 * 0.4) / pair.spin_damping_share;
 }
 
-void set_adhesion(PairConstants& pair, const ContactModel& grains, double share) {
+void set_normal(PairConstants& pair, const ContactModel& grains, double share) {
   with_law(NormalLaws{}, grains.normal, [&](auto law) { law.set(pair, grains, share); });
 }
 
@@ -90,9 +90,9 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
               grains.restitution);
   set_friction(pair, grains.friction, grains.friction_basis);
   set_rolling(pair, grains.rolling_friction);
-  set_adhesion(pair, grains, 1.0);
-  set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
   pair.size_per_radius = 2 / reference_radius_m;
+  set_normal(pair, grains, 1.0);
+  set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
   return pair;
 }
 
@@ -102,15 +102,15 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
               wall.restitution);
   set_friction(pair, wall.friction, grains.friction_basis);
   set_rolling(pair, wall.rolling_friction);
-  set_adhesion(pair, grains, wall.cohesion_factor);
-  set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
   pair.size_per_radius = 1 / reference_radius_m;
+  set_normal(pair, grains, wall.cohesion_factor);
+  set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);
   return pair;
 }
 
 double squeeze(const ContactModel& grains, double radius) {
   const PairConstants pair = grain_pair(grains, radius);
-  return with_law(NormalLaws{}, grains.normal,
+  return with_law(NormalLaws{}, acting(grains.normal, pair),
                   [&](auto law) { return law.overlap_under(pair, 0.5 * radius, pair.cohesion); }) /
          (2 * radius);
 }

@@ -10,6 +10,7 @@ GrainSizes enlarged(GrainSizes grains, double k) {
 
 ContactModel enlarged(ContactModel model, double k) {
   Bridge& bridge = model.bridge;
+  model.surface_energy_j_m2 *= k;
   bridge.b_n_m *= k;
   bridge.c_n *= k * k;
   bridge.d_c_m *= k;

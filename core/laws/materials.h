@@ -25,7 +25,8 @@ struct GrainSizes {
 /// How overlapping bodies press on each other.
 enum class NormalLaw {
   hertz,  ///< elastic spheres
-  last = hertz
+  jkr,    ///< elastic spheres that stick: Johnson, Kendall & Roberts 1971
+  last = jkr
 };
 
 /// How the attraction of a liquid bridge falls with distance; all have the value c at touch.
@@ -73,7 +74,7 @@ struct Bridge {
 /// What the friction limit mu N is taken of.
 enum class FrictionBasis {
   elastic,  ///< the elastic repulsion (cohesion strengthens friction)
-  total     ///< the whole normal force, never below zero
+  total     ///< the whole normal force, with a reserve where the law of the overlap attracts; never below zero
 };
 
 /// Grain against grain.
@@ -84,6 +85,7 @@ struct ContactModel {
   double friction = 0.5;
   double rolling_friction = 0.1;
   NormalLaw normal = NormalLaw::hertz;
+  double surface_energy_j_m2 = 0;  ///< gamma, half the work of adhesion; of laws of the overlap that attract [J/m^2]
   RollingModel rolling = RollingModel::spring_dashpot;
   FrictionBasis friction_basis = FrictionBasis::elastic;
   std::optional<double> cohesion_n;  ///< constant attraction in overlap [N] at the reference radius; empty: bridge.c_n

@@ -20,9 +20,11 @@ struct Press {
 
 /// Laws of the overlap d: how hard two bodies press on each other, and what that holds. Each is a type with
 ///     choice, word     its name in the program and in files;
+///     adheres          whether it attracts, and is Hertz where PairConstants::adhesion is 0;
 ///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::tear_gap or
 ///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
-///     set(pair, grains, share)   its own constants, with `share` of the attraction (1 between grains);
+///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
+///                      elasticity and size are there;
 ///     at(k, root_radius, overlap, touched)   the `Press` of a pair; root_radius is sqrt(R*), radius R*;
 ///     energy(k, radius, press, overlap)   what it holds [J], 0 out of contact; the derivative by d is the force;
 ///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
@@ -36,7 +38,7 @@ struct Press {
 struct Hertz {
   static constexpr NormalLaw choice = NormalLaw::hertz;
   static constexpr std::string_view word = "hertz";
-  static constexpr bool reaches = false;
+  static constexpr bool adheres = false, reaches = false;
 
   static void set(PairConstants&, const ContactModel&, double) {}
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/laws/attraction.h"
+#include "core/laws/jkr.h"
 #include "core/laws/normal.h"
 #include "core/laws/rolling.h"
 
@@ -17,7 +18,7 @@ struct TypeList {
 
 /// All laws, in the order of their names in materials.h. Kernels, words of files and constants of pairs are made from
 /// these rows.
-using NormalLaws = TypeList<Hertz>;
+using NormalLaws = TypeList<Hertz, Jkr>;
 using Attractions =
     TypeList<NoAttraction, PolynomialAttraction, LinearAttraction, ExponentialAttraction, CapillaryAttraction>;
 using RollingLaws = TypeList<NoRolling, SpringDashpotRolling, ConstantTorqueRolling>;
@@ -48,6 +49,12 @@ auto with_law(TypeList<Laws...>, Choice choice, const Look& look) {
     (void)((Laws::choice == choice && (result = look(Laws{}), true)) || ...);
     return result;
   }
+}
+
+/// The law of the overlap that acts on a pair: those that adhere are Hertz where there is nothing to adhere by.
+inline NormalLaw acting(NormalLaw law, const PairConstants& pair) {
+  const bool adheres = with_law(NormalLaws{}, law, [](auto normal) { return normal.adheres; });
+  return adheres && pair.adhesion == 0 ? NormalLaw::hertz : law;
 }
 
 namespace detail {

@@ -20,7 +20,7 @@ struct Ledger {
   double heat_normal = 0;   ///< damping along the normal
   double heat_sliding = 0;  ///< friction and tangential damping
   double heat_rolling = 0;
-  double heat_bridges = 0;     ///< bridges that formed across a gap: work it will take to part them
+  double heat_bridges = 0;     ///< bridges that formed across a gap, contacts that stick: work it takes to part them
   double heat_drag = 0;        ///< of the phases that have drag
   double heat_sleep = 0;       ///< speed that grains had when they fell asleep
   double work_of_walls = 0;    ///< on the grains

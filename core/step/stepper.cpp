@@ -40,7 +40,7 @@ double stiffest_grain(const Particles& particles) {
 /// What the overlaps of all contacts hold [J].
 double elastic_energy(const World& world) {
   const auto held = [&](const PairConstants& pair, double root_radius, double overlap) {
-    return with_law(NormalLaws{}, world.normal, [&](auto law) {
+    return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
       return law.energy(pair, root_radius * root_radius, law.at(pair, root_radius, std::max(overlap, 0.0), 0.0),
                         overlap);
     });
@@ -173,7 +173,8 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
 }
 
 void Stepper::act_on_pairs(int b) {
-  const Kernel pairs = kernels_.pair[combination(world_.normal, world_.attraction, world_.rolling)];
+  const Kernel pairs =
+      kernels_.pair[combination(acting(world_.normal, world_.grain_pair), world_.attraction, world_.rolling)];
   const Kernel bridges = kernels_.bridge[row_of(world_.attraction)];
   Block& block = world_.pairs.blocks[b];
   KernelTask mine = task(world_.grain_pair, b);
@@ -201,7 +202,7 @@ void Stepper::act_on_wall(std::size_t w, int b, Column<WallBatch>& batches) {
   mine.wall = batches.data();
   mine.stretch = {0, 0, touching.contacts.batch_count()};
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[combination(world_.normal, attraction, world_.rolling)](mine);
+  kernels_.wall[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](mine);
   add_loads(wall, touching, batches, share);
 }
 

@@ -30,8 +30,9 @@ double impact_limit(const World& world, const Pace& pace) {
   for (const Wall& wall : world.walls) loss = std::min(loss, wall.pair.lost_share);
   const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
   const double speed = std::max(pace.fastest, kSlowest);
-  const double shortest = with_law(NormalLaws{}, world.normal,
-                                   [&](auto law) { return law.collision_time(world.grain_pair, radius, mass, speed); });
+  const PairConstants& pair = world.grain_pair;
+  const double shortest = with_law(NormalLaws{}, acting(world.normal, pair),
+                                   [&](auto law) { return law.collision_time(pair, radius, mass, speed); });
   return std::cbrt(std::max(loss, kLeastLoss)) * shortest;
 }
 

@@ -9,7 +9,7 @@ namespace pastefit {
 inline constexpr int kBatch = 8;
 
 /// Pairs that touch or may touch before the next selection, 104 bytes a pair. What they remember from step to step is
-/// explained with `Memory` in core/laws/contact.h.
+/// explained with `Memory` in core/laws/meeting.h.
 struct alignas(64) ContactBatch {
   std::int32_t i[kBatch], j[kBatch];              ///< j unused with a wall
   double root_radius[kBatch], root_mass[kBatch];  ///< of the effective radius and mass

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/laws/table.h"
+
 namespace pastefit {
 
 namespace {
@@ -63,6 +65,15 @@ constexpr double kHertzDuration = 2.8682656992;
 
 double hertz_contact_time(const Approach& a, double speed) {
   return kHertzDuration * std::pow(a.mass * a.mass / (a.radius * a.modulus * a.modulus * speed), 0.2);
+}
+
+double drawn_in(const ContactModel& model, const PairConstants& pair, double radius) {
+  return with_law(NormalLaws{}, acting(model.normal, pair), [&](auto normal) {
+    const double rest = normal.overlap_under(pair, radius, 0);
+    const double held = normal.energy(pair, radius, normal.at(pair, std::sqrt(radius), rest, 0.0), rest);
+    if constexpr (normal.reaches) return -normal.spent(pair, radius) - held;
+    return -held;
+  });
 }
 
 double rotor_inertia(const ImpactWall& wall) {

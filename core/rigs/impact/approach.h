@@ -24,6 +24,9 @@ Approach approach_of_wall(const Impact& test, std::size_t i, std::size_t wall);
 /// The constant is 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) (15/16)^(2/5).
 double hertz_contact_time(const Approach& approach, double speed);
 
+/// Work that the law of the overlap does by its attraction, from touch to where its force is zero [J]; 0 for Hertz.
+double drawn_in(const ContactModel& model, const PairConstants& pair, double effective_radius_m);
+
 /// Inertia of a plate that turns freely about its hinge [kg m^2]. Requirement: a plate with a rotor's mass.
 double rotor_inertia(const ImpactWall& wall);
 

@@ -37,18 +37,21 @@ class Checker {
 double constant_step(const Impact& test) {
   if (test.step == ImpactStep::fixed) return test.step_s;
   double shortest = test.duration_s;
-  const auto consider = [&](const Approach& a) {
+  const auto consider = [&](const Approach& a, const PairConstants& pair) {
     const double attraction =
         test.contact.cohesion_n.value_or(attraction_at_touch(test.contact.bridge, test.reference_radius_m));
     const double depth = std::pow(0.75 * attraction / (a.modulus * std::sqrt(a.radius)), 2.0 / 3.0);
     const double way = depth + rupture_gap(test.contact.bridge, test.reference_radius_m);
-    const double drawn = std::sqrt(2 * attraction * way / a.mass + test.gravity_m_s2 * a.radius);
+    const double work = attraction * way + drawn_in(test.contact, pair, a.radius);
+    const double drawn = std::sqrt(2 * work / a.mass + test.gravity_m_s2 * a.radius);
     const double speed = norm(a.velocity) + drawn;
     if (speed > 0) shortest = std::min(shortest, hertz_contact_time(a, speed));
   };
   for (std::size_t i = 0; i < test.grains.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) consider(approach_of_grains(test, i, j));
-    for (std::size_t w = 0; w < test.walls.size(); ++w) consider(approach_of_wall(test, i, w));
+    for (std::size_t j = 0; j < i; ++j)
+      consider(approach_of_grains(test, i, j), grain_pair(test.contact, test.reference_radius_m));
+    for (std::size_t w = 0; w < test.walls.size(); ++w)
+      consider(approach_of_wall(test, i, w), wall_pair(test.contact, test.walls[w].surface, test.reference_radius_m));
   }
   return test.duration_s / std::ceil(test.duration_s * test.steps_per_contact / shortest);
 }
@@ -365,6 +368,8 @@ Faults validate(const Impact& test) {
   check.positive("contact.youngs_modulus_pa", test.contact.youngs_modulus_pa);
   check.require(test.contact.restitution > 0 && test.contact.restitution <= 1, "contact.restitution", "is out of range",
                 "give a number above 0 and at most 1");
+  check.require(std::isfinite(test.contact.surface_energy_j_m2) && test.contact.surface_energy_j_m2 >= 0,
+                "contact.surface_energy_j_m2", "is negative", "give a number of at least 0");
   const Bridge& bridge = test.contact.bridge;
   if (bridge.shape != BridgeShape::none)
     check.require(rupture_gap(bridge, test.reference_radius_m) > 0, "contact.bridge", "never ruptures",

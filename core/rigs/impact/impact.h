@@ -57,7 +57,7 @@ struct Impact {
   ImpactStep step = ImpactStep::per_contact;
   double steps_per_contact = 400;
   double step_s = 0;
-  std::vector<double> pull_gaps_m;  ///< gaps of the first grain at which the attraction on it is read
+  std::vector<double> pull_gaps_m;  ///< gaps of the first grain at which the attraction on it is read; < 0: overlaps
 };
 
 /// Every reason why the test cannot be run, with its place, e.g. "grains[1].radius_m".

@@ -125,6 +125,7 @@ Faults validate(const SlumpTable& test) {
   check.range("contact.restitution", contact.restitution, 0.001, 1, "");
   check.range("contact.friction", contact.friction, 0, 10, "");
   check.range("contact.rolling_friction", contact.rolling_friction, 0, 10, "");
+  check.range("contact.surface_energy_j_m2", contact.surface_energy_j_m2, 0, 1e6, "J/m^2");
   if (contact.cohesion_n) check.range("contact.cohesion_n", *contact.cohesion_n, 0, 1e9, "N");
   check_bridge(check, contact.bridge, radius);
   if (contact.youngs_modulus_pa > 0 && contact.poissons_ratio < 1 && radius > 0) {

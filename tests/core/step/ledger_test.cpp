@@ -46,6 +46,20 @@ TEST_CASE("the ledger of an oblique collision closes, whatever takes the energy"
       }
 }
 
+TEST_CASE("the energy of grains that stick is accounted for, whether they part again or not") {
+  for (const double gamma : {0.5, 5.0, 50.0})
+    for (const auto basis : {FrictionBasis::elastic, FrictionBasis::total}) {
+      ContactModel model = soft(0.7, 0.5, RollingModel::spring_dashpot);
+      model.normal = NormalLaw::jkr;
+      model.surface_energy_j_m2 = gamma;
+      model.friction_basis = basis;
+      const Ledger ledger = after_collision(model, 4e-6);
+      INFO("surface energy " << gamma << " friction of the " << (basis == FrictionBasis::total ? "total" : "elastic"));
+      CHECK(ledger.heat_bridges > 0);
+      CHECK(std::fabs(ledger.error()) < 2e-3 * ledger.put_in());
+    }
+}
+
 TEST_CASE("the ledger's error falls with the square of the step") {
   const ContactModel model = soft(0.3, 0.5, RollingModel::none);
   const double coarse = std::fabs(after_collision(model, 4e-5).error());
