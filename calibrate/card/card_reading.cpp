@@ -115,13 +115,14 @@ void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
   for (const auto& kind : parameter_kinds()) {
     Parameter parameter;
     parameter.name = kind.name;
+    parameter.value = kind.usual;
     parameter.scale = kind.scale;
     parameters.push_back(parameter);
   }
   card.object("parameters", kRequired, [&](ObjectReader& reader) {
     for (auto& parameter : parameters) {
       const auto& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
-      reader.number(parameter.name, parameter.value, {kind.smallest, kind.largest}, kRequired);
+      reader.number(parameter.name, parameter.value, {kind.smallest, kind.largest}, kOptional);
     }
   });
   card.object("free", kRequired, [&](ObjectReader& reader) {

@@ -1,9 +1,12 @@
 #include "calibrate/store/outcome_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
@@ -23,6 +26,25 @@ double number_from_json(const json& in) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
   if (text == "-inf") return -std::numeric_limits<double>::infinity();
   throw std::invalid_argument("'" + text + "' is not a number");
+}
+
+json parameters_to_json(std::span<const double> values) {
+  const auto kinds = parameter_kinds();
+  json out = json::object();
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (values[i] != kinds[i].usual) out[std::string(kinds[i].name)] = values[i];
+  return out;
+}
+
+std::vector<double> parameters_from_json(const json& in) {
+  std::vector<double> values = usual_values();
+  const auto kinds = parameter_kinds();
+  for (const auto& [name, value] : in.items()) {
+    const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
+    if (kind == kinds.end()) throw std::invalid_argument("'" + name + "' is not a parameter");
+    values[static_cast<std::size_t>(kind - kinds.begin())] = value.get<double>();
+  }
+  return values;
 }
 
 ordered_json to_json(const Observables& observables) {

@@ -2,16 +2,23 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 
-/// The JSON form of what a simulation answers, as the store keeps it and `simulate --json` prints it.
+/// The JSON form of what a simulation was asked and answers, as the store keeps it and `simulate --json` prints it.
 /// Doubles survive the round trip through text bit for bit; the non-finite ones, for which JSON has no number, are
 /// the strings "nan", "inf" and "-inf".
 nlohmann::ordered_json number_to_json(double value);
 double number_from_json(const nlohmann::json& in);
+
+/// The parameters that do not have their usual value, {"friction": 0.15, ...}, and all of them from it. Shape: one
+/// value for each of `parameter_kinds()`.
+nlohmann::json parameters_to_json(std::span<const double> values);
+std::vector<double> parameters_from_json(const nlohmann::json& in);
 
 /// {"step1.height_mm": 101.5, ...}, in the order in which the readings were taken.
 nlohmann::ordered_json to_json(const Observables& observables);

@@ -15,7 +15,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
 
 std::string text_of(const std::vector<double>& numbers) {
@@ -95,7 +95,7 @@ StoredEvaluation evaluation_of(const Row& row) {
   out.key = row.at(0);
   out.epoch = std::stoi(row.at(1));
   out.point = numbers_of(row.at(2));
-  out.values = numbers_of(row.at(3));
+  out.values = parameters_from_json(nlohmann::json::parse(row.at(3)));
   out.packing = std::stoull(row.at(4));
   out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(5)));
   out.failure = failure_from_json(nlohmann::json::parse(row.at(6)));
@@ -108,7 +108,13 @@ StoredEvaluation evaluation_of(const Row& row) {
 }  // namespace
 
 std::string evaluation_key(std::string_view program, const SlumpTable& test) {
-  const nlohmann::json key{program, to_json(test)};
+  // Usual is a test of all parts, so that a field that is added to one of them changes no key either.
+  static const nlohmann::json usual = [] {
+    SlumpTable whole;
+    whole.drop.emplace();
+    return to_json(whole);
+  }();
+  const nlohmann::json key{program, differing_part(to_json(test), usual)};
   return content_hash(key.dump());
 }
 
@@ -194,8 +200,9 @@ Faults Store::add(const StoredEvaluation& evaluation) {
     state_->database.run(
         "INSERT INTO evaluations (key, epoch, point, parameter_values, packing, observables, failure, run)"
         " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-        {evaluation.key, std::to_string(state_->epoch), text_of(evaluation.point), text_of(evaluation.values),
-         std::to_string(evaluation.packing), to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
+        {evaluation.key, std::to_string(state_->epoch), text_of(evaluation.point),
+         parameters_to_json(evaluation.values).dump(), std::to_string(evaluation.packing),
+         to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
          to_json(evaluation.run, evaluation.wall_s).dump()});
     if (!state_->begun)
       state_->database.run("INSERT INTO inputs VALUES (?, ?)",

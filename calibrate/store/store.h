@@ -32,8 +32,9 @@ struct StoredEvaluation {
   double wall_s = 0;  ///< time the simulation took
 };
 
-/// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of the whole test (its packing seed
-/// included), as 16 hexadecimal digits. Two evaluations with the same key are
+/// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of all that the test (its packing seed
+/// included) has different from the usual one, as 16 hexadecimal digits: what is added to tests and has its usual value
+/// here, a parameter or an optional field, leaves the name as it was. Two evaluations with the same key are
 /// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured
 /// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation
 /// outlives a change of these.
@@ -44,8 +45,9 @@ std::string evaluation_key(std::string_view program, const SlumpTable& test);
 /// machine. Safe to use from several threads; for one process at a time.
 ///
 /// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
-/// failure, run; point to run as JSON text with doubles that read back bit for bit. Table `identity`: the program.
-/// Table `inputs`: epoch, content; one row for each change of the study or its laboratory files.
+/// failure, run; point to run as JSON text with doubles that read back bit for bit, the parameters by name, those only
+/// that do not have their usual value. Table `identity`: the program. Table `inputs`: epoch, content; one row for each
+/// change of the study or its laboratory files.
 ///
 /// A search that goes on after such a change knows the evaluations of earlier epochs from the start; those of its own
 /// epoch only answer when it asks for them again, so that a run that was killed takes the same way.

@@ -11,7 +11,7 @@ namespace {
 constexpr Scale linear = Scale::linear;
 constexpr Scale logarithmic = Scale::logarithmic;
 
-// The order is part of the format of stored evaluations: add new kinds at the end, and to `Slot`.
+// Files and stored evaluations know a parameter by its name; the order is that of tables for people.
 constexpr std::array<ParameterKind, 15> kinds{{
     {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
@@ -30,27 +30,12 @@ constexpr std::array<ParameterKind, 15> kinds{{
     {"mould_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the mould"},
 }};
 
-/// Places of the parameters in a list of values. A scope of its own: their names are those of functions elsewhere.
-namespace slot {
-enum Slot : std::size_t {
-  strength,
-  rupture_force,
-  curvature,
-  rupture_gap,
-  offset,
-  friction,
-  rolling_friction,
-  restitution,
-  youngs_modulus,
-  poissons_ratio,
-  cohesion,
-  mould_friction,
-  table_friction,
-  table_cohesion,
-  mould_cohesion
-};
+/// The place of a parameter in a list of values. A name that there is not does not compile.
+consteval std::size_t at(std::string_view name) {
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (kinds[i].name == name) return i;
+  throw "no such parameter";
 }
-static_assert(slot::mould_cohesion + 1 == kinds.size());
 
 }  // namespace
 
@@ -103,30 +88,31 @@ SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
   const double radius = test.grains.radius_m;
 
   Bridge& bridge = test.contact.bridge;
-  const double c = values[slot::strength] * radius * radius;
-  const double k = values[slot::curvature];
-  const double lost = 1 - values[slot::rupture_force];  // share of the attraction that is gone when the bridge ruptures
-  double gap = values[slot::rupture_gap];
-  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[slot::offset]);
+  const double c = values[at("strength_pa")] * radius * radius;
+  const double k = values[at("curvature")];
+  const double lost =
+      1 - values[at("rupture_force_ratio")];  // share of the attraction that is gone when the bridge ruptures
+  double gap = values[at("rupture_gap_ratio")];
+  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[at("offset_ratio")]);
   const double d_c = -gap * radius;
   bridge.shape = BridgeShape::polynomial;
   bridge.a_n_m2 = k * lost * c / (d_c * d_c);
   bridge.b_n_m = lost * (1 + k) * c / -d_c;
   bridge.c_n = c;
   bridge.d_c_m = d_c;
-  bridge.offset_m = values[slot::offset] * radius;
+  bridge.offset_m = values[at("offset_ratio")] * radius;
 
   ContactModel& contact = test.contact;
-  contact.friction = values[slot::friction];
-  contact.rolling_friction = values[slot::rolling_friction];
-  contact.restitution = values[slot::restitution];
-  contact.youngs_modulus_pa = values[slot::youngs_modulus];
-  contact.poissons_ratio = values[slot::poissons_ratio];
-  contact.cohesion_n = values[slot::cohesion] * c;
-  test.mould_wall.friction = values[slot::mould_friction];
-  test.mould_wall.cohesion_factor = values[slot::mould_cohesion];
-  test.table_wall.friction = values[slot::table_friction];
-  test.table_wall.cohesion_factor = values[slot::table_cohesion];
+  contact.friction = values[at("friction")];
+  contact.rolling_friction = values[at("rolling_friction")];
+  contact.restitution = values[at("restitution")];
+  contact.youngs_modulus_pa = values[at("youngs_modulus_pa")];
+  contact.poissons_ratio = values[at("poissons_ratio")];
+  contact.cohesion_n = values[at("cohesion_ratio")] * c;
+  test.mould_wall.friction = values[at("mould_friction")];
+  test.mould_wall.cohesion_factor = values[at("mould_cohesion_factor")];
+  test.table_wall.friction = values[at("table_friction")];
+  test.table_wall.cohesion_factor = values[at("table_cohesion_factor")];
   return test;
 }
 

@@ -132,6 +132,19 @@ json to_json(const SlumpTable& test) {
   return document;
 }
 
+json differing_part(const json& value, const json& usual) {
+  if (!value.is_object() || !usual.is_object()) return value;
+  json part = json::object();
+  for (const auto& [key, member] : value.items()) {
+    const auto known = usual.find(key);
+    if (known == usual.end())
+      part[key] = member;
+    else if (member != *known)
+      part[key] = differing_part(member, *known);
+  }
+  return part;
+}
+
 Result<SlumpTable> slump_table_from_json(const json& document) {
   if (!document.is_object()) return Fault{"", "a slump test must be an object", "write { ... }"};
   SlumpTable test;

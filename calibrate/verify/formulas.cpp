@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/verify/jkr.h"
+#include "calibrate/verify/jkr_theory.h"
 #include "core/laws/constants.h"
 #include "core/rigs/impact/approach.h"
 

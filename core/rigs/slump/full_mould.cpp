@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kCap = 0.6;    // [s] for the column to come to rest
+constexpr double kCap = 0.6;    // [s] for the column to be enlarged
 constexpr double kLook = 0.02;  // [s] between two changes of size
 // [1/s]. The grains feel their cohesion all at once; without drag the column would swing like a jelly for seconds.
 constexpr double kDrag = 40;
@@ -60,15 +60,16 @@ Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOpti
   const Mould& mould = test.mould;
   const double width = mould.base_radius_m + mould.top_radius_m;
   double size = 1;
-  int even = 0;  // looks in a row
-  for (double waited = 0; waited < kCap && even < 2; waited += kLook) {
+  int even = 0;  // looks in a row; what is lifted has had two of them to come to rest at its last size
+  for (double waited = 0; even < 2; waited += kLook) {
     full.failure = runner.run("fill.settle", kLook);
     if (full.failure) break;
     const Fit fit = fit_of(mould, world.particles, test.grains.radius_m * size);
     const double missing_height = (fit.roughness_m - packing.roughness_m) / mould.height_m;
     const double missing_width = 2 * (fit.gap_m - packing.gap_m) / width;
     const double missing = (missing_height + 2 * missing_width) / 3;
-    even = std::fabs(missing) < kEven ? even + 1 : 0;
+    even = std::fabs(missing) < kEven || waited > kCap ? even + 1 : 0;
+    if (even > 0) continue;
     const double growth = std::clamp(kShare * missing, -kMostGrowth, kMostGrowth);
     enlarge(world.particles, 1 + growth);
     runner.changed();

@@ -237,9 +237,9 @@ Filling filling_of(const SlumpTable& test) {
 
 std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& asked) {
   RunOptions options = asked;
-  // A fixed step and sleep are meant for the test; the fill is always the same.
+  // A fixed step, sleep and the ledger are meant for the test; the packing is always the same.
   options.steps.fixed_step_s.reset();
-  options.steps.sleep = false;
+  options.steps.sleep = options.steps.ledger = false;
   const double swelling = options.own_fill ? 1 : 1 + filling_of(test).squeeze;
   SlumpTable poured = test;
   poured.grains = enlarged(test.grains, 1 / swelling);

@@ -87,9 +87,19 @@ TEST_CASE("a card states differences and standard errors") {
   CHECK(document["observables"]["step1.spread_mm"]["measured"].is_null());
 }
 
+TEST_CASE("a parameter that a card does not name has its usual value") {
+  auto document = text_and_back(to_json(card()));
+  for (const auto* name : {"curvature", "mould_cohesion_factor"}) document["parameters"].erase(name);
+  const auto read = card_from_json(document);
+  REQUIRE(read.ok());
+  CHECK(to_json(read.value()).dump() == to_json(card()).dump());
+  document["parameters"].erase("strength_pa");  // it was fitted: the laws in SI say another one
+  CHECK_FALSE(card_from_json(document).ok());
+}
+
 TEST_CASE("a card with faults names every one of them with its place") {
   auto document = text_and_back(to_json(card()));
-  document["parameters"].erase("curvature");
+  document["parameters"]["curvature"] = "flat";
   document["test"]["grains"]["radius_m"] = "8 mm";
   document["search"]["sead"] = 3;
   document["confirmation"]["packings"] = {1, -2};

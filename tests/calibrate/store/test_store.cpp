@@ -11,10 +11,14 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
+#include "calibrate/store/outcome_json.h"
 #include "calibrate/store/store.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/slump_table_json.h"
 #include "tests/calibrate/folder.h"
 
 using namespace pastefit;
@@ -29,7 +33,9 @@ const StoreIdentity kIdentity{"pastefit 0.1.0 engine abc",
 StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   StoredEvaluation out;
   out.point = {value, 0.1 + 0.2};
-  out.values = {value * 3000, 1.0 / 3};
+  out.values = usual_values();
+  out.values[0] = value * 3000;
+  out.values[5] = 1.0 / 3;
   out.packing = packing;
   SlumpTable test;
   test.contact.friction = value;
@@ -97,6 +103,43 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   CHECK(found->run.particle_steps == kept.run.particle_steps);
   CHECK(same_bits(found->run.time_step_s, kept.run.time_step_s));
   CHECK(same_bits(found->wall_s, kept.wall_s));
+}
+
+TEST_CASE("parameters are kept by name, those that are not usual, and one that is absent has its usual value") {
+  auto values = usual_values();
+  values[0] = 1234.5;
+  values[5] = 1.0 / 3;
+  const nlohmann::json kept = parameters_to_json(values);
+  CHECK(kept == nlohmann::json{{"friction", 1.0 / 3}, {"strength_pa", 1234.5}});
+  CHECK(parameters_from_json(kept) == values);
+  CHECK(parameters_from_json(nlohmann::json::object()) == usual_values());
+  CHECK_THROWS_AS(parameters_from_json({{"stickiness", 1}}), std::invalid_argument);
+}
+
+TEST_CASE("a field that is added with its usual value leaves the name of an evaluation as it was") {
+  SlumpTable test, usual;
+  test.contact.friction = 0.15;
+  test.drop.emplace().mass_kg = 12;
+  usual.drop.emplace();
+  const auto before = differing_part(to_json(test), to_json(usual));
+  CHECK(before == nlohmann::json{{"contact", {{"friction", 0.15}}}, {"drop", {{"mass_kg", 12.0}}}});
+  auto larger_test = to_json(test), larger_usual = to_json(usual);
+  for (auto* one : {&larger_test, &larger_usual}) {
+    (*one)["contact"]["throwaway"] = 0.7;
+    (*one)["drop"]["bounces"] = nullptr;
+    (*one)["reading"]["outline_step3_m"] = nlohmann::json::array();
+  }
+  CHECK(differing_part(larger_test, larger_usual) == before);
+  larger_test["contact"]["throwaway"] = 0.8;
+  CHECK(differing_part(larger_test, larger_usual) != before);
+  // What tells tests apart tells their names apart.
+  const auto key = [](const SlumpTable& one) { return evaluation_key("program", one); };
+  SlumpTable without = test, outlined = test;
+  without.drop.reset();
+  outlined.reading.outline_step1 = {{-0.1, 0}, {0.1, 0}};
+  SlumpTable usual_plate = test;
+  usual_plate.drop = DropPlate{};
+  CHECK(std::set{key(test), key(without), key(outlined), key(usual_plate)}.size() == 4);
 }
 
 TEST_CASE("a failure keeps its reason and its values, finite or not") {

@@ -1,4 +1,4 @@
-#include "calibrate/verify/jkr.h"
+#include "calibrate/verify/jkr_theory.h"
 
 #include <cmath>
 #include <numbers>

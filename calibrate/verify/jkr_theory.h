@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rigs/approach.h"
+#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
 
