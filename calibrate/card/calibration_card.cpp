@@ -129,7 +129,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   card.observables = observables_of(study, 0, runs);
   for (const auto& observable : card.observables)
     if (observable.name == "fill.solid_fraction")
-      card.grain_density_kg_m3 = card.test.bulk_density_kg_m3 / observable.simulated;
+      card.grain_density_kg_m3 = specimen_of(card.test).bulk_density_kg_m3 / observable.simulated;
   for (std::size_t i = 1; i < study.tests.size(); ++i)
     card.further.push_back(further_of(study, i, values, shown.packings, store));
 

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card_versions.h"
-#include "calibrate/study/names.h"
-#include "calibrate/study/slump_table_json.h"
+#include "calibrate/laboratory/names.h"
+#include "calibrate/laboratory/test.h"
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
@@ -36,13 +37,11 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
 
 /// What the fit was made for; a use far from it is an extrapolation.
 ordered_json conditions_to_json(const Card& card) {
-  constexpr double kGravity = 9.81;
-  const auto& grains = card.test.grains;
+  const auto& grains = specimen_of(card.test).grains;
   const bool mono = grains.distribution == SizeDistribution::mono;
   ordered_json out;
   out["grain_radius_m"] = {mono ? grains.radius_m : grains.smallest_m, mono ? grains.radius_m : grains.largest_m};
-  out["lift_velocity_m_s"] = card.test.lift_velocity_m_s;
-  out["largest_pressure_pa"] = card.test.bulk_density_kg_m3 * kGravity * card.test.mould.height_m;
+  out.update(conditions_of(card.test));
   for (const auto& observable : card.observables)
     if (observable.measured && observable.weight > 0) out["fitted"][observable.name] = *observable.measured;
   return out;
@@ -136,7 +135,8 @@ ordered_json to_json(const Card& card) {
   ordered_json out;
   out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
   out["title"] = card.title;
-  out["material"] = {{"bulk_density_kg_m3", card.test.bulk_density_kg_m3}, {"grain_density_kg_m3", nullptr}};
+  out["material"] = {{"bulk_density_kg_m3", specimen_of(card.test).bulk_density_kg_m3},
+                     {"grain_density_kg_m3", nullptr}};
   if (card.grain_density_kg_m3) out["material"]["grain_density_kg_m3"] = *card.grain_density_kg_m3;
   out["conditions"] = conditions_to_json(card);
   out["test"] = to_json(card.test);

@@ -44,7 +44,7 @@ struct CardTest {
   bool hold_out = false;  ///< predicted, not fitted
   std::string lab_file, lab_hash;
   Provenance lab;
-  SlumpTable test;  ///< with the same material in its own grains
+  Test test;  ///< with the same material in its own grains
   std::vector<CardObservable> observables;
   std::optional<bool> within_noise;  ///< of a hold-out: every reading that counts lies within its band
   Baseline baseline;                 ///< no runs: `observables` stand in
@@ -130,7 +130,7 @@ struct Rescaling {
 /// comes from. File format "pastefit-card-3", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
-  SlumpTable test;                            ///< apparatus, grains and contact laws, in SI
+  Test test;                            ///< apparatus, grains and contact laws, in SI
   std::optional<double> grain_density_kg_m3;  ///< of the grains, such that the mould holds the bulk density
   std::vector<Parameter> parameters;          ///< scale-free, every known one, in the order of `parameter_kinds`
   std::vector<CardObservable> observables;
@@ -149,7 +149,7 @@ struct Card {
 struct TestOfCard {
   std::string prefix;  ///< of its readings where there are several tests, e.g. "tall mould: "; empty for the card's own
   bool fitted = true;
-  SlumpTable& test;
+  Test& test;
   std::vector<CardObservable>& observables;
   Baseline& baseline;
 };

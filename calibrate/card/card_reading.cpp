@@ -5,11 +5,10 @@
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
 #include "calibrate/card/two_forms.h"
-#include "calibrate/study/json_reader.h"
-#include "calibrate/study/names.h"
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/slump_table_json.h"
-#include "core/rigs/slump/slump_readings.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -43,14 +42,16 @@ CardObservable read_observable(ObjectReader& reader, const Range& range, std::st
 
 /// What a simulation can read, in the test of a card. Heaps of coarse grains leave the range of a laboratory by some: a
 /// spread begins at nothing, and everything may be half as large again. Any number for readings this program has not.
-Range simulated_range(const std::string& name, const SlumpTable* test) {
-  const ReadingKind* kind = reading_kind(name);
-  if (!kind || !test) return kAny;
-  const auto [smallest, largest] = kind->possible(*test);
+Range simulated_range(const std::string& name, const Test* test) {
+  if (!test) return kAny;
+  const auto kinds = reading_kinds(*test);
+  const ReadingKind* kind = find_kind(kinds, name);
+  if (!kind) return kAny;
+  const auto [smallest, largest] = kind->possible;
   return {1.5 * std::min(smallest, 0.0), 1.5 * largest};
 }
 
-void read_observables(ObjectReader& card, const json& document, const SlumpTable* test,
+void read_observables(ObjectReader& card, const json& document, const Test* test,
                       std::vector<CardObservable>& target) {
   card.object("observables", kRequired, [&](ObjectReader& observables) {
     for (const auto& [name, value] : document["observables"].items())
@@ -61,8 +62,8 @@ void read_observables(ObjectReader& card, const json& document, const SlumpTable
 }
 
 /// A test with a reader of its own, which knows its fields; whether it could be read.
-bool read_test(const json& document, const std::string& place, SlumpTable& target, Faults& faults) {
-  const auto test = slump_table_from_json(document.is_object() ? document.value("test", json()) : json());
+bool read_test(const json& document, const std::string& place, Test& target, Faults& faults) {
+  const auto test = test_from_json(document.is_object() ? document.value("test", json()) : json());
   if (test.ok()) target = test.value();
   if (test.ok()) return true;
   for (const auto& fault : test.faults())
@@ -79,7 +80,7 @@ void read_lab_provenance(ObjectReader& reader, Provenance& target) {
   });
 }
 
-void read_baseline(ObjectReader& reader, const json& document, const SlumpTable* test, Baseline& baseline) {
+void read_baseline(ObjectReader& reader, const json& document, const Test* test, Baseline& baseline) {
   reader.text("program", baseline.program, kRequired);
   reader.text("machine", baseline.machine, kRequired);
   std::vector<std::uint64_t> packings;
@@ -104,7 +105,7 @@ void read_further(ObjectReader& reader, const json& document, CardTest& test) {
   read_lab_provenance(reader, test.lab);
   reader.known("test");
   const bool has_test = read_test(document, reader.place("test"), test.test, reader.faults());
-  const SlumpTable* ranges = has_test ? &test.test : nullptr;
+  const Test* ranges = has_test ? &test.test : nullptr;
   read_observables(reader, document, ranges, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
   reader.object("baseline", kOptional,
@@ -261,7 +262,7 @@ Result<Card> card_from_json(const json& document) {
   Card card;
   Faults faults;
   const json& rest = upgraded.value();
-  const SlumpTable* ranges = read_test(rest, "test", card.test, faults) ? &card.test : nullptr;
+  const Test* ranges = read_test(rest, "test", card.test, faults) ? &card.test : nullptr;
   {
     ObjectReader reader(rest, "", faults);
     reader.known("format");

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "calibrate/card/card.h"
-#include "calibrate/study/json_document.h"
+#include "calibrate/base/json_document.h"
 
 namespace pastefit {
 

@@ -3,12 +3,13 @@
 namespace pastefit {
 
 Result<Card> rescaled(Card card, double radius) {
-  const double s = radius / card.test.grains.radius_m;
-  card.rescaled.push_back({card.test.grains.radius_m, {}});
+  const double s = radius / specimen_of(card.test).grains.radius_m;
+  card.rescaled.push_back({specimen_of(card.test).grains.radius_m, {}});
   Faults all;
   for (const auto& [prefix, fitted, test, observables, baseline] : tests_of(card)) {
-    test.grains = enlarged(test.grains, s);
-    test.contact = enlarged(test.contact, s);
+    Specimen& specimen = specimen_of(test);
+    specimen.grains = enlarged(specimen.grains, s);
+    specimen.contact = enlarged(specimen.contact, s);
     observables.clear();
     baseline = {};
     for (Fault fault : validate(test)) {
@@ -17,7 +18,7 @@ Result<Card> rescaled(Card card, double radius) {
     }
   }
   if (!all.empty()) return all;
-  card.test.grains.radius_m = radius;  // s rounds
+  specimen_of(card.test).grains.radius_m = radius;  // s rounds
   for (auto& test : card.further) test.within_noise.reset();
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = false;

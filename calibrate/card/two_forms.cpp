@@ -1,8 +1,9 @@
 #include "calibrate/card/two_forms.h"
 
-#include <array>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "calibrate/base/format.h"
 #include "calibrate/study/parameters.h"
@@ -11,26 +12,28 @@ namespace pastefit {
 
 namespace {
 
-using Numbers = std::array<std::pair<const char*, double>, 15>;
+using Numbers = std::vector<std::pair<std::string, double>>;
 
-Numbers numbers_of(const SlumpTable& test) {
-  const ContactModel& contact = test.contact;
+Numbers numbers_of(Test test) {
+  const ContactModel& contact = specimen_of(test).contact;
   const Bridge& bridge = contact.bridge;
-  return {{{"test.contact.bridge.a_n_m2", bridge.a_n_m2},
-           {"test.contact.bridge.b_n_m", bridge.b_n_m},
-           {"test.contact.bridge.c_n", bridge.c_n},
-           {"test.contact.bridge.d_c_m", bridge.d_c_m},
-           {"test.contact.bridge.offset_m", bridge.offset_m},
-           {"test.contact.cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},
-           {"test.contact.friction", contact.friction},
-           {"test.contact.rolling_friction", contact.rolling_friction},
-           {"test.contact.restitution", contact.restitution},
-           {"test.contact.youngs_modulus_pa", contact.youngs_modulus_pa},
-           {"test.contact.poissons_ratio", contact.poissons_ratio},
-           {"test.mould_wall.friction", test.mould_wall.friction},
-           {"test.mould_wall.cohesion_factor", test.mould_wall.cohesion_factor},
-           {"test.table_wall.friction", test.table_wall.friction},
-           {"test.table_wall.cohesion_factor", test.table_wall.cohesion_factor}}};
+  Numbers numbers{{"test.contact.bridge.a_n_m2", bridge.a_n_m2},
+                  {"test.contact.bridge.b_n_m", bridge.b_n_m},
+                  {"test.contact.bridge.c_n", bridge.c_n},
+                  {"test.contact.bridge.d_c_m", bridge.d_c_m},
+                  {"test.contact.bridge.offset_m", bridge.offset_m},
+                  {"test.contact.cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},
+                  {"test.contact.friction", contact.friction},
+                  {"test.contact.rolling_friction", contact.rolling_friction},
+                  {"test.contact.restitution", contact.restitution},
+                  {"test.contact.youngs_modulus_pa", contact.youngs_modulus_pa},
+                  {"test.contact.poissons_ratio", contact.poissons_ratio}};
+  for (const Surface& surface : surfaces_of(test)) {
+    const std::string place = "test." + std::string(surface.name) + "_wall.";
+    numbers.emplace_back(place + "friction", surface.contact.friction);
+    numbers.emplace_back(place + "cohesion_factor", surface.contact.cohesion_factor);
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -38,10 +41,10 @@ Numbers numbers_of(const SlumpTable& test) {
 Faults differing_forms(const Card& card) {
   std::vector<double> values;
   for (const Parameter& parameter : card.parameters) values.push_back(parameter.value);
-  const SlumpTable from_parameters = with_contact_of(card.test, values);
+  const Test from_parameters = with_contact_of(card.test, values);
   const Numbers in_si = numbers_of(card.test), expected = numbers_of(from_parameters);
   // Of numbers that are small differences of larger ones, such as a, nine digits of the larger ones.
-  const Bridge& bridge = from_parameters.contact.bridge;
+  const Bridge& bridge = specimen_of(from_parameters).contact.bridge;
   const double curvature = bridge.c_n / (bridge.d_c_m * bridge.d_c_m), slope = bridge.c_n / -bridge.d_c_m;
   Faults faults;
   for (std::size_t i = 0; i < in_si.size(); ++i) {

@@ -11,9 +11,8 @@
 #include "calibrate/check/law.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/study/parameters.h"
-#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -22,8 +21,9 @@ namespace {
 constexpr std::ptrdiff_t kQuickPackings = 2;
 
 /// Whether a reading says something of its own.
-bool is_checked(const std::string& name) {
-  const ReadingKind* kind = reading_kind(name);
+bool is_checked(const Test& test, const std::string& name) {
+  const auto kinds = reading_kinds(test);
+  const ReadingKind* kind = find_kind(kinds, name);
   return kind && kind->checked;
 }
 
@@ -37,14 +37,14 @@ std::vector<Promise> promises_of(const Card& card, const TestOfCard& test) {
   std::vector<Promise> out;
   if (test.baseline.runs.empty()) {
     for (const auto& observable : test.observables)
-      if (is_checked(observable.name))
+      if (is_checked(test.test, observable.name))
         out.push_back({observable.name,
                        {static_cast<int>(card.confirmation.packings.size()), observable.simulated,
                         observable.simulated_standard_deviation}});
     return out;
   }
   for (const auto& [name, value] : test.baseline.runs[0].observables.all())
-    if (is_checked(name)) out.push_back({name, sample_of(column_of(test.baseline.runs, name))});
+    if (is_checked(test.test, name)) out.push_back({name, sample_of(column_of(test.baseline.runs, name))});
   return out;
 }
 
@@ -97,6 +97,24 @@ std::optional<std::string> run_test(const TestOfCard& test, const std::vector<st
   auto failure = keep_runs(packings, outcomes, now);
   if (failure) *failure = test.prefix + *failure;
   return failure;
+}
+
+/// The laboratory's test with the card's grains and contact laws; its surfaces are the card's, where that has them, or
+/// else as the card's parameters say.
+Test with_material_of(const Card& card, Test test) {
+  std::vector<double> values;
+  for (const Parameter& parameter : card.parameters) values.push_back(parameter.value);
+  Specimen& specimen = specimen_of(test);
+  const Specimen& material = specimen_of(card.test);
+  specimen.grains = material.grains;
+  test = with_contact_of(std::move(test), values);
+  specimen.contact = material.contact;
+  specimen.packing_seed = material.packing_seed;
+  Test of_card = card.test;
+  for (const Surface& surface : surfaces_of(test))
+    for (const Surface& known : surfaces_of(of_card))
+      if (known.name == surface.name) surface.contact = known.contact;
+  return test;
 }
 
 void judge(CardCheck& out, const CheckOptions& options) {
@@ -176,7 +194,7 @@ CardCheck check(const Card& given, const CheckOptions& options, const CheckEngin
     }
     bits.push_back(compare_bits(test.baseline, now));
   }
-  for (auto& reading : check_law(card.test, engine)) out.readings.push_back(std::move(reading));
+  for (auto& reading : check_law(specimen_of(card.test), engine)) out.readings.push_back(std::move(reading));
   out.bits = all_of(bits);
   judge(out, options);
   return out;
@@ -186,18 +204,13 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   CardCheck out;
   out.card = card.title;
   out.false_alarm = options.false_alarm;
-  SlumpTable test = lab.test;
-  test.grains = card.test.grains;
-  test.contact = card.test.contact;
-  test.mould_wall = card.test.mould_wall;
-  test.table_wall = card.test.table_wall;
-  test.packing_seed = card.test.packing_seed;
+  Test test = with_material_of(card, lab.test);
   if (const auto faults = validate(test); !faults.empty()) {
     out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
     return out;
   }
   auto packings = packings_of(card, card.baseline);
-  if (packings.size() < 2) packings = {test.packing_seed, test.packing_seed + 1};
+  if (packings.size() < 2) packings = {specimen_of(test).packing_seed, specimen_of(test).packing_seed + 1};
   if (options.quick) keep_quick(packings);
   const auto outcomes = run_packings(test, packings, engine, options.threads);
   out.simulations = static_cast<int>(outcomes.size());

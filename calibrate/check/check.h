@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "calibrate/card/card.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_test.h"
+#include "calibrate/laboratory/engine.h"
 
 namespace pastefit {
 
@@ -17,10 +16,8 @@ struct Impact;
 /// `simulate` of an impact.
 Outcome simulate_impact(const Impact& test);
 
-/// What a check asks of the engine, and what the engine is called. A test may put a spoiled one in its place.
-struct CheckEngine {
-  std::function<std::shared_ptr<const Packing>(const SlumpTable&, const RunOptions&)> fill = fill_mould;
-  std::function<Outcome(const SlumpTable&, const RunOptions&)> run = simulate;
+/// What a check asks of the engine besides, and what the engine is called.
+struct CheckEngine : Engine {
   std::function<Outcome(const Impact&)> meet = simulate_impact;
   std::string program, machine;  ///< as in `Baseline`
   /// The program this is, on this machine.
@@ -78,7 +75,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
 
 /// Judges the material by other readings of a laboratory: its contact laws and grains in that laboratory's test,
 /// against the readings, within the noise of both (`unequal_band_of`).
-/// Not checked: the card's grains do not fit the laboratory's mould.
+/// Not checked: the card's grains do not fit the laboratory's test.
 CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& options,
                         const CheckEngine& engine = CheckEngine::ours());
 

@@ -12,7 +12,7 @@ Outcome simulate_impact(const Impact& test) {
   return simulate(test);
 }
 
-std::vector<CheckedReading> check_law(const SlumpTable& test, const CheckEngine& engine) {
+std::vector<CheckedReading> check_law(const Specimen& test, const CheckEngine& engine) {
   const double radius = test.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
   const double reach = bridge_gaps(test.contact, pair).rupture_m;

@@ -8,16 +8,16 @@
 
 namespace pastefit {
 
-std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
+std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads) {
   std::vector<Outcome> outcomes(packings.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < packings.size(); i = next++) {
-      SlumpTable one = test;
-      one.packing_seed = packings[i];
+      Test one = test;
+      specimen_of(one).packing_seed = packings[i];
       RunOptions options;
-      options.packing = engine.fill(one, {});
+      options.packing = engine.prepare(one, {});
       outcomes[i] = engine.run(one, options);
     }
   };

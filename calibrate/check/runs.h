@@ -8,7 +8,7 @@
 namespace pastefit {
 
 /// Runs `test` in each packing; in parallel, answers in order.
-std::vector<Outcome> run_packings(const SlumpTable& test, const std::vector<std::uint64_t>& packings,
+std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads);
 
 /// The values of one reading, in the order of the runs.

@@ -19,7 +19,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"

@@ -9,7 +9,7 @@
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 

@@ -13,7 +13,7 @@
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

@@ -8,7 +8,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 
@@ -49,7 +49,7 @@ int export_card(const ExportOptions& options) {
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   if (!faults.empty()) return report(faults);
 
-  const auto scene = export_scene(card.value(), options.packing.value_or(card.value().test.packing_seed));
+  const auto scene = export_scene(card.value(), options.packing.value_or(specimen_of(card.value().test).packing_seed));
   if (!scene.ok()) return report(scene.faults(), kFailed);
   const auto written = exporter->write(scene.value());
   if (!written.ok()) return report(written.faults());

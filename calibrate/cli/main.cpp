@@ -5,7 +5,7 @@
 
 #include "calibrate/cli/commands.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "core/step/kernels.h"
 
 namespace pastefit {

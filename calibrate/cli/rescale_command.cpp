@@ -30,7 +30,7 @@ double work_ratio(double from_m, double to_m) {
 int rescale(const RescaleOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
-  const double radius = options.radius_mm / 1e3, old_radius = card.value().test.grains.radius_m;
+  const double radius = options.radius_mm / 1e3, old_radius = specimen_of(card.value().test).grains.radius_m;
   auto result = rescaled(card.value(), radius);
   if (!result.ok()) return report(result.faults());
   if (options.packings > 0) {

@@ -7,7 +7,7 @@
 #include "calibrate/card/card.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/study/impact_json.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
@@ -102,12 +102,12 @@ auto read_with(json document, const Settings& settings, const std::filesystem::p
   return result;
 }
 
-SlumpTable with_parameters(const SlumpTable& test, std::vector<double> values, const Settings& settings) {
+Test with_parameters(const Test& test, std::vector<double> values, const Settings& settings) {
   for (const auto& [index, value] : settings.parameters) values[index] = value;
   return with_contact_of(test, values);
 }
 
-std::optional<SlumpTable> study_scene(const json&, const Settings& settings, const std::filesystem::path& file,
+std::optional<Test> study_scene(const json&, const Settings& settings, const std::filesystem::path& file,
                                       Faults& faults) {
   const auto study = read_study(file);
   if (!study.ok()) {
@@ -122,15 +122,15 @@ std::optional<SlumpTable> study_scene(const json&, const Settings& settings, con
     const auto changed = read_with(*lab, settings, lab_file, faults,
                                    [&](const json& content) { return lab_from_json(content, lab_file.parent_path()); });
     if (!changed.ok()) return std::nullopt;
-    const auto contact = test.contact;  // the study's choice of laws
+    const auto contact = specimen_of(test).contact;  // the study's choice of laws
     test = changed.value().test;
-    test.contact = contact;
+    specimen_of(test).contact = contact;
   }
   const UnitPoint middle = UnitPoint::Constant(free_count(study.value()), 0.5);
   return with_parameters(test, values_at(study.value(), middle), settings);
 }
 
-std::optional<SlumpTable> card_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
+std::optional<Test> card_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
                                      Faults& faults) {
   const auto card = read_with(document, settings, file, faults, card_from_json);
   if (!card.ok()) return std::nullopt;
@@ -140,7 +140,7 @@ std::optional<SlumpTable> card_scene(const json& document, const Settings& setti
   return with_parameters(card.value().test, std::move(values), settings);
 }
 
-std::optional<SlumpTable> slump_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
+std::optional<Test> test_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
                                       Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, file, faults);
@@ -176,7 +176,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<st
     if (!faults.empty()) return faults;
     return Scene(impact.value());
   }
-  const auto test = slump_scene(*document, settings, file, faults);
+  const auto test = test_scene(*document, settings, file, faults);
   if (test && faults.empty()) faults = in_file(validate_in_file_words(*test), file);
   if (!faults.empty()) return faults;
   return Scene(*test);

@@ -5,20 +5,20 @@
 #include <variant>
 #include <vector>
 
+#include "calibrate/laboratory/test.h"
 #include "core/result.h"
 #include "core/rigs/impact/impact.h"
-#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 
 /// A test that can be simulated.
-using Scene = std::variant<SlumpTable, Impact>;
+using Scene = std::variant<Test, Impact>;
 
-/// The test that a file stands for: the slump test of a study (free parameters in the middle of their bounds), a card,
+/// The test that a file stands for: that of a study (free parameters in the middle of their bounds), a card,
 /// a laboratory or a rig file, or the few bodies of an impact file, told apart by "format".
 ///
 /// Each of `settings` is "path=value" and changes the file's content before it is read, so that every check applies.
-/// `parameters.NAME=number` sets a parameter of `parameter_kinds` in every file of a slump test. In a study any
+/// `parameters.NAME=number` sets a parameter of `parameter_kinds` in every file of a laboratory test. In a study any
 /// other path is one of its laboratory file's, e.g. grains.radius_mm=6. A value that is not JSON is a text.
 /// Errors: every fault of the file and of the settings.
 Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings);

@@ -15,10 +15,9 @@
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 #include "core/observe/outline.h"
 #include "core/rigs/slump/ruler.h"
-#include "core/rigs/slump/slump_test.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -161,12 +160,13 @@ int simulate_file(const SimulateOptions& options) {
   if (!scene.ok()) return report(scene.faults());
   auto test = std::move(scene).value();
   if (options.seed) {
-    auto* slump = std::get_if<SlumpTable>(&test);
-    if (!slump) return report({{"--seed", "an impact has no random packing", "leave it out"}});
-    slump->packing_seed = *options.seed;
+    auto* of_lab = std::get_if<Test>(&test);
+    if (!of_lab) return report({{"--seed", "an impact has no random packing", "leave it out"}});
+    specimen_of(*of_lab).packing_seed = *options.seed;
   }
-  if (const auto* slump = std::get_if<SlumpTable>(&test))
-    if (const auto faults = validate_memory(*slump, 1); !faults.empty()) return report(in_file(faults, options.file));
+  const auto* of_lab = std::get_if<Test>(&test);
+  if (of_lab)
+    if (const auto faults = validate_memory(*of_lab, 1); !faults.empty()) return report(in_file(faults, options.file));
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
 
@@ -202,9 +202,8 @@ int simulate_file(const SimulateOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
-  const auto* of_heap = std::get_if<SlumpTable>(&test);
-  const auto outlines =
-      of_heap && !outcome.failure ? silhouettes.to_json(of_heap->grains.radius_m) : nlohmann::ordered_json::object();
+  const auto outlines = of_lab && !outcome.failure ? silhouettes.to_json(specimen_of(*of_lab).grains.radius_m)
+                                                   : nlohmann::ordered_json::object();
   const auto text = json_of(outcome, outlines, wall_s).dump(2) + "\n";
   if (options.json)
     std::fputs(text.c_str(), stdout);
@@ -217,12 +216,9 @@ int simulate_file(const SimulateOptions& options) {
     if (!options.json && pictures)
       for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
   }
-  if (const auto* slump = std::get_if<SlumpTable>(&test); slump && has_sheared(*slump, outcome.observables))
-    std::fprintf(
-        stderr,
-        "pastefit: the heap sheared off: its top shifted by %.0f mm, more than %.0f; the standards have such a "
-        "test repeated\n",
-        *outcome.observables.find("step1.lateral_shift_mm"), 1e3 * kShearedShift * slump->mould.base_radius_m);
+  if (of_lab)
+    if (const auto remarks = remarks_on(*of_lab, {&outcome.observables, 1}); !remarks.empty())
+      std::fprintf(stderr, "pastefit: %s\n", remarks.c_str());
   if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;
   const auto& failure = *outcome.failure;

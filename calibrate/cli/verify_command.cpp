@@ -5,7 +5,7 @@
 #include <set>
 
 #include "calibrate/cli/commands.h"
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {

@@ -19,15 +19,20 @@ std::span<const Exporter> exporters() {
 }
 
 Result<ExportScene> export_scene(const Card& card, std::uint64_t packing) {
+  const auto* slump = std::get_if<SlumpTest>(&card.test);
+  if (!slump)
+    return Fault{"test", "is a " + std::string(kind_of(card.test)) + " test, which no target has a deck of",
+                 "calibrate a slump test beside it, in one study, and name that first"};
   ExportScene scene;
   scene.card = card;
-  scene.card.test.packing_seed = packing;
-  const auto poured = fill_mould(scene.card.test);
-  scene.packing = poured->failure ? *poured : full_mould(scene.card.test, *poured);
+  scene.test = *slump;
+  scene.test.packing_seed = packing;
+  const auto poured = fill_mould(scene.test);
+  scene.packing = poured->failure ? *poured : full_mould(scene.test, *poured);
   if (const auto& failure = scene.packing.failure)
     return Fault{"packing " + std::to_string(packing), "the mould could not be filled: " + failure->message,
                  "take another seed with --packing, or finer grains with pastefit rescale"};
-  scene.grain_density_kg_m3 = grain_density(scene.card.test, scene.packing);
+  scene.grain_density_kg_m3 = grain_density(scene.test, scene.packing);
   scene.sizes = size_classes(scene.packing.radii);
   return scene;
 }

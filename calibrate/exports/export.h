@@ -12,15 +12,17 @@
 
 namespace pastefit {
 
-/// What an exporter writes down: the card, and its mould filled by pastefit.
+/// What an exporter writes down: the card, its slump test, and the mould filled by pastefit.
 struct ExportScene {
   Card card;
+  SlumpTest test;
   Packing packing;
   double grain_density_kg_m3 = 0;  ///< such that the mould holds the bulk density
   SizeClasses sizes;
 };
 
-/// The scene of a card with the given packing. Errors: the mould cannot be filled.
+/// The scene of a card with the given packing. Errors: it is no slump test; the mould cannot be
+/// filled.
 Result<ExportScene> export_scene(const Card& card, std::uint64_t packing);
 
 struct ExportFile {

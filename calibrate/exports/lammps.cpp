@@ -56,7 +56,7 @@ std::string bridge_words(const Bridge& bridge) {
   return out;
 }
 
-std::string pair_style(const SlumpTable& test) {
+std::string pair_style(const SlumpTest& test) {
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
   return "pair_style   pastefit" + number("reference_radius_m", radius) +
@@ -80,7 +80,7 @@ std::string wall_fix(const std::string& name, const WallContact& wall) {
 Result<Export> export_lammps(const ExportScene& scene) {
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const std::string pairs = pair_style(test);
   const LammpsLaws laws{kGuard,
                         kConventions,

@@ -77,7 +77,7 @@ std::string drop_deck(const DropPlate& drop) {
 }  // namespace
 
 double deck_time_step_s(const ExportScene& scene) {
-  const auto& contact = scene.card.test.contact;
+  const auto& contact = scene.test.contact;
   const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
   const double smallest = *std::ranges::min_element(scene.sizes.radii_m);
   const double step = 0.1 * std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
@@ -87,7 +87,7 @@ double deck_time_step_s(const ExportScene& scene) {
 }
 
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& mould = test.mould;
   std::string out = header(scene, notes) + laws.conventions;
   out += begin("# the scene") + laws.guard;
@@ -138,7 +138,7 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
   const double radius = scene.sizes.radii_m[0];
   const double nearest = 2 * radius - 0.05 * radius;
   const double reach =
-      bridge_gaps(scene.card.test.contact, {radius, radius, scene.card.test.grains.radius_m}).rupture_m;
+      bridge_gaps(scene.test.contact, {radius, radius, scene.test.grains.radius_m}).rupture_m;
   const double farthest = 2 * radius + 1.05 * std::max(reach, 0.05 * radius);
   std::string out = header(scene, {});
   out += begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
@@ -169,7 +169,7 @@ WallContact ground_of(WallContact table) {
 }
 
 std::string grains_data(const ExportScene& scene, std::span<const double> radii) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& grains = scene.packing.centres;
   const double margin = 4 * std::ranges::max(radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;

@@ -97,7 +97,7 @@ double mass_of(double radius, double density) {
   return 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius * density;
 }
 
-Faults lacking(const SlumpTable& test) {
+Faults lacking(const SlumpTest& test) {
   Faults faults;
   if (test.contact.rolling == RollingModel::constant_torque)
     faults.push_back({"test.contact.rolling", "is a constant torque, which LAMMPS's granular style lacks",
@@ -111,7 +111,7 @@ Faults lacking(const SlumpTable& test) {
 }
 
 std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
@@ -149,7 +149,7 @@ std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
 }  // namespace
 
 Result<Export> export_lammps_tables(const ExportScene& scene) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   if (auto faults = lacking(test); !faults.empty()) return faults;
   const auto& sizes = scene.sizes.radii_m;
   const double radius = test.grains.radius_m, density = scene.grain_density_kg_m3;

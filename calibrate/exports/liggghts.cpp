@@ -36,7 +36,7 @@ std::string pairs_of(double grains, double mould, double table) {
 }
 
 std::string properties(const ExportScene& scene, const SoulieFit* fit) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   const auto &mould = test.mould_wall, &table = test.table_wall;
   std::string out = "# types: 1 grains, 2 mould, 3 table\n";
@@ -83,7 +83,7 @@ communicate  single vel yes
 
 std::string slump_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit,
                        const std::vector<std::string>& notes) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const double step = deck_time_step_s(scene);
   const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
   std::string out = begin(scene, "the slump test, step 1", notes);
@@ -113,7 +113,7 @@ std::string slump_deck(const ExportScene& scene, const Models& models, const Sou
 /// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
 std::string two_grains_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit) {
   constexpr int kDistances = 240;
-  const double radius = scene.card.test.grains.radius_m, speed = 1e-9;
+  const double radius = scene.test.grains.radius_m, speed = 1e-9;
   const double nearest = 1.95 * radius;
   const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
   std::string out = begin(scene, "force of two grains against their distance; prints \"apart r F\"", {});
@@ -159,7 +159,7 @@ std::string mould_stl(const Mould& mould) {
 /// As LAMMPS's, but grains keep their radii: the law belongs to no type.
 std::string liggghts_data(const ExportScene& scene) {
   std::string out = "grains of a filled mould, written by pastefit\n\n";
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& grains = scene.packing.centres;
   const double margin = 4 * *std::ranges::max_element(scene.packing.radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
@@ -173,7 +173,7 @@ std::string liggghts_data(const ExportScene& scene) {
 }
 
 std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fit) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
@@ -216,8 +216,8 @@ std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fi
 }  // namespace
 
 Result<Export> export_liggghts(const ExportScene& scene) {
-  const auto& contact = scene.card.test.contact;
-  const double radius = scene.card.test.grains.radius_m;
+  const auto& contact = scene.test.contact;
+  const double radius = scene.test.grains.radius_m;
   const bool attracts = bridge_gaps(contact, {radius, radius, radius}).rupture_m > 0 &&
                         attraction_n(contact, {radius, radius, radius}, 0) > 0;
   const SoulieFit fit = attracts ? fit_soulie(contact, radius) : SoulieFit{};
@@ -235,7 +235,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   out.files = {{"in.slump", slump_deck(scene, models, fitted, out.notes)},
                {"in.two_grains", two_grains_deck(scene, models, fitted)},
                {"grains.data", liggghts_data(scene)},
-               {"mould.stl", mould_stl(scene.card.test.mould)},
+               {"mould.stl", mould_stl(scene.test.mould)},
                {"curves.csv", law}};
   return out;
 }

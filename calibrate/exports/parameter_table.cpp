@@ -27,7 +27,7 @@ std::string bridge_in_words(const ContactModel& contact) {
 }
 
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
   const auto gaps = bridge_gaps(contact, {radius, radius, radius});
@@ -65,7 +65,7 @@ ExportFile parameters_csv(const ExportScene& scene) {
 }
 
 ExportFile force_csv(const ExportScene& scene) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const double radius = test.grains.radius_m;
   std::string text = "overlap_m,attraction_n,repulsion_n\n";
   for (const auto& point : force_table(test.contact, {radius, radius, radius}, 0.1 * radius, 2001))
@@ -95,7 +95,7 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
                      it forms when the gap falls to s formation_gap_m, and lives until the gap exceeds s |d_c|
 
 )";
-  out += "Here: " + bridge_in_words(scene.card.test.contact) + ".\n\n";
+  out += "Here: " + bridge_in_words(scene.test.contact) + ".\n\n";
   for (const auto& row : parameter_rows(scene))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
   return out;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/exports/export.h"
-#include "calibrate/study/names.h"
+#include "calibrate/laboratory/names.h"
 
 namespace pastefit {
 

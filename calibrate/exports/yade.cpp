@@ -197,7 +197,7 @@ for way, order in (('apart', range(distances + 1)), ('back', range(distances, -1
 )PY";
 
 std::string module_of(const ExportScene& scene) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   const auto& bridge = contact.bridge;
   const double radius = test.grains.radius_m;
@@ -248,7 +248,7 @@ std::string module_of(const ExportScene& scene) {
 }  // namespace
 
 Result<Export> export_yade(const ExportScene& scene) {
-  const auto& test = scene.card.test;
+  const auto& test = scene.test;
   const auto& contact = test.contact;
   Faults faults;
   if (contact.rolling == RollingModel::constant_torque)

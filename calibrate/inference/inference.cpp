@@ -8,7 +8,7 @@
 
 #include "calibrate/inference/posterior.h"
 #include "calibrate/study/parameters.h"
-#include "core/rigs/slump/slump_readings.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -246,7 +246,8 @@ Moments moments_of(const std::vector<UnitPoint>& sample) {
 /// before a slash where a study has several.
 bool measurable(const std::string& name) {
   const std::string own = name.substr(name.find('/') + 1);
-  const ReadingKind* kind = reading_kind(own);
+  const auto kinds = all_reading_kinds();
+  const ReadingKind* kind = find_kind(kinds, own);
   return kind && kind->advised;
 }
 

@@ -25,19 +25,12 @@ std::string inference_lines(const CardInference& inference) {
 }
 
 std::string conditions_lines(const Card& card) {
-  constexpr double kGravity = 9.81;
-  const auto& test = card.test;
-  const auto& grains = test.grains;
+  const auto& grains = specimen_of(card.test).grains;
   const bool mono = grains.distribution == SizeDistribution::mono;
-  std::string out = "Fitted in\n";
-  out += format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
-                2e3 * test.mould.base_radius_m, 2e3 * test.mould.top_radius_m, 1e3 * test.mould.height_m,
-                1e3 * test.lift_velocity_m_s);
+  std::string out = "Fitted in\n" + conditions_in_words(card.test);
   out +=
       mono ? format("  grains                   radius %g mm\n", 1e3 * grains.radius_m)
            : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m, 1e3 * grains.largest_m);
-  out += format("  pressure                 up to %.3g Pa, the weight of the full mould\n",
-                test.bulk_density_kg_m3 * kGravity * test.mould.height_m);
   return out + "  elsewhere the material is an extrapolation\n";
 }
 

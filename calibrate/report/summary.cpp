@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "calibrate/base/format.h"
-#include "core/rigs/slump/ruler.h"
 
 namespace pastefit {
 
 namespace {
 
-std::string bridge_lines(const SlumpTable& test) {
+std::string bridge_lines(const Specimen& test) {
   const auto& bridge = test.contact.bridge;
   const std::array<std::pair<const char*, double>, 6> lines{
       {{"a_n_m2", bridge.a_n_m2},
@@ -76,29 +75,17 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
-/// Heights of a test with and without the fillings whose heap sheared off, where some did.
-std::string sheared_lines(const SlumpTable& test, const Baseline& baseline, const std::string& name) {
-  int sheared = 0, whole = 0;
-  double all_mm = 0, whole_mm = 0;
-  for (const auto& run : baseline.runs) {
-    const double height_mm = run.observables.find("step1.height_mm").value_or(0);
-    const bool broke = has_sheared(test, run.observables);
-    ++(broke ? sheared : whole);
-    all_mm += height_mm;
-    if (!broke) whole_mm += height_mm;
-  }
-  if (sheared == 0) return {};
-  std::string out = format(
-      "%s%d of %zu fillings sheared off (top shifted by more than %g mm), which the standards reject: "
-      "height after step 1 %.1f mm with them",
-      name.empty() ? "" : ("Test " + name + ": ").c_str(), sheared, baseline.runs.size(),
-      1e3 * kShearedShift * test.mould.base_radius_m, all_mm / (sheared + whole));
-  return out + (whole > 0 ? format(", %.1f mm without.\n", whole_mm / whole) : std::string(".\n"));
-}
-
-std::string sheared_lines(const Card& card) {
-  std::string out = sheared_lines(card.test, card.baseline, card.test_name);
-  for (const auto& test : card.further) out += sheared_lines(test.test, test.baseline, test.name);
+/// What a person should know of the runs of each test besides their readings.
+std::string remark_lines(const Card& card) {
+  std::string out;
+  const auto add = [&](const Test& test, const Baseline& baseline, const std::string& name) {
+    std::vector<Observables> runs;
+    for (const auto& run : baseline.runs) runs.push_back(run.observables);
+    const std::string remarks = remarks_on(test, runs);
+    if (!remarks.empty()) out += (name.empty() ? "" : "Test " + name + ": ") + remarks + ".\n";
+  };
+  add(card.test, card.baseline, card.test_name);
+  for (const auto& test : card.further) add(test.test, test.baseline, test.name);
   return out;
 }
 
@@ -119,7 +106,7 @@ std::string verdict_of(const Card& card) {
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {
-  std::string out = card.title + "\n\n" + bridge_lines(card.test) + "\n" + parameter_lines(card) + "\n" +
+  std::string out = card.title + "\n\n" + bridge_lines(specimen_of(card.test)) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
@@ -127,7 +114,7 @@ std::string summary_of(const Card& card, const std::string& findings) {
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
   if (card.provenance.lab.twin) out += "The laboratory's data were made by a simulation (a twin).\n";
-  return out + sheared_lines(card) + hold_out_lines(card) + verdict_of(card) + "\n";
+  return out + remark_lines(card) + hold_out_lines(card) + verdict_of(card) + "\n";
 }
 
 }  // namespace pastefit

@@ -12,7 +12,10 @@ std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count) {
 }
 
 Study with_coarse_grains(Study study) {
-  for (StudyTest& test : study.tests) test.lab.test.grains = enlarged(test.lab.test.grains, coarse_radius_ratio);
+  for (StudyTest& test : study.tests) {
+    GrainSizes& grains = specimen_of(test.lab.test).grains;
+    grains = enlarged(grains, coarse_radius_ratio);
+  }
   return study;
 }
 

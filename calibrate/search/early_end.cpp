@@ -5,7 +5,6 @@
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/study/tolerance.h"
-#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -40,7 +39,7 @@ std::string key_of_ended(const std::string& whole_key, const Cutoff& cutoff) {
   return content_hash(nlohmann::json{whole_key, cutoff.reading, cutoff.lowest, cutoff.highest}.dump());
 }
 
-StoredEvaluation seen_through(const SlumpTable& test, const Cutoff& cutoff, StoredEvaluation evaluation) {
+StoredEvaluation seen_through(const Test& test, const Cutoff& cutoff, StoredEvaluation evaluation) {
   if (evaluation.failure) return evaluation;
   const auto read = evaluation.observables.find(cutoff.reading);
   if (!read && !evaluation.run.ended_early) return evaluation;
@@ -62,7 +61,7 @@ bool is_upper_bound(const Study& study, std::size_t test, std::string_view obser
   return cutoff && observable == cutoff->reading && value <= cutoff->lowest;
 }
 
-std::optional<StoredEvaluation> find(const Store& store, const SlumpTable& test, const std::string& whole_key,
+std::optional<StoredEvaluation> find(const Store& store, const Test& test, const std::string& whole_key,
                                      const std::optional<Cutoff>& cutoff) {
   if (!cutoff) return store.find(whole_key);
   auto evaluation = store.find(key_of_ended(whole_key, *cutoff));

@@ -27,13 +27,13 @@ std::string key_of_ended(const std::string& whole_key, const Cutoff& cutoff);
 ///   - `run.ended_early` says so.
 /// So what is left reads the same for a run that was ended and for one that was not. A failure stays; one that comes
 /// after the run has left it is the only thing that a run that was ended does not show.
-StoredEvaluation seen_through(const SlumpTable& test, const Cutoff& cutoff, StoredEvaluation evaluation);
+StoredEvaluation seen_through(const Test& test, const Cutoff& cutoff, StoredEvaluation evaluation);
 
 /// True if this reading of an evaluation seen through its cutoff is the lower end: it read so or less.
 bool is_upper_bound(const Study& study, std::size_t test, std::string_view observable, double value);
 
 /// The evaluation of a name, seen through the cutoff; without one the one that ran to its end.
-std::optional<StoredEvaluation> find(const Store& store, const SlumpTable& test, const std::string& whole_key,
+std::optional<StoredEvaluation> find(const Store& store, const Test& test, const std::string& whole_key,
                                      const std::optional<Cutoff>& cutoff);
 
 }  // namespace pastefit

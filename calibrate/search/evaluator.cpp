@@ -13,7 +13,6 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/study/parameters.h"
-#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -28,10 +27,11 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The worst miss a heap can have, in the measurement's unit.
-double worst_miss(const Measurement& measurement, const SlumpTable& test) {
-  const ReadingKind* kind = reading_kind(measurement.observable);
-  const bool bounded = kind && kind->worst_miss;
-  return std::max(std::abs(measurement.value), bounded ? kind->worst_miss(test) : 10 * measurement.standard_deviation);
+double worst_miss(const Measurement& measurement, const Test& test) {
+  const auto kinds = reading_kinds(test);
+  const ReadingKind* kind = find_kind(kinds, measurement.observable);
+  const double bound = kind && kind->worst_miss ? *kind->worst_miss : 10 * measurement.standard_deviation;
+  return std::max(std::abs(measurement.value), bound);
 }
 
 Failure stopped(std::string message) {
@@ -219,7 +219,7 @@ void SimulationObjective::run(Task& task) {
     by_user = by_user || stop_requested();
     return !by_user && seconds_since(start) < options_.wall_limit_s;
   };
-  auto outcome = options_.simulator.run(test, options);
+  auto outcome = options_.engine.run(test, options);
   if (by_user) return;
 
   auto& evaluation = task.evaluation;
@@ -253,13 +253,13 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
   if (options_.observer) options_.observer(counts_);
 }
 
-std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const SlumpTable& test) {
+std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const Test& test) {
   std::promise<std::shared_ptr<const Packing>> promise;
   std::shared_future<std::shared_ptr<const Packing>> future;
   bool ours = false;
   {
     const std::lock_guard lock(mutex_);
-    const auto [entry, added] = packings_.try_emplace({index, test.packing_seed, filling_of(test)});
+    const auto [entry, added] = packings_.try_emplace({index, specimen_of(test).packing_seed, preparation_key(test)});
     if (added) entry->second = promise.get_future().share();
     future = entry->second;
     ours = added;
@@ -270,7 +270,7 @@ std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, c
       RunOptions options = options_.run;
       options.watch_interval_s = kWatchInterval;
       options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
-      promise.set_value(options_.simulator.fill(test, options));
+      promise.set_value(options_.engine.prepare(test, options));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }

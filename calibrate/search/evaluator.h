@@ -13,22 +13,15 @@
 #include <unordered_set>
 #include <vector>
 
+#include "calibrate/laboratory/engine.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/search/worker_pool.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
-
-/// What an evaluation asks of the engine. A test may put a quick function in the engine's place.
-struct Simulator {
-  std::function<std::shared_ptr<const Packing>(const SlumpTable&, const RunOptions&)> fill = fill_mould;
-  std::function<Outcome(const SlumpTable&, const RunOptions&)> run = simulate;
-};
 
 /// Tally of the evaluations one objective has begun; each is counted once, when it is known.
 struct EvaluationCounts {
@@ -47,8 +40,8 @@ struct EvaluatorOptions {
   double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
-  Simulator simulator;
-  /// How every simulation and fill is run; packing and watch are set here. With `own_fill` every simulation fills its
+  Engine engine;
+  /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation fills its
   /// own mould. Other than the default it belongs into the identity of the store.
   RunOptions run;
 };
@@ -57,8 +50,7 @@ struct EvaluatorOptions {
 /// simulation is stored before its answer is used. Known ones are answered from the store, so that a search that runs
 /// again takes the same way. Simulations run in the order in which they were begun; the budget counts what was asked.
 ///
-/// The mould of a test is filled once for each packing seed and shared by all candidates: the fill does not depend on
-/// what is fitted.
+/// What a test starts from (`prepare`) is shared by the candidates for which it is the same (`preparation_key`).
 ///
 /// A candidate that failed in some test on some packing answers as if every measurement had been missed by `factor`
 /// times the worst miss a heap can have (`ReadingKind::worst_miss`; without one ten standard deviations; at least the
@@ -128,8 +120,8 @@ class SimulationObjective : public Objective {
                                      bool tried);
   void run(Task& task);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
-  /// The packing that all candidates with this filling of the study's test share.
-  std::shared_ptr<const Packing> packing(std::size_t index, const SlumpTable& test);
+  /// What all candidates with this preparation of the study's test share.
+  std::shared_ptr<const Packing> packing(std::size_t index, const Test& test);
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
   /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
   double certain_miss(const Response& response, std::size_t reading) const;
@@ -151,7 +143,7 @@ class SimulationObjective : public Objective {
   std::atomic<bool> closing_ = false;
 
   mutable std::mutex mutex_;  // guards what follows
-  std::map<std::tuple<std::size_t, std::uint64_t, Filling>, std::shared_future<std::shared_ptr<const Packing>>>
+  std::map<std::tuple<std::size_t, std::uint64_t, std::string>, std::shared_future<std::shared_ptr<const Packing>>>
       packings_;
   std::unordered_set<std::string> counted_;
   EvaluationCounts counts_;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rigs/slump/slump_test.h"
+#include "core/step/run.h"
 
 namespace pastefit {
 

@@ -9,7 +9,7 @@
 #include "calibrate/base/content_hash.h"
 #include "calibrate/store/database.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/study/slump_table_json.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -107,14 +107,8 @@ StoredEvaluation evaluation_of(const Row& row) {
 
 }  // namespace
 
-std::string evaluation_key(std::string_view program, const SlumpTable& test) {
-  // Usual is a test of all parts, so that a field that is added to one of them changes no key either.
-  static const nlohmann::json usual = [] {
-    SlumpTable whole;
-    whole.drop.emplace();
-    return to_json(whole);
-  }();
-  const nlohmann::json key{program, differing_part(to_json(test), usual)};
+std::string evaluation_key(std::string_view program, const Test& test) {
+  const nlohmann::json key{program, identity_of(test)};
   return content_hash(key.dump());
 }
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/rigs/slump/slump_test.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -38,7 +38,7 @@ struct StoredEvaluation {
 /// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured
 /// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation
 /// outlives a change of these.
-std::string evaluation_key(std::string_view program, const SlumpTable& test);
+std::string evaluation_key(std::string_view program, const Test& test);
 
 /// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.
 /// Each evaluation is one transaction: after `add` has returned, it survives the death of the process and of the

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "calibrate/study/json_reader.h"
-#include "calibrate/study/names.h"
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/names.h"
 #include "core/rigs/impact/approach.h"
 
 namespace pastefit {

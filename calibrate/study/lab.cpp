@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "calibrate/base/content_hash.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
@@ -21,6 +21,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     reader.text("title", lab.title, Need::required);
     read_provenance(reader, lab.provenance);
     const std::size_t before = faults.size();
+    read_kind(reader, lab.test);
     preset = read_apparatus(reader, lab.test, folder);
     read_material(reader, lab.test);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
-#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 namespace {
-
-Range range_of(const ReadingKind& kind, const SlumpTable& test) {
-  const auto [smallest, largest] = kind.possible(test);
-  return {smallest, largest};
-}
 
 std::string advice_on_deviation(const ReadingKind& kind) {
   const std::string advice = "give the standard deviation of one reading, or at least 2 repeats that differ";
@@ -30,8 +25,8 @@ void average(const std::vector<double>& repeats, Measurement& measurement) {
   measurement.standard_deviation = std::sqrt(squares / (count - 1));
 }
 
-void read_one(ObjectReader& reader, const ReadingKind& kind, const SlumpTable& test, Measurement& measurement) {
-  const Range range = range_of(kind, test);
+void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measurement) {
+  const Range range{kind.possible.smallest, kind.possible.largest};
   std::vector<double> repeats;
   if (reader.numbers("repeats", repeats, range, Need::optional, 2)) average(repeats, measurement);
   if (reader.has("repeats"))
@@ -48,27 +43,13 @@ void read_one(ObjectReader& reader, const ReadingKind& kind, const SlumpTable& t
                  advice_on_deviation(kind));
 }
 
-/// A heap seen from the side; its reading is the difference from it.
-void read_profile(ObjectReader& reader, const ReadingKind& kind, SlumpTable& test, Measurement& measurement) {
-  const double half_table_mm = 500 * test.table_length_m;
-  const Range heights = range_of(*reading_kind("step1.height_mm"), test);
-  std::vector<OutlinePoint> points;
-  constexpr std::size_t kFewest = 5;
-  if (reader.pairs("points", points, {-half_table_mm, half_table_mm}, heights, Need::required, kFewest))
-    for (auto& [x, z] : points) {
-      x *= 1e-3;
-      z *= 1e-3;
-    }
-  (kind.stage == Stage::step2 ? test.reading.outline_step2 : test.reading.outline_step1) = std::move(points);
-  reader.number("standard_deviation", measurement.standard_deviation, {0, 10000, true}, Need::required);
-}
-
 /// Readings of one heap, or of one before and after the drop, have an order that no heap turns round.
-void check_orders(ObjectReader& document, const std::vector<Measurement>& measurements) {
+void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
+                  const std::vector<Measurement>& measurements) {
   constexpr double sure = 3;  // standard deviations of the difference of two means
   const auto error = [](const Measurement& one) { return one.standard_deviation / std::sqrt(one.repeats); };
   for (const Measurement& smaller : measurements) {
-    for (const Ceiling& ceiling : reading_kind(smaller.observable)->ceilings) {
+    for (const Ceiling& ceiling : find_kind(kinds, smaller.observable)->ceilings) {
       const auto larger = std::ranges::find(measurements, ceiling.name, &Measurement::observable);
       if (larger == measurements.end()) continue;
       if (smaller.value - larger->value <= sure * std::hypot(error(smaller), error(*larger))) continue;
@@ -82,33 +63,32 @@ void check_orders(ObjectReader& document, const std::vector<Measurement>& measur
 
 }  // namespace
 
-std::vector<Measurement> read_measurements(ObjectReader& document, SlumpTable& test) {
+std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
+  const auto kinds = reading_kinds(test);
   std::vector<Measurement> measurements;
   document.object("measurements", Need::required, [&](ObjectReader& reader) {
     bool any = false;
-    for (const ReadingKind& kind : reading_kinds()) {
+    for (const ReadingKind& kind : kinds) {
       if (kind.key.empty()) continue;
       any = any || reader.has(kind.key);
-      if (kind.stage == Stage::step2 && !test.drop) {
-        reader.refuse(kind.key, "the apparatus has no drop plate, so there is no step 2",
-                      "leave it out, or describe the plate in apparatus.drop_plate");
+      if (kind.lack) {
+        reader.refuse(kind.key, std::string(kind.lack->what), std::string(kind.lack->remedy));
         continue;
       }
       Measurement measurement;
       measurement.observable = kind.measure;
       const auto read = [&](ObjectReader& one) {
-        if (kind.with_outline)
-          read_profile(one, kind, test, measurement);
-        else
-          read_one(one, kind, test, measurement);
+        if (!kind.from_outline) return read_one(one, kind, measurement);
+        read_outline(one, kind, test);
+        one.number("standard_deviation", measurement.standard_deviation, {0, 10000, true}, Need::required);
       };
       if (!reader.object(kind.key, Need::optional, read)) continue;
       if (!measurements.empty() && measurements.back().observable == kind.measure)
-        reader.fault(kind.key, "slump and height of one heap are one reading", "give one of them");
-      if (kind.measure != kind.name) measurement.value = 1000 * test.mould.height_m - measurement.value;
+        reader.fault(kind.key, std::string(kind.measure) + " and this are one reading", "give one of them");
+      if (kind.less_than) measurement.value = *kind.less_than - measurement.value;
       measurements.push_back(std::move(measurement));
     }
-    check_orders(document, measurements);
+    check_orders(document, kinds, measurements);
     if (!any) document.fault("measurements", "holds no reading", "give at least one, e.g. \"step1.height_mm\"");
   });
   return measurements;

@@ -83,15 +83,28 @@ std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_po
   return values;
 }
 
-SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
-  assert(values.size() == kinds.size());
-  const double radius = test.grains.radius_m;
+namespace {
 
-  Bridge& bridge = test.contact.bridge;
+/// The place of a surface's parameter; every surface of every kind of test has its own.
+std::size_t place_of(std::string_view surface, std::string_view parameter) {
+  const std::string name = std::string(surface) + std::string(parameter);
+  const auto kind = std::ranges::find(kinds, std::string_view(name), &ParameterKind::name);
+  assert(kind != kinds.end());
+  return static_cast<std::size_t>(kind - kinds.begin());
+}
+
+}  // namespace
+
+Test with_contact_of(Test test, std::span<const double> values) {
+  assert(values.size() == kinds.size());
+  ContactModel& contact = specimen_of(test).contact;
+  const double radius = specimen_of(test).grains.radius_m;
+
+  Bridge& bridge = contact.bridge;
   const double c = values[at("strength_pa")] * radius * radius;
   const double k = values[at("curvature")];
-  const double lost =
-      1 - values[at("rupture_force_ratio")];  // share of the attraction that is gone when the bridge ruptures
+  // Share of the attraction that is gone when the bridge ruptures.
+  const double lost = 1 - values[at("rupture_force_ratio")];
   double gap = values[at("rupture_gap_ratio")];
   if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[at("offset_ratio")]);
   const double d_c = -gap * radius;
@@ -102,24 +115,23 @@ SlumpTable with_contact_of(SlumpTable test, std::span<const double> values) {
   bridge.d_c_m = d_c;
   bridge.offset_m = values[at("offset_ratio")] * radius;
 
-  ContactModel& contact = test.contact;
   contact.friction = values[at("friction")];
   contact.rolling_friction = values[at("rolling_friction")];
   contact.restitution = values[at("restitution")];
   contact.youngs_modulus_pa = values[at("youngs_modulus_pa")];
   contact.poissons_ratio = values[at("poissons_ratio")];
   contact.cohesion_n = values[at("cohesion_ratio")] * c;
-  test.mould_wall.friction = values[at("mould_friction")];
-  test.mould_wall.cohesion_factor = values[at("mould_cohesion_factor")];
-  test.table_wall.friction = values[at("table_friction")];
-  test.table_wall.cohesion_factor = values[at("table_cohesion_factor")];
+  for (const Surface& surface : surfaces_of(test)) {
+    surface.contact.friction = values[place_of(surface.name, "_friction")];
+    surface.contact.cohesion_factor = values[place_of(surface.name, "_cohesion_factor")];
+  }
   return test;
 }
 
-SlumpTable test_with(const SlumpTable& test, std::span<const double> values, std::uint64_t packing_seed) {
-  SlumpTable out = with_contact_of(test, values);
-  out.packing_seed = packing_seed;
-  return out;
+Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed) {
+  test = with_contact_of(std::move(test), values);
+  specimen_of(test).packing_seed = packing_seed;
+  return test;
 }
 
 }  // namespace pastefit

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -58,11 +60,15 @@ std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_po
 std::vector<double> usual_values();
 
 /// The test with these parameter values in its contact laws: a, b, c, d_c and offset in SI from the scale-free
-/// coordinates, with R = `test.grains.radius_m`. Shape: one value for each of `parameter_kinds()`.
+/// coordinates, with R the mean radius of its grains, and each surface's own. Shape: one value for each of
+/// `parameter_kinds()`.
 /// In touch formation the offset only bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
-SlumpTable with_contact_of(SlumpTable test, std::span<const double> values);
+Test with_contact_of(Test test, std::span<const double> values);
 
-/// The test with these parameter values (in SI: a, b, c, d_c, offset from the scale-free ones) and this packing.
-SlumpTable test_with(const SlumpTable& test, std::span<const double> values, std::uint64_t packing_seed);
+/// The test with these parameter values, and this packing.
+Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed);
+
+/// The words of a parameter's spacing.
+inline constexpr std::array<Named<Scale>, 2> scales{{{"linear", Scale::linear}, {"log", Scale::logarithmic}}};
 
 }  // namespace pastefit

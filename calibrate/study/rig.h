@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -14,7 +14,7 @@ namespace pastefit {
 struct Rig {
   std::string title;
   Provenance provenance;
-  SlumpTable test;      ///< contact parameters have their usual values
+  Test test;      ///< contact parameters have their usual values
   std::string content;  ///< of the file, without comments and white space; part of the hash of whoever uses it
 };
 
@@ -32,18 +32,18 @@ std::vector<std::filesystem::path> rig_folders(const std::filesystem::path& fold
 
 void read_provenance(ObjectReader& document, Provenance& provenance);
 
+/// Which test it is, "test": a slump test if it does not say. `test` then has usual values.
+void read_kind(ObjectReader& document, Test& test);
+
 /// The object "apparatus". With a folder (where the file lies) it may name a preset; own keys then only differ from it.
 /// Returns the preset, if one was read; `test` then starts from it.
-std::optional<Rig> read_apparatus(ObjectReader& document, SlumpTable& test,
+std::optional<Rig> read_apparatus(ObjectReader& document, Test& test,
                                   const std::optional<std::filesystem::path>& folder);
 
-void read_material(ObjectReader& document, SlumpTable& test);
-void read_grains(ObjectReader& document, SlumpTable& test, Need need);
+void read_material(ObjectReader& document, Test& test);
+void read_grains(ObjectReader& document, Test& test, Need need);
 
 /// Whether all values could be read: unknown keys are the only faults from `first` on.
 bool values_are_good(const Faults& faults, std::size_t first);
-
-/// `validate(test)`, with its places in the words of rig and laboratory files, e.g. "apparatus.mould.height_mm".
-Faults validate_in_file_words(const SlumpTable& test);
 
 }  // namespace pastefit

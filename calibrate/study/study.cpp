@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "calibrate/base/content_hash.h"
-#include "calibrate/study/json_reader.h"
-#include "calibrate/study/names.h"
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"
@@ -80,7 +80,7 @@ void read_contact(ObjectReader& document, std::vector<StudyTest>& tests) {
     reader.choice("friction_basis", chosen.friction_basis, friction_bases, Need::optional);
   });
   for (StudyTest& test : tests) {
-    ContactModel& contact = test.lab.test.contact;
+    ContactModel& contact = specimen_of(test.lab.test).contact;
     contact.bridge.formation = chosen.bridge.formation;
     contact.rolling = chosen.rolling;
     contact.friction_basis = chosen.friction_basis;
@@ -114,7 +114,7 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
 
 /// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
 void check_touch(ObjectReader& document, const Study& study) {
-  if (study.tests.empty() || study.tests[0].lab.test.contact.bridge.formation != BridgeFormation::touch) return;
+  if (study.tests.empty() || specimen_of(study.tests[0].lab.test).contact.bridge.formation != BridgeFormation::touch) return;
   const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
   if ((offset->free ? offset->lower : offset->value) > 0) return;
   document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",

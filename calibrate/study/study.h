@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "core/rigs/slump/slump_test.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -30,7 +30,7 @@ struct Provenance {
 struct Lab {
   std::string title;
   Provenance provenance;
-  SlumpTable test;
+  Test test;
   std::vector<Measurement> measurements;
   std::string content;  ///< what the file and the preset that it names say, as JSON text
   std::string hash;     ///< of the file's content, with the preset it names (64-bit, hexadecimal)

@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "calibrate/study/tolerance.h"
-#include "core/rigs/slump/slump_readings.h"
 
 namespace pastefit {
 
@@ -14,16 +13,16 @@ using nlohmann::json;
 
 constexpr std::size_t most_tests = 20;
 
-/// Reads an object that has a number for some readings; `set` takes it to the reading's target. `measurements` is empty
-/// if the laboratory file could not be read: any known reading may then have one.
+/// Reads an object that has a number for some readings; `set` takes it to the reading's target. A laboratory file that
+/// could not be read has no measurements: any known reading may then have one.
 template <class Set>
-void read_numbers(ObjectReader& reader, const std::vector<Measurement>& measurements, std::vector<Target>& targets,
-                  const Range& range, Set set) {
-  for (const ReadingKind& kind : reading_kinds()) {
+void read_numbers(ObjectReader& reader, const Lab& lab, std::vector<Target>& targets, const Range& range, Set set) {
+  const bool unread = lab.measurements.empty();
+  for (const ReadingKind& kind : unread ? all_reading_kinds() : reading_kinds(lab.test)) {
     if (kind.key.empty()) continue;
     const auto target = std::ranges::find(targets, kind.measure, &Target::observable);
     double number = 0;
-    if (target == targets.end() && !measurements.empty())
+    if (target == targets.end() && !unread)
       reader.refuse(kind.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
     else if (reader.number(kind.key, number, range, Need::optional) && target != targets.end())
       set(*target, number);
@@ -31,18 +30,18 @@ void read_numbers(ObjectReader& reader, const std::vector<Measurement>& measurem
 }
 
 /// "weights" and "tolerances".
-std::vector<Target> read_targets(ObjectReader& document, const std::vector<Measurement>& measurements, bool hold_out) {
+std::vector<Target> read_targets(ObjectReader& document, const Lab& lab, bool hold_out) {
   std::vector<Target> targets;
-  for (const Measurement& measurement : measurements) targets.push_back({measurement.observable, 1});
+  for (const Measurement& measurement : lab.measurements) targets.push_back({measurement.observable, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, measurements, targets, {0, 1e6},
+    read_numbers(reader, lab, targets, {0, 1e6},
                  [](Target& target, double weight) { target.weight = weight; });
     if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
       document.fault("weights", hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
                      "give at least one measurement a weight above 0");
   });
   document.object("tolerances", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, measurements, targets, {0, 1e6, true},
+    read_numbers(reader, lab, targets, {0, 1e6, true},
                  [](Target& target, double tolerance) { target.tolerance = tolerance; });
   });
   return targets;
@@ -74,7 +73,7 @@ void read_one_of_many(ObjectReader& reader, const std::filesystem::path& folder,
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
   read_lab_of(reader, folder, test, in_labs);
-  test.targets = read_targets(reader, test.lab.measurements, test.hold_out);
+  test.targets = read_targets(reader, test.lab, test.hold_out);
   tests.push_back(std::move(test));
 }
 
@@ -108,7 +107,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
     read_lab_of(document, folder, only, in_labs);
-    only.targets = read_targets(document, only.lab.measurements, false);
+    only.targets = read_targets(document, only.lab, false);
     return tests;
   }
   document.known("tests");

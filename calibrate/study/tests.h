@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {

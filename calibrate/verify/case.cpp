@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "calibrate/study/impact_json.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 
 namespace pastefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rigs/slump/slump_test.h"
+#include "core/step/run.h"
 
 namespace pastefit {
 

@@ -25,7 +25,7 @@ double cpu_seconds() {
 }
 
 /// The smallest step that this scene asks for: of the first packing, at the engine's own step.
-double advised_step(const SlumpTable& test, const RunOptions& options) {
+double advised_step(const SlumpTest& test, const RunOptions& options) {
   return simulate(test, options).run.advised_step_s;
 }
 
@@ -69,8 +69,8 @@ const Row& reference_of(const std::vector<Row>& rows, const Row& row) {
   return row;
 }
 
-SlumpTable front_scene(const std::string& scene, double radius_m) {
-  SlumpTable test;
+SlumpTest front_scene(const std::string& scene, double radius_m) {
+  SlumpTest test;
   test.grains.radius_m = radius_m;
   test.lift_velocity_m_s = 0.2;
   test.drop = DropPlate{};
@@ -153,7 +153,7 @@ std::vector<Setting> ladders(bool quick) {
 
 Row measure(const Setting& setting, Fills& fills) {
   Row row{setting, {}};
-  SlumpTable test = front_scene(setting.scene, setting.radius_m);
+  SlumpTest test = front_scene(setting.scene, setting.radius_m);
   if (setting.raise_s) test.drop->lift_duration_s = *setting.raise_s;
   std::optional<double> fixed_step;
   for (int n = 0; n < setting.packings; ++n) {

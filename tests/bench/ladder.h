@@ -71,7 +71,7 @@ inline constexpr std::array kLadders{"step", "shortcuts", "fill", "raise", "grai
 
 /// The two-step slump test of EN 12350-5 with grains of radius R. Everything but R is a share of R or a strength, so
 /// that every R is the same paste. Requirement: `scene` is one of `kScenes`.
-SlumpTable front_scene(const std::string& scene, double radius_m);
+SlumpTest front_scene(const std::string& scene, double radius_m);
 
 /// All rows to be measured; `quick`: few and coarse, to see that the program works.
 std::vector<Setting> ladders(bool quick);

@@ -9,7 +9,7 @@ namespace pastefit {
 
 std::vector<PhaseCost> phases_of(const std::string& scene, double radius_m, int packings) {
   std::vector<PhaseCost> phases;
-  SlumpTable test = front_scene(scene, radius_m);
+  SlumpTest test = front_scene(scene, radius_m);
   for (int n = 1; n <= packings; ++n) {
     test.packing_seed = static_cast<std::uint64_t>(n);
     std::clock_t last = std::clock();

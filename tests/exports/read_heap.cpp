@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/study/fault_text.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/ruler.h"
 
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", message_of(card.faults()).c_str());
     return 2;
   }
-  SlumpTable test = card.value().test;
+  auto test = std::get<SlumpTest>(card.value().test);
   test.packing_seed = std::stoull(argv[2]);
   const Particles filled = read_dump(argv[3]);
   const Ruler ruler(test, fill_mould(test)->roughness_m, filled);

@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
   const pastefit::Study& study = read.value();
   if (!pastefit::validate(study.search, pastefit::free_count(study)).empty()) return 1;
 
-  pastefit::SlumpTable test = study.tests.at(0).lab.test;
-  test.grains.radius_m = 0.018;
+  pastefit::Test test = study.tests.at(0).lab.test;
+  pastefit::specimen_of(test).grains.radius_m = 0.018;
   test = pastefit::with_contact_of(test, pastefit::usual_values());
   const pastefit::Outcome outcome = pastefit::simulate(test);
   const auto height = outcome.observables.find("step1.height_mm");

@@ -16,6 +16,7 @@
 #include "calibrate/search/strategy.h"
 #include "calibrate/study/tests.h"
 #include "core/random.h"
+#include "tests/calibrate/slump.h"
 
 using namespace pastefit;
 
@@ -23,7 +24,7 @@ namespace {
 
 /// A slump in closed form: the height rises with the strength, the packing and the digits of the bridge make the noise.
 /// It takes between 1 and 3 ms, and is as reproducible as the engine.
-Outcome toy_slump(const SlumpTable& test, const RunOptions&) {
+Outcome toy_slump(const SlumpTest& test, const RunOptions&) {
   const Bridge& bridge = test.contact.bridge;
   const double drive = std::log(bridge.c_n / 0.1) - 20 * bridge.d_c_m - 1e-5 * bridge.a_n_m2;
   const RandomStream random(test.packing_seed, "toy");
@@ -61,8 +62,8 @@ int main(int argc, char** argv) {
 
   EvaluatorOptions options;
   options.threads = 2;
-  options.simulator.fill = [](const SlumpTable&, const RunOptions&) { return std::shared_ptr<const Packing>(); };
-  options.simulator.run = toy_slump;
+  options.engine.prepare = [](const Test&, const RunOptions&) { return std::shared_ptr<const Packing>(); };
+  options.engine.run = of_slump(toy_slump);
   SimulationObjective objective(study, store.value(), options);
   const auto known = store.value().size();
   const Calibration calibration = search(objective, study.search);

@@ -90,7 +90,7 @@ Bridge bridge_of(const UnitPoint& u, double radius, double c, double gap) {
 StressCase case_at(const UnitPoint& u, int number) {
   StressCase stress;
   stress.number = number;
-  SlumpTable& test = stress.test;
+  SlumpTest& test = stress.test;
   test.mould = kMould;
   test.table_length_m = kTable;
   test.reading.probe_diameter_m = 0.02;
@@ -169,7 +169,7 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const StressCase& str
     const char* const all[] = {names...};
     inputs.emplace_back(name, all[static_cast<int>(value)]);
   };
-  const SlumpTable& test = stress.test;
+  const SlumpTest& test = stress.test;
   const ContactModel& contact = test.contact;
   const Bridge& bridge = contact.bridge;
   add("youngs_modulus_pa", contact.youngs_modulus_pa);

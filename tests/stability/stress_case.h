@@ -11,7 +11,7 @@ namespace pastefit {
 /// One run of the stress campaign: a slump test somewhere in the admissible box.
 struct StressCase {
   int number = 0;
-  SlumpTable test;
+  SlumpTest test;
   double enlarged = 0;   ///< share by which the radii of the filled mould grow before the test: grains start in overlap
   double weights = 0;    ///< attraction at touch over the weight of a grain of mean radius
   double gap_ratio = 0;  ///< -d_c/R

@@ -84,7 +84,7 @@ class Witness {
 
 /// What is wrong with the readings of a run without a failure; empty if nothing is.
 std::string fault_of(const Outcome& outcome, const StressCase& stress) {
-  const SlumpTable& test = stress.test;
+  const SlumpTest& test = stress.test;
   const double tall = 1e3 * test.mould.height_m, radius = 1e3 * test.grains.largest_m;
   const double diagonal = 1e3 * std::numbers::sqrt2 * test.table_length_m;
   const std::vector<std::string> names = observable_names(test);

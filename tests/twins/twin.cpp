@@ -60,9 +60,9 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   std::vector<Observables> runs;
   for (int k = 0; k < recipe.repeats; ++k) {
     Study made = study;
-    if (recipe.truth_radius_m > 0) made.tests[0].lab.test.grains.radius_m = recipe.truth_radius_m;
+    if (recipe.truth_radius_m > 0) specimen_of(made.tests[0].lab.test).grains.radius_m = recipe.truth_radius_m;
     const auto packing = first_packing + static_cast<std::uint64_t>(1000 * number + k);
-    const Outcome outcome = options.simulator.run(test_with(made.tests[0].lab.test, values, packing), {});
+    const Outcome outcome = options.engine.run(test_with(made.tests[0].lab.test, values, packing), {});
     if (outcome.failure) return Fault{"twin " + std::to_string(number), outcome.failure->message, "another truth"};
     runs.push_back(outcome.observables);
   }

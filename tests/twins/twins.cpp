@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 #include "tests/twins/twin_table.h"
 
 using namespace pastefit;
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     std::cerr << study_file << ": has several tests; a twin is made of a study of one\n";
     return 2;
   }
-  if (radius_mm > 0) study.tests[0].lab.test.grains.radius_m = radius_mm / 1000;
+  if (radius_mm > 0) specimen_of(study.tests[0].lab.test).grains.radius_m = radius_mm / 1000;
   if (budget > 0) study.search.budget_simulations = budget;
   if (tolerance_mm > 0) study.search.tolerance_mm = tolerance_mm;
   recipe.truth_radius_m = truth_radius_mm / 1000;

@@ -49,7 +49,7 @@ Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
           std::accumulate(nearest.begin(), nearest.end(), 0.0) / static_cast<double>(nearest.size())};
 }
 
-Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& asked) {
+Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptions& asked) {
   RunOptions options = asked;
   options.steps.ledger = options.steps.sleep = false;  // the column is worked on from outside
   options.steps.fixed_step_s.reset();                  // meant for the test

@@ -48,7 +48,7 @@ double inner_radius(const Mould& mould, double z) {
 }
 
 /// Loose grains on a jittered lattice in mould and hopper, from the bottom up, until enough is poured.
-void pour(const SlumpTable& test, Packing& packing) {
+void pour(const SlumpTest& test, Packing& packing) {
   const double largest = largest_radius(test.grains);
   const double spacing = kLoosest * largest;
   const double jitter = 0.5 * spacing - largest;
@@ -78,7 +78,7 @@ void pour(const SlumpTable& test, Packing& packing) {
 }
 
 /// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
-ContactModel filling_model(const SlumpTable& test, const RunOptions& options) {
+ContactModel filling_model(const SlumpTest& test, const RunOptions& options) {
   if (options.own_fill) return test.contact;
   ContactModel model;
   model.youngs_modulus_pa = filling_of(test).youngs_modulus_pa;
@@ -89,7 +89,7 @@ ContactModel filling_model(const SlumpTable& test, const RunOptions& options) {
   return model;
 }
 
-Wall make_wall(std::string name, Shape shape, const SlumpTable& test, const RunOptions& options) {
+Wall make_wall(std::string name, Shape shape, const SlumpTest& test, const RunOptions& options) {
   // Smooth, so that no wall holds the fill up: it would sink when the wall is the test's own.
   const WallContact shared{1e9, 0.3, 0.2, 0, 0, 0};
   const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
@@ -114,7 +114,7 @@ void take_grains(const World& world, Packing& packing) {
 }
 
 /// Mould, floor and a hopper of the mould's upper width that reaches to `top`.
-World filling_world(const SlumpTable& test, const RunOptions& options, const Packing& packing, double top) {
+World filling_world(const SlumpTest& test, const RunOptions& options, const Packing& packing, double top) {
   const Mould& mould = test.mould;
   World world;
   world.particles = make_particles(packing.centres, packing.radii, test.bulk_density_kg_m3 / kSolidFraction);
@@ -152,7 +152,7 @@ double pouring_speed(const World& world) {
 
 /// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
 /// 0.59: a weak paste then stands 20 mm lower (see README).
-void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packing) {
+void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   const double top = top_of(packing);
   World world = filling_world(test, options, packing, top);
   const double speed = pouring_speed(world);
@@ -164,7 +164,7 @@ void let_fall(const SlumpTable& test, const RunOptions& options, Packing& packin
 }
 
 /// What stands out above the rim is scraped away; a lid presses the rest level with the rim and stays until it rests.
-void strike_off(const SlumpTable& test, const RunOptions& options, Packing& packing) {
+void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   const double rim = test.mould.height_m;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < packing.centres.size(); ++i) {
@@ -192,7 +192,7 @@ void strike_off(const SlumpTable& test, const RunOptions& options, Packing& pack
 
 }  // namespace
 
-double poured_grains(const SlumpTable& test) {
+double poured_grains(const SlumpTest& test) {
   constexpr int kDraws = 1000;
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)
@@ -200,7 +200,7 @@ double poured_grains(const SlumpTable& test) {
   return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).squeeze, 3);
 }
 
-double grain_density(const SlumpTable& test, const Packing& packing) {
+double grain_density(const SlumpTest& test, const Packing& packing) {
   return test.bulk_density_kg_m3 * volume_m3(test.mould) / packing.solid_volume_m3;
 }
 
@@ -223,7 +223,7 @@ double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n)
   return sizes.radius_m;
 }
 
-Filling filling_of(const SlumpTable& test) {
+Filling filling_of(const SlumpTest& test) {
   Filling filling;
   for (const double friction : kFrictions)
     if (friction <= test.contact.friction) filling.friction = friction;
@@ -235,13 +235,13 @@ Filling filling_of(const SlumpTable& test) {
   return filling;
 }
 
-std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& asked) {
+std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& asked) {
   RunOptions options = asked;
   // A fixed step, sleep and the ledger are meant for the test; the packing is always the same.
   options.steps.fixed_step_s.reset();
   options.steps.sleep = options.steps.ledger = false;
   const double swelling = options.own_fill ? 1 : 1 + filling_of(test).squeeze;
-  SlumpTable poured = test;
+  SlumpTest poured = test;
   poured.grains = enlarged(test.grains, 1 / swelling);
   auto packing = std::make_shared<Packing>();
   pour(poured, *packing);

@@ -33,17 +33,17 @@ struct Filling {
   double youngs_modulus_pa = 0;  ///< rounded to half an octave
   auto operator<=>(const Filling&) const = default;
 };
-Filling filling_of(const SlumpTable& test);
+Filling filling_of(const SlumpTest& test);
 
 /// Fills and strikes off the mould of `test`: frictional grains without cohesion, poured as `filling_of` says,
 /// so that the packing serves all tests with the same mould, grain sizes, density, seed and
 /// filling; with `own_fill` under the laws and walls of `test`, for it alone.
-std::shared_ptr<const Packing> fill_mould(const SlumpTable& test, const RunOptions& options = {});
+std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& options = {});
 
 /// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. All lengths of the
 /// column are enlarged (or reduced) until it fills the mould as the packing did, as high and as near to its side: by 2
 /// % at most as seen. Its mass is the laboratory's. `run` counts this part only.
-Packing full_mould(const SlumpTable& test, const Packing& packing, const RunOptions& options = {});
+Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptions& options = {});
 
 /// How a column of grains of this mean radius fills a mould.
 struct Fit {
@@ -52,11 +52,11 @@ struct Fit {
 Fit fit_of(const Mould& mould, const Particles& grains, double mean_radius);
 
 /// Density at which the packing's grains have the mass that the laboratory's material has in the mould [kg/m^3].
-double grain_density(const SlumpTable& test, const Packing& packing);
+double grain_density(const SlumpTest& test, const Packing& packing);
 
 /// Number of grains that are poured to fill the mould: its volume times the share of it that is poured as solid, over
 /// the mean volume of a grain. Some of them are struck off.
-double poured_grains(const SlumpTable& test);
+double poured_grains(const SlumpTest& test);
 
 /// Radius of grain n of a scene, from the stream "grain-radius". Pure function of its arguments.
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n);

@@ -17,7 +17,7 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 /// One fall of the plate under a heap.
 class Drop {
  public:
-  Drop(const SlumpTable& test, World world, const Ledger& before, const RunOptions& options)
+  Drop(const SlumpTest& test, World world, const Ledger& before, const RunOptions& options)
       : test_(test),
         options_(options),
         world_(std::move(world)),
@@ -84,7 +84,7 @@ class Drop {
     return s * s * (3 - 2 * s);
   }
 
-  const SlumpTable& test_;
+  const SlumpTest& test_;
   const RunOptions& options_;
   World world_;
   Runner runner_;
@@ -93,7 +93,7 @@ class Drop {
 
 }  // namespace
 
-Outcome drop_plate(const SlumpTable& test, const World& rested, const Ruler& ruler, const Ledger& before,
+Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& ruler, const Ledger& before,
                    const RunOptions& options) {
   Outcome mean;
   mean.run.settled = true;

@@ -14,7 +14,7 @@ namespace pastefit {
 /// means: the tilt goes out of the sag whatever share of it is left, and the sag's noise falls to a third.
 /// `world`: the heap at rest, the plate as its wall `table`. `ruler`: that of its step 1.
 /// `before`: the ledger of step 1, which the drops go on with.
-Outcome drop_plate(const SlumpTable& test, const World& world, const Ruler& ruler, const Ledger& before,
+Outcome drop_plate(const SlumpTest& test, const World& world, const Ruler& ruler, const Ledger& before,
                    const RunOptions& options);
 
 }  // namespace pastefit

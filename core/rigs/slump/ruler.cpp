@@ -6,7 +6,7 @@
 
 namespace pastefit {
 
-Ruler::Ruler(const SlumpTable& test, double roughness_m, const Particles& in_mould)
+Ruler::Ruler(const SlumpTest& test, double roughness_m, const Particles& in_mould)
     : test_(test), roughness_m_(roughness_m), on_top_(in_mould.count(), 0) {
   const double below = test.mould.height_m - 2 * test.grains.radius_m;
   for (std::int32_t i = 0; i < in_mould.count(); ++i)
@@ -56,7 +56,7 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".plateau_width_mm", 1e3 * plateau_width(side));
 }
 
-bool has_sheared(const SlumpTable& test, const Observables& readings) {
+bool has_sheared(const SlumpTest& test, const Observables& readings) {
   const auto shift_mm = readings.find("step1.lateral_shift_mm");
   return shift_mm && 1e-3 * *shift_mm > kShearedShift * test.mould.base_radius_m;
 }

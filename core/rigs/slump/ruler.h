@@ -18,7 +18,7 @@ namespace pastefit {
 class Ruler {
  public:
   /// The grains in the mould, before it is lifted.
-  Ruler(const SlumpTable& test, double roughness_m, const Particles& in_mould);
+  Ruler(const SlumpTest& test, double roughness_m, const Particles& in_mould);
 
   /// Sets the readings of this step, "step1" or "step2". What a heap does not have is absent: no width of nothing.
   void read(const Particles& grains, std::string_view step, Observables& readings) const;
@@ -29,7 +29,7 @@ class Ruler {
  private:
   Disc top(const Particles& grains) const;
 
-  const SlumpTable& test_;
+  const SlumpTest& test_;
   double roughness_m_;
   std::vector<char> on_top_;  ///< by identity: whether it lay in the struck-off top
 };
@@ -40,7 +40,7 @@ class Ruler {
 inline constexpr double kShearedShift = 0.4;
 
 /// Whether the heap sheared off when the mould was lifted; not if its shift is unknown.
-bool has_sheared(const SlumpTable& test, const Observables& readings);
+bool has_sheared(const SlumpTest& test, const Observables& readings);
 
 /// The grains that have not left the table.
 Particles on_table(const Particles& grains);

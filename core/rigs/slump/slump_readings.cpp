@@ -18,7 +18,7 @@ constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2"
 
 }  // namespace
 
-std::vector<ReadingKind> reading_kinds(const SlumpTable& test) {
+std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
   const double mould_mm = 1e3 * test.mould.height_m, base_mm = 2e3 * test.mould.base_radius_m;
   const double table_mm = 1e3 * test.table_length_m;
   const double full_kg = test.bulk_density_kg_m3 * volume_m3(test.mould);
@@ -88,7 +88,7 @@ std::vector<ReadingKind> reading_kinds(const SlumpTable& test) {
   return kinds;
 }
 
-std::vector<std::string> observable_names(const SlumpTable& test) {
+std::vector<std::string> observable_names(const SlumpTest& test) {
   std::vector<std::string> names;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto& outline = kind.stage == kStep1 ? test.reading.outline_step1 : test.reading.outline_step2;

@@ -12,6 +12,6 @@ namespace pastefit {
 inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2;
 
 /// Every reading of slump tests, in the order in which a simulation gives them; those that this one lacks say so.
-std::vector<ReadingKind> reading_kinds(const SlumpTable& test);
+std::vector<ReadingKind> reading_kinds(const SlumpTest& test);
 
 }  // namespace pastefit

@@ -20,7 +20,7 @@ constexpr double kRebound = 1;
 /// Step 1, phase by phase, each as a person in the laboratory would say it.
 class MouldLift {
  public:
-  MouldLift(const SlumpTable& test, const Packing& filled, const RunOptions& options)
+  MouldLift(const SlumpTest& test, const Packing& filled, const RunOptions& options)
       : test_(test),
         options_(options),
         world_(world_in_mould(test, filled)),
@@ -83,7 +83,7 @@ class MouldLift {
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };
   }
 
-  const SlumpTable& test_;
+  const SlumpTest& test_;
   const RunOptions& options_;
   World world_;
   Runner runner_;
@@ -112,7 +112,7 @@ RunSummary together(RunSummary lift, const RunSummary& drops) {
 
 }  // namespace
 
-Outcome simulate(const SlumpTable& test, const RunOptions& options) {
+Outcome simulate(const SlumpTest& test, const RunOptions& options) {
   Outcome outcome;
   const std::shared_ptr<const Packing> packing = options.packing ? options.packing : fill_mould(test, options);
   outcome.run = packing->run;

@@ -78,7 +78,7 @@ double volume_m3(const Mould& mould) {
   return std::numbers::pi * mould.height_m / 3 * (rb * rb + rb * rt + rt * rt);
 }
 
-Faults validate(const SlumpTable& test) {
+Faults validate(const SlumpTest& test) {
   FieldChecker check;
   const GrainSizes& sizes = test.grains;
   const double radius = sizes.radius_m;

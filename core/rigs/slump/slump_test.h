@@ -49,7 +49,7 @@ struct Reading {
 /// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
 /// apparatus. The density of a grain follows from the packing.
 /// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): turn the plate up, let it fall once.
-struct SlumpTable : Specimen {
+struct SlumpTest : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
   double table_length_m = 0.700;  ///< side of the square table (and of the plate)
@@ -62,14 +62,14 @@ struct SlumpTable : Specimen {
 
 /// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
 /// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.
-Faults validate(const SlumpTable& test);
+Faults validate(const SlumpTest& test);
 
 /// Runs the slump test. Same test, options and program: same bits.
 /// Requirement: `validate(test)` is empty; a cutoff is of `step1.height_mm`. Never throws for bad physics: see
 /// `Outcome::failure`.
-Outcome simulate(const SlumpTable& test, const RunOptions& options = {});
+Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
 
 /// The names of all readings the test will have, in order (with or without step 2).
-std::vector<std::string> observable_names(const SlumpTable& test);
+std::vector<std::string> observable_names(const SlumpTest& test);
 
 }  // namespace pastefit

@@ -8,13 +8,13 @@ constexpr double kGroundDepth = 0.1;  // [m] below the table
 
 }  // namespace
 
-Plate level_table(const SlumpTable& test) {
+Plate level_table(const SlumpTest& test) {
   Plate plate;
   plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
   return plate;
 }
 
-World world_in_mould(const SlumpTable& test, const Packing& packing) {
+World world_in_mould(const SlumpTest& test, const Packing& packing) {
   World world;
   world.particles = make_particles(packing.centres, packing.radii, grain_density(test, packing));
   set_contact_model(world, test.contact, test.grains.radius_m);

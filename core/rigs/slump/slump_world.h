@@ -9,10 +9,10 @@ namespace pastefit {
 inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;
 
 /// The table, or the plate that can be dropped, when it is level.
-Plate level_table(const SlumpTable& test);
+Plate level_table(const SlumpTest& test);
 
 /// A packing in its mould on the table, under the laws of `test`. Grains that flow over the table's edge land on the
 /// ground below it.
-World world_in_mould(const SlumpTable& test, const Packing& packing);
+World world_in_mould(const SlumpTest& test, const Packing& packing);
 
 }  // namespace pastefit

@@ -6,13 +6,14 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/processor_time.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
-#include "calibrate/study/fault_text.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
 #include "core/world/world.h"
+#include "tests/calibrate/slump.h"
 
 namespace pastefit {
 
@@ -37,7 +38,7 @@ class WatchedEngine {
       if (measurement.observable == "step1.height_mm") target_m_ = 1e-3 * measurement.value;
   }
 
-  Outcome run(const SlumpTable& test, const RunOptions& asked) {
+  Outcome run(const SlumpTest& test, const RunOptions& asked) {
     RunOptions options = asked;
     double below_since = -1, far_below_since = -1;
     options.watch = [&](const Moment& moment) {
@@ -85,7 +86,8 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   EvaluatorOptions evaluator;
   evaluator.budget = options.budget_simulations;
   evaluator.run = run;
-  evaluator.simulator.run = [&](const SlumpTable& test, const RunOptions& asked) { return engine.run(test, asked); };
+  evaluator.engine.run =
+      of_slump([&](const SlumpTest& test, const RunOptions& asked) { return engine.run(test, asked); });
   const std::clock_t start = std::clock();
   const auto begin = std::chrono::steady_clock::now();
   SimulationObjective objective(study, store.value(), evaluator);

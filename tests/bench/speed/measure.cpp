@@ -238,7 +238,7 @@ SceneResult measure_test(const MeasureOptions& options, const ScratchFolder& fol
   };
   std::vector<std::string> missing;
   if (options.peers) {
-    const SlumpTable test = two_step_test();
+    const SlumpTest test = two_step_test();
     auto found = installed(peers_of(test.contact, test.grains.radius_m, 0.25 * test.grains.radius_m));
     missing = std::move(found.second);
     const Variables variables = test_variables(bed, folder.path());

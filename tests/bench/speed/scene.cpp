@@ -83,7 +83,7 @@ Bed fill_box(const Scene& scene) {
 }
 
 Bed fill_mould_of_scene() {
-  SlumpTable test;
+  SlumpTest test;
   test.mould = scene_mould();
   test.grains.radius_m = kSceneRadius;
   test.contact = scene_material(false);

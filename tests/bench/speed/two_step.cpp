@@ -27,14 +27,14 @@ double solid_volume(const Bed& fill) {
   return static_cast<double>(fill.centres.size()) * 4 / 3 * std::numbers::pi * std::pow(kRadius, 3);
 }
 
-double grain_density(const SlumpTable& test, const Bed& fill) {
+double grain_density(const SlumpTest& test, const Bed& fill) {
   return test.bulk_density_kg_m3 * volume_m3(test.mould) / solid_volume(fill);
 }
 
 }  // namespace
 
-SlumpTable two_step_test() {
-  SlumpTable test;
+SlumpTest two_step_test() {
+  SlumpTest test;
   test.lift_velocity_m_s = kLiftSpeed;
   test.drop = DropPlate{};
   test.reading.height = HeightReading::highest;
@@ -77,7 +77,7 @@ double peer_test_step(const Bed& fill) {
 }
 
 Variables test_variables(const Bed& fill, const std::filesystem::path& folder) {
-  const SlumpTable test = two_step_test();
+  const SlumpTest test = two_step_test();
   const DropPlate& plate = *test.drop;
   const double step = peer_test_step(fill), density = grain_density(test, fill);
   const double lift_s = test.mould.height_m / test.lift_velocity_m_s;

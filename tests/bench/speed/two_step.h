@@ -10,7 +10,7 @@ namespace pastefit {
 
 /// The scene `test`: both steps of EN 12350-5 with about 1,250 cohesive grains of 8 mm (the material of the slump
 /// scenes in scale-free numbers, E 2 MPa), from a filled mould to the second height.
-SlumpTable two_step_test();
+SlumpTest two_step_test();
 
 /// Its filled mould. Throws std::runtime_error if it cannot be filled.
 Bed fill_two_step();

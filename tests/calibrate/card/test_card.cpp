@@ -30,7 +30,7 @@ Card card() {
   std::vector<double> values;
   for (const auto& parameter : out.parameters) values.push_back(parameter.value);
   out.test = with_contact_of(out.test, values);
-  out.test.drop = DropPlate{};
+  std::get<SlumpTest>(out.test).drop = DropPlate{};
   out.grain_density_kg_m3 = 2238 / 0.6;
   out.observables = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
   out.confirmation = {{18446744073709551615u, 9007199254740993u, 3, 4}, true, 0.26, true};
@@ -73,8 +73,8 @@ TEST_CASE("a card reads back as it was written, to the last bit") {
   INFO((read.ok() ? "" : read.faults()[0].where + ": " + read.faults()[0].what));
   REQUIRE(read.ok());
   CHECK(to_json(read.value()).dump() == document.dump());
-  CHECK(std::bit_cast<std::uint64_t>(read.value().test.contact.bridge.a_n_m2) ==
-        std::bit_cast<std::uint64_t>(written.test.contact.bridge.a_n_m2));
+  CHECK(std::bit_cast<std::uint64_t>(specimen_of(read.value().test).contact.bridge.a_n_m2) ==
+        std::bit_cast<std::uint64_t>(specimen_of(written.test).contact.bridge.a_n_m2));
   CHECK(read.value().confirmation.packings == written.confirmation.packings);
   CHECK(read.value().provenance.lab.twin);
 }
@@ -180,7 +180,7 @@ TEST_CASE(
 
 TEST_CASE("the summary counts the fillings that sheared off, with the mean with and without them") {
   auto material = card();
-  material.test.mould.base_radius_m = 0.1;
+  std::get<SlumpTest>(material.test).mould.base_radius_m = 0.1;
   material.baseline.runs.clear();
   for (const auto& [height, shift] : {std::pair{90.0, 12.0}, {94.0, 18.0}, {110.0, 55.0}}) {
     Baseline::Run run;
@@ -285,7 +285,7 @@ TEST_CASE("the other tests of a study, its hold-outs and what was known beforeha
   fitted.lab_file = "plate.json";
   fitted.lab_hash = "00000000000000aa";
   fitted.test = written.test;
-  fitted.test.mould.height_m = 0.2;
+  std::get<SlumpTest>(fitted.test).mould.height_m = 0.2;
   fitted.observables = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1, 5}};
   CardTest held = fitted;
   held.name = "fast";
@@ -331,20 +331,20 @@ TEST_CASE("faults in the later parts of a card are named with their place") {
 
 TEST_CASE("a card carried to another grain size is the same law in scale-free numbers") {
   const auto before = card();
-  const double radius = before.test.grains.radius_m;
+  const double radius = specimen_of(before.test).grains.radius_m;
   const auto result = rescaled(before, radius / 2);
   REQUIRE(result.ok());
   const auto& after = result.value();
   std::vector<double> values;
   for (const auto& parameter : after.parameters) values.push_back(parameter.value);
   const auto expected = with_contact_of(after.test, values).contact;
-  CHECK(after.test.grains.radius_m == radius / 2);
-  CHECK(after.test.contact.bridge.a_n_m2 == Approx(expected.bridge.a_n_m2));
-  CHECK(after.test.contact.bridge.b_n_m == Approx(expected.bridge.b_n_m));
-  CHECK(after.test.contact.bridge.c_n == Approx(expected.bridge.c_n));
-  CHECK(after.test.contact.bridge.d_c_m == Approx(expected.bridge.d_c_m));
-  CHECK(after.test.contact.bridge.offset_m == Approx(expected.bridge.offset_m));
-  CHECK(*after.test.contact.cohesion_n == Approx(*expected.cohesion_n));
+  CHECK(specimen_of(after.test).grains.radius_m == radius / 2);
+  CHECK(specimen_of(after.test).contact.bridge.a_n_m2 == Approx(expected.bridge.a_n_m2));
+  CHECK(specimen_of(after.test).contact.bridge.b_n_m == Approx(expected.bridge.b_n_m));
+  CHECK(specimen_of(after.test).contact.bridge.c_n == Approx(expected.bridge.c_n));
+  CHECK(specimen_of(after.test).contact.bridge.d_c_m == Approx(expected.bridge.d_c_m));
+  CHECK(specimen_of(after.test).contact.bridge.offset_m == Approx(expected.bridge.offset_m));
+  CHECK(*specimen_of(after.test).contact.cohesion_n == Approx(*expected.cohesion_n));
   CHECK(after.observables.empty());
   CHECK_FALSE(after.confirmation.meets_laboratory);
   CHECK_FALSE(rescaled(before, 0.1).ok());

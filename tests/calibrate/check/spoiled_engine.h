@@ -2,6 +2,7 @@
 
 #include "calibrate/check/check.h"
 #include "core/rigs/impact/impact.h"
+#include "tests/calibrate/slump.h"
 
 namespace pastefit {
 
@@ -23,10 +24,10 @@ inline ContactModel with_bridges_of_strength(ContactModel contact, double factor
 }
 
 inline CheckEngine with_stronger_bridges(CheckEngine engine, double factor) {
-  engine.run = [factor](SlumpTable test, const RunOptions& options) {
+  engine.run = of_slump([factor](SlumpTest test, const RunOptions& options) {
     test.contact = with_bridges_of_strength(test.contact, factor);
     return simulate(test, options);
-  };
+  });
   engine.meet = [factor](Impact test) {
     test.contact = with_bridges_of_strength(test.contact, factor);
     return simulate(test);
@@ -35,28 +36,28 @@ inline CheckEngine with_stronger_bridges(CheckEngine engine, double factor) {
 }
 
 inline CheckEngine without_friction(CheckEngine engine) {
-  engine.run = [](SlumpTable test, const RunOptions& options) {
+  engine.run = of_slump([](SlumpTest test, const RunOptions& options) {
     test.contact.friction = 0;
     return simulate(test, options);
-  };
+  });
   return engine;
 }
 
 /// The plate falls twice: the engine has no second fall, so the energy of two is given to one, by twice the height.
 inline CheckEngine with_plate_dropped_twice(CheckEngine engine) {
-  engine.run = [](SlumpTable test, const RunOptions& options) {
+  engine.run = of_slump([](SlumpTest test, const RunOptions& options) {
     test.drop->lift_height_m *= 2;
     return simulate(test, options);
-  };
+  });
   return engine;
 }
 
 /// A change of the kind that nobody would notice: the last bit of one number.
 inline CheckEngine with_one_bit_changed(CheckEngine engine) {
-  engine.run = [](SlumpTable test, const RunOptions& options) {
+  engine.run = of_slump([](SlumpTest test, const RunOptions& options) {
     test.contact.restitution *= 1 + 0x1p-52;
     return simulate(test, options);
-  };
+  });
   return engine;
 }
 

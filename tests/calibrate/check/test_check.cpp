@@ -10,6 +10,7 @@
 #include "calibrate/study/parameters.h"
 #include "core/random.h"
 #include "tests/calibrate/check/spoiled_engine.h"
+#include "tests/calibrate/slump.h"
 
 using namespace pastefit;
 
@@ -32,10 +33,10 @@ Card coarse_card() {
     const auto& kind = parameter_kinds()[i];
     card.parameters.push_back({std::string(kind.name), false, values[i], 0, 0, kind.scale});
   }
-  card.test.grains.radius_m = 0.012;
-  card.test.contact.friction_basis = FrictionBasis::total;
-  card.test.drop = DropPlate{};
-  card.test.lift_velocity_m_s = 0.2;
+  specimen_of(card.test).grains.radius_m = 0.012;
+  specimen_of(card.test).contact.friction_basis = FrictionBasis::total;
+  std::get<SlumpTest>(card.test).drop = DropPlate{};
+  std::get<SlumpTest>(card.test).lift_velocity_m_s = 0.2;
   card.test = with_contact_of(card.test, values);
   return card;
 }
@@ -76,12 +77,12 @@ Card quick_card(std::vector<double> heights) {
 CheckEngine quick_engine(const std::string& program, std::vector<double> heights) {
   CheckEngine engine;
   engine.program = program;
-  engine.fill = [](const SlumpTable&, const RunOptions&) { return nullptr; };
-  engine.run = [heights](const SlumpTable& test, const RunOptions&) {
+  engine.prepare = [](const Test&, const RunOptions&) { return nullptr; };
+  engine.run = of_slump([heights](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
     outcome.observables.set("step1.height_axis_mm", heights.at(test.packing_seed - 10));
     return outcome;
-  };
+  });
   return engine;
 }
 
@@ -129,7 +130,7 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
   CardTest lower;
   lower.name = "low mould";
   lower.test = card.test;
-  lower.test.mould.height_m *= 0.9;
+  std::get<SlumpTest>(lower.test).mould.height_m *= 0.9;
   CardObservable low;
   low.name = "step1.height_axis_mm";
   low.simulated = 50;
@@ -137,16 +138,16 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
   lower.observables.push_back(low);
   card.confirmation.packings = {10, 11};
   card.further.push_back(lower);
-  const double height = card.test.mould.height_m;
+  const double height = std::get<SlumpTest>(card.test).mould.height_m;
 
   const auto engine_with = [&](double read) {
     CheckEngine engine = quick_engine("there", {100, 101});
-    engine.run = [=](const SlumpTable& test, const RunOptions&) {
+    engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
       const double own = test.mould.height_m < height ? read : 100;
       Outcome outcome;
       outcome.observables.set("step1.height_axis_mm", own + static_cast<double>(test.packing_seed - 10));
       return outcome;
-    };
+    });
     return engine;
   };
   CHECK(caught_by_noise(check(card, {}, engine_with(49.5))).empty());
@@ -177,19 +178,20 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   low.tolerance = 5;
   lower.observables.push_back(low);
   card.further.push_back(lower);
-  const double radius = 1.25 * card.test.grains.radius_m;
+  const double radius = 1.25 * specimen_of(card.test).grains.radius_m;
   const auto carried = rescaled(card, radius);
   REQUIRE(carried.ok());
-  CHECK(carried.value().further[0].test.grains.radius_m == Approx(radius));
-  CHECK(carried.value().further[0].test.contact.bridge.c_n == Approx(1.25 * 1.25 * card.test.contact.bridge.c_n));
+  CHECK(specimen_of(carried.value().further[0].test).grains.radius_m == Approx(radius));
+  CHECK(specimen_of(carried.value().further[0].test).contact.bridge.c_n ==
+        Approx(1.25 * 1.25 * specimen_of(card.test).contact.bridge.c_n));
   CHECK(carried.value().further[0].observables.empty());
 
   CheckEngine engine = quick_engine("here", {});
-  engine.run = [=](const SlumpTable& test, const RunOptions&) {
+  engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
     outcome.observables.set("step1.height_axis_mm", 50 + 1000 * (test.grains.radius_m - 0.012));
     return outcome;
-  };
+  });
   const auto measured = with_measured_bias(card, carried.value(), 2, {}, engine);
   REQUIRE(measured.ok());
   const Rescaling::Bias bias = measured.value().rescaled.back().bias.back();
@@ -273,7 +275,7 @@ TEST_CASE("a card without single runs is checked by mean and deviation, one with
 TEST_CASE("a simulation that fails is a disagreement that names packing and reason") {
   const Card card = quick_card({100, 104});
   auto engine = quick_engine("elsewhere", {100, 104});
-  engine.run = [](const SlumpTable& test, const RunOptions&) {
+  engine.run = of_slump([](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
     if (test.packing_seed == 11) {
       outcome.failure = Failure{};
@@ -281,7 +283,7 @@ TEST_CASE("a simulation that fails is a disagreement that names packing and reas
     }
     outcome.observables.set("step1.height_axis_mm", 100);
     return outcome;
-  };
+  });
   const auto checked = check(card, {}, engine);
   CHECK(checked.verdict == CheckVerdict::disagrees);
   CHECK_THAT(checked.reason, Catch::Contains("Packing 11") && Catch::Contains("It burst."));
@@ -291,11 +293,11 @@ TEST_CASE("a new baseline keeps the packings, adds fresh ones, and records why a
   Card card = quick_card({100, 104});
   card.search.packings = {1, 2};
   CheckEngine engine = quick_engine("there", {});
-  engine.run = [](const SlumpTable& test, const RunOptions&) {
+  engine.run = of_slump([](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
     outcome.observables.set("step1.height_axis_mm", 110 + 0.1 * static_cast<double>(test.packing_seed));
     return outcome;
-  };
+  });
   const auto made = rebaselined(card, "the plate was mended", 4, {}, engine);
   REQUIRE(made.ok());
   const auto& baseline = made.value().baseline;
@@ -321,7 +323,7 @@ TEST_CASE("an old card is judged by new laboratory data within the noise of both
   const auto checked = check_against(card, lab, {}, engine);
   CHECK(checked.verdict == CheckVerdict::disagrees);
   CHECK(checked.readings.at(0).expected == 180);
-  lab.test.mould = {0.02, 0.01, 0.03};
+  std::get<SlumpTest>(lab.test).mould = {0.02, 0.01, 0.03};
   CHECK(check_against(card, lab, {}, engine).verdict == CheckVerdict::not_checked);
 }
 
@@ -330,12 +332,12 @@ TEST_CASE("the bias of another grain size is measured, with its error") {
   const auto after = rescaled(before, 0.006);
   REQUIRE(after.ok());
   CheckEngine engine = quick_engine("here", {});
-  engine.run = [](const SlumpTable& test, const RunOptions&) {
+  engine.run = of_slump([](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
     outcome.observables.set("step1.height_axis_mm",
                             1e4 * test.grains.radius_m + static_cast<double>(test.packing_seed % 2));
     return outcome;
-  };
+  });
   const auto measured = with_measured_bias(before, after.value(), 4, {}, engine);
   REQUIRE(measured.ok());
   const auto& bias = measured.value().rescaled.back().bias.at(0);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "calibrate/exports/export.h"
-#include "calibrate/study/names.h"
+#include "calibrate/laboratory/names.h"
 #include "core/laws/contact.h"
 #include "data/lammps/contact_law.h"
 
@@ -153,8 +153,8 @@ TEST_CASE("the style for LAMMPS names every fault of its words") {
 
 TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
   Card card;
-  card.test.contact = paste(BridgeShape::polynomial);
-  card.test.drop = DropPlate{};
+  specimen_of(card.test).contact = paste(BridgeShape::polynomial);
+  std::get<SlumpTest>(card.test).drop = DropPlate{};
   ExportScene scene;
   scene.packing.centres = {{0, 0, kGrainRadius}};
   scene.packing.radii = {kGrainRadius};
@@ -162,7 +162,7 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
   scene.sizes = size_classes(scene.packing.radii);
   for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,
                            BridgeShape::capillary}) {
-    scene.card.test.contact.bridge.shape = shape;
+    specimen_of(scene.card.test).contact.bridge.shape = shape;
     const auto written = export_lammps(scene);
     REQUIRE(written.ok());
     const std::string& deck = written.value().files[0].content;
@@ -177,7 +177,7 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
     CHECK(style::read_law(after("pair_style   pastefit ", "\npair_coeff"), law) == "");
     style::WallLaw wall;
     CHECK(style::read_wall_law(after("wall/pastefit mould ", "\ncompute"), wall) == "");
-    CHECK(wall.friction == scene.card.test.mould_wall.friction);
+    CHECK(wall.friction == std::get<SlumpTest>(scene.card.test).mould_wall.friction);
     style::Hinge plate;
     CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
     CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));

@@ -54,8 +54,8 @@ TEST_CASE("failed coarse simulations tell nothing") {
 TEST_CASE("coarse grains are larger in every respect") {
   Study study;
   study.tests.emplace_back();
-  study.tests[0].lab.test.grains = {SizeDistribution::normal, 0.008, 0.001, 0.006, 0.010};
-  const GrainSizes grains = with_coarse_grains(study).tests.at(0).lab.test.grains;
+  specimen_of(study.tests[0].lab.test).grains = {SizeDistribution::normal, 0.008, 0.001, 0.006, 0.010};
+  const GrainSizes grains = specimen_of(with_coarse_grains(study).tests.at(0).lab.test).grains;
   CHECK(grains.radius_m == Approx(0.012));
   CHECK(grains.standard_deviation_m == Approx(0.0015));
   CHECK(grains.smallest_m == Approx(0.009));

@@ -127,7 +127,7 @@ TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit 
   test::Laboratory laboratory;
   laboratory.study.tests[0].targets[0].weight = 0;  // the mass alone is fitted
   double scatter_kg = 4;
-  laboratory.twist = [&](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+  laboratory.twist = [&](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     outcome.observables.set("fill.mass_kg", 9 + (test.packing_seed % 2 == 0 ? scatter_kg : -scatter_kg));
   };
   laboratory.study.search.screening = 4;

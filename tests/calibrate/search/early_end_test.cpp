@@ -30,7 +30,7 @@ struct TwoSteps : Laboratory {
     study.search.packings = 2;
     study.search.screening = 12;
     options.budget = 60;
-    twist = [this](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
+    twist = [this](const SlumpTest& test, const RunOptions& run, Outcome& outcome) {
       const double strength =
           std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
       const double noise = 3 * synthetic::normal(test.packing_seed, static_cast<std::uint64_t>(1e6 * strength));
@@ -210,7 +210,7 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
     std::atomic<bool> stop = false;
     killed.options.stop = &stop;
     const auto honest = killed.twist;
-    killed.twist = [&](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
+    killed.twist = [&](const SlumpTest& test, const RunOptions& run, Outcome& outcome) {
       honest(test, run, outcome);
       if (killed.runs == killed_after) stop = true;
     };

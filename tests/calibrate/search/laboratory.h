@@ -10,6 +10,7 @@
 #include "calibrate/study/parameters.h"
 #include "core/rigs/slump/packing.h"
 #include "tests/calibrate/folder.h"
+#include "tests/calibrate/slump.h"
 
 namespace pastefit::test {
 
@@ -20,7 +21,7 @@ struct Laboratory {
   Study study;
   std::atomic<int> fills = 0;
   std::atomic<int> runs = 0;
-  std::function<void(const SlumpTable&, const RunOptions&, Outcome&)> twist = [](auto&&...) {};
+  std::function<void(const SlumpTest&, const RunOptions&, Outcome&)> twist = [](auto&&...) {};
   EvaluatorOptions options;
 
   Laboratory() {
@@ -36,12 +37,12 @@ struct Laboratory {
     study.tests[0].targets = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
     study.search.budget_simulations = 20;
     options.threads = 4;
-    options.simulator.fill = [this](const SlumpTable&, const RunOptions&) {
+    options.engine.prepare = [this](const Test&, const RunOptions&) {
       ++fills;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       return std::make_shared<const Packing>();
     };
-    options.simulator.run = [this](const SlumpTable& test, const RunOptions& run) {
+    options.engine.run = of_slump([this](const SlumpTest& test, const RunOptions& run) {
       ++runs;
       Outcome outcome;
       outcome.observables.set("step1.height_mm",
@@ -51,7 +52,7 @@ struct Laboratory {
       outcome.run.simulated_s = 2;
       twist(test, run, outcome);
       return outcome;
-    };
+    });
   }
 
   Store store() const {

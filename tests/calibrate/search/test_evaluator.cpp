@@ -44,9 +44,9 @@ TEST_CASE("the mould is filled once for each packing and way to fill it, however
   std::vector<UnitPoint> points;
   for (int i = 0; i < 8; ++i) points.push_back(at(0.1 * i, 0.5));
   (void)objective.evaluate(points, kPackings);
-  std::set<Filling> ways;
+  std::set<std::string> ways;
   for (const UnitPoint& point : points)
-    ways.insert(filling_of(test_with(laboratory.study.tests[0].lab.test, values_at(laboratory.study, point), 1)));
+    ways.insert(preparation_key(test_with(laboratory.study.tests[0].lab.test, values_at(laboratory.study, point), 1)));
   CHECK(laboratory.runs == 16);
   CHECK(laboratory.fills == 2 * static_cast<int>(ways.size()));
   CHECK(ways.size() < points.size());
@@ -56,7 +56,7 @@ TEST_CASE("a candidate that is tried out keeps no ledger of energy, one that is 
   Laboratory laboratory;
   auto store = laboratory.store();
   std::atomic<int> kept = 0;
-  laboratory.twist = [&](const SlumpTable&, const RunOptions& run, Outcome&) { kept += run.steps.ledger; };
+  laboratory.twist = [&](const SlumpTest&, const RunOptions& run, Outcome&) { kept += run.steps.ledger; };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   (void)objective.try_out(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings);
   CHECK(laboratory.runs == 2);
@@ -72,7 +72,7 @@ TEST_CASE("simulations that fill their own moulds share none, and run as they ar
   laboratory.options.run.own_fill = true;
   laboratory.options.run.fixed_wait_s = 0.25;
   std::atomic<int> as_asked = 0;
-  laboratory.twist = [&](const SlumpTable&, const RunOptions& run, Outcome&) {
+  laboratory.twist = [&](const SlumpTest&, const RunOptions& run, Outcome&) {
     if (!run.packing && run.own_fill && run.fixed_wait_s == 0.25 && run.watch) ++as_asked;
   };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
@@ -121,7 +121,7 @@ TEST_CASE("the answers do not depend on the number of threads") {
 TEST_CASE("a failure answers with a finite misfit beyond every candidate that ran, lower the later it failed") {
   Laboratory laboratory;
   auto store = laboratory.store();
-  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+  laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     const double friction = test.contact.friction;
     if (friction < 0.05)
       fail(outcome, FailureReason::excessive_overlap, 0.1);
@@ -132,7 +132,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
     else if (friction > 0.95)
       outcome.observables.set("step1.height_mm", 300);  // the worst a heap can do
   };
-  laboratory.study.tests[0].lab.test.mould.height_m = 0.3;
+  std::get<SlumpTest>(laboratory.study.tests[0].lab.test).mould.height_m = 0.3;
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const std::vector<UnitPoint> points{at(0.5, 0), at(0.5, 0.1), at(0.5, 0.2), at(0.5, 1)};
   const auto responses = objective.evaluate(points, kPackings);
@@ -156,7 +156,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
 TEST_CASE("a reading that is missing or not a number is a classified failure") {
   Laboratory laboratory;
   auto store = laboratory.store();
-  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+  laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     if (test.packing_seed == 1) outcome.observables.set("fill.mass_kg", std::numeric_limits<double>::quiet_NaN());
     if (test.packing_seed == 3) outcome.observables = {};
   };
@@ -174,7 +174,7 @@ TEST_CASE("a stop request ends running simulations, which are not stored") {
   std::atomic<bool> stop = false;
   laboratory.options.stop = &stop;
   laboratory.options.threads = 2;
-  laboratory.twist = [&](const SlumpTable&, const RunOptions& run, Outcome& outcome) {
+  laboratory.twist = [&](const SlumpTest&, const RunOptions& run, Outcome& outcome) {
     if (laboratory.runs > 2) stop = true;
     if (laboratory.runs <= 2) return;
     while (run.watch({})) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -198,7 +198,7 @@ TEST_CASE("a simulation beyond the wall limit is a stored failure, and the next 
   Laboratory laboratory;
   auto store = laboratory.store();
   laboratory.options.wall_limit_s = 0.02;
-  laboratory.twist = [&](const SlumpTable& test, const RunOptions& run, Outcome& outcome) {
+  laboratory.twist = [&](const SlumpTest& test, const RunOptions& run, Outcome& outcome) {
     if (test.packing_seed != 1) return;
     while (run.watch({})) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     fail(outcome, FailureReason::stopped, 0.1);

@@ -16,10 +16,10 @@ void add_low_mould(Laboratory& laboratory, bool hold_out) {
   tests.push_back(tests[0]);
   tests[1].name = "low";
   tests[1].hold_out = hold_out;
-  tests[1].lab.test.mould.height_m = 0.06;
+  std::get<SlumpTest>(tests[1].lab.test).mould.height_m = 0.06;
   tests[1].lab.measurements = {{"step1.height_mm", 20, 1, 2}};
   tests[1].targets = {{"step1.height_mm", 1}};
-  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+  laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     if (test.mould.height_m != 0.06) return;
     outcome.observables.set("step1.height_mm", 20 + static_cast<double>(test.packing_seed));
   };
@@ -54,7 +54,7 @@ TEST_CASE("two tests of one material are one residual vector, each reading under
 TEST_CASE("a candidate that fails in one of two tests has failed") {
   Laboratory laboratory;
   add_low_mould(laboratory, false);
-  laboratory.twist = [](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+  laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     if (test.mould.height_m == 0.06) fail(outcome, FailureReason::grain_lost, 0.1);
   };
   auto store = laboratory.store();
@@ -141,7 +141,7 @@ TEST_CASE("what was simulated before holds within narrower bounds, and for anoth
     (void)objective.evaluate(std::vector<UnitPoint>{at(0.3, 0.5)}, kPackings);
     CHECK(objective.earlier().size() == 4);
   }
-  laboratory.study.tests[0].lab.test.lift_velocity_m_s *= 2;  // another test: nothing holds
+  std::get<SlumpTest>(laboratory.study.tests[0].lab.test).lift_velocity_m_s *= 2;  // another test: nothing holds
   auto store = stored(R"({"faster": true})");
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   CHECK(objective.earlier().empty());

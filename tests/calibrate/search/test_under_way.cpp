@@ -50,7 +50,7 @@ TEST_CASE("simulations start in the order in which they were begun") {
   auto store = laboratory.store();
   std::vector<double> order;
   laboratory.options.threads = 1;
-  laboratory.twist = [&](const SlumpTable& test, auto&&...) { order.push_back(test.contact.friction); };
+  laboratory.twist = [&](const SlumpTest& test, auto&&...) { order.push_back(test.contact.friction); };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   for (const double friction : {0.5, 0.2, 0.9, 0.1}) begin(objective, at(0.5, friction));
   (void)objective.try_out(std::vector<UnitPoint>{at(0.5, 0.1)}, kPackings);
@@ -61,7 +61,7 @@ TEST_CASE("an objective that goes away ends what is under way and stores none of
   Laboratory laboratory;
   auto store = laboratory.store();
   laboratory.options.threads = 2;
-  laboratory.twist = [](const SlumpTable&, const RunOptions& run, Outcome& outcome) {
+  laboratory.twist = [](const SlumpTest&, const RunOptions& run, Outcome& outcome) {
     CHECK(comes_true([&] { return !run.watch({}); }));
     fail(outcome, FailureReason::stopped, 0.1);
   };
@@ -87,7 +87,7 @@ TEST_CASE("the same study gives the same history and card, whatever the threads,
       study.search.tolerance_mm = 0.2;  // never met: the whole budget is spent
       laboratory.options.threads = threads;
       std::atomic<int> delays = 0;
-      laboratory.twist = [&](const SlumpTable& test, const RunOptions&, Outcome& outcome) {
+      laboratory.twist = [&](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
         const RandomStream random(test.packing_seed, "luck"), delay(static_cast<std::uint64_t>(threads), "delay");
         const double friction = test.contact.friction, c_n = test.contact.bridge.c_n;
         const auto digits = static_cast<std::uint64_t>(1e12 * (friction + c_n));

@@ -15,10 +15,10 @@
 #include <sstream>
 #include <thread>
 
+#include "calibrate/laboratory/slump.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/slump_table_json.h"
 #include "tests/calibrate/folder.h"
 
 using namespace pastefit;
@@ -37,7 +37,7 @@ StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   out.values[0] = value * 3000;
   out.values[5] = 1.0 / 3;
   out.packing = packing;
-  SlumpTable test;
+  SlumpTest test;
   test.contact.friction = value;
   test.packing_seed = packing;
   out.key = evaluation_key(kIdentity.program, test);
@@ -117,11 +117,13 @@ TEST_CASE("parameters are kept by name, those that are not usual, and one that i
 }
 
 TEST_CASE("a field that is added with its usual value leaves the name of an evaluation as it was") {
-  SlumpTable test, usual;
+  SlumpTest test;
   test.contact.friction = 0.15;
   test.drop.emplace().mass_kg = 12;
-  usual.drop.emplace();
+  const auto usual = usual_test(test);
+  CHECK(identity_of(test)[0] == "slump");
   const auto before = differing_part(to_json(test), to_json(usual));
+  CHECK(identity_of(test)[1] == before);
   CHECK(before == nlohmann::json{{"contact", {{"friction", 0.15}}}, {"drop", {{"mass_kg", 12.0}}}});
   auto larger_test = to_json(test), larger_usual = to_json(usual);
   for (auto* one : {&larger_test, &larger_usual}) {
@@ -133,11 +135,11 @@ TEST_CASE("a field that is added with its usual value leaves the name of an eval
   larger_test["contact"]["throwaway"] = 0.8;
   CHECK(differing_part(larger_test, larger_usual) != before);
   // What tells tests apart tells their names apart.
-  const auto key = [](const SlumpTable& one) { return evaluation_key("program", one); };
-  SlumpTable without = test, outlined = test;
+  const auto key = [](const SlumpTest& one) { return evaluation_key("program", one); };
+  SlumpTest without = test, outlined = test;
   without.drop.reset();
   outlined.reading.outline_step1 = {{-0.1, 0}, {0.1, 0}};
-  SlumpTable usual_plate = test;
+  SlumpTest usual_plate = test;
   usual_plate.drop = DropPlate{};
   CHECK(std::set{key(test), key(without), key(outlined), key(usual_plate)}.size() == 4);
 }
@@ -198,20 +200,20 @@ TEST_CASE("an evaluation is kept once and found by its key only") {
 }
 
 TEST_CASE("the key tells tests and programs apart") {
-  SlumpTable test;
+  SlumpTest test;
   const auto key = evaluation_key("p", test);
   CHECK(key == evaluation_key("p", test));
   CHECK(key != evaluation_key("q", test));
   const auto with = [&](auto change) {
-    SlumpTable other = test;
+    SlumpTest other = test;
     change(other);
     return evaluation_key("p", other);
   };
-  CHECK(key != with([](SlumpTable& other) { other.packing_seed += 1; }));
-  CHECK(key != with([](SlumpTable& other) { other.lift_velocity_m_s *= 2; }));
-  CHECK(key != with([](SlumpTable& other) { other.grains.radius_m = std::nextafter(other.grains.radius_m, 1); }));
-  CHECK(key != with([](SlumpTable& other) { other.contact.bridge.c_n += 1e-12; }));
-  CHECK(key != with([](SlumpTable& other) { other.reading.outline_step1 = {{-0.1, 0}, {0.1, 0.05}}; }));
+  CHECK(key != with([](SlumpTest& other) { other.packing_seed += 1; }));
+  CHECK(key != with([](SlumpTest& other) { other.lift_velocity_m_s *= 2; }));
+  CHECK(key != with([](SlumpTest& other) { other.grains.radius_m = std::nextafter(other.grains.radius_m, 1); }));
+  CHECK(key != with([](SlumpTest& other) { other.contact.bridge.c_n += 1e-12; }));
+  CHECK(key != with([](SlumpTest& other) { other.reading.outline_step1 = {{-0.1, 0}, {0.1, 0.05}}; }));
 }
 
 TEST_CASE("threads may add to one store at the same time") {

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "tests/calibrate/study/files.h"
 
 namespace pastefit {

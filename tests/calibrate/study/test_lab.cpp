@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/content_hash.h"
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/rig.h"
 #include "core/rigs/slump/slump_readings.h"
@@ -50,7 +50,7 @@ Measurement measured(const std::string& key, const char* content) {
 TEST_CASE("a laboratory file with an apparatus of its own is read into SI") {
   const Result<Lab> read = lab_from_json(lab(), ".");
   REQUIRE(read.ok());
-  const SlumpTable& test = read.value().test;
+  const auto& test = std::get<SlumpTest>(read.value().test);
   CHECK(test.mould.base_radius_m == 0.1);
   CHECK(test.mould.top_radius_m == 0.065);
   CHECK(test.mould.height_m == 0.2);
@@ -78,8 +78,8 @@ TEST_CASE("every shipped rig is read, and gives the observables of its steps") {
 TEST_CASE("the EN 12350-5 preset holds the volume and the plate of that standard") {
   const Result<Rig> rig = read_rig(PASTEFIT_SOURCE_DIR "/data/rigs/en12350-5.json");
   REQUIRE(rig.ok());
-  CHECK(1000 * volume_m3(rig.value().test.mould) == Approx(4.341).epsilon(1e-3));
-  CHECK(rig.value().test.drop.value().mass_kg == 16);
+  CHECK(1000 * volume_m3(std::get<SlumpTest>(rig.value().test).mould) == Approx(4.341).epsilon(1e-3));
+  CHECK(std::get<SlumpTest>(rig.value().test).drop.value().mass_kg == 16);
 }
 
 TEST_CASE("own keys differ from the preset, the rest is the preset's") {
@@ -88,12 +88,12 @@ TEST_CASE("own keys differ from the preset, the rest is the preset's") {
       {"preset", "en12350-5"}, {"mould", {{"height_mm", 201}}}, {"drop_plate", {{"mass_kg", 15.8}}}};
   const Result<Lab> read = lab_from_json(document, ".");
   REQUIRE(read.ok());
-  CHECK(read.value().test.mould.height_m == 0.201);
-  CHECK(read.value().test.mould.top_radius_m == 0.065);
-  CHECK(read.value().test.drop.value().mass_kg == 15.8);
-  CHECK(read.value().test.drop.value().length_m == 0.7);
+  CHECK(std::get<SlumpTest>(read.value().test).mould.height_m == 0.201);
+  CHECK(std::get<SlumpTest>(read.value().test).mould.top_radius_m == 0.065);
+  CHECK(std::get<SlumpTest>(read.value().test).drop.value().mass_kg == 15.8);
+  CHECK(std::get<SlumpTest>(read.value().test).drop.value().length_m == 0.7);
   document["apparatus"]["drop_plate"] = nullptr;
-  CHECK_FALSE(lab_from_json(document, ".").value().test.drop);
+  CHECK_FALSE(std::get<SlumpTest>(lab_from_json(document, ".").value().test).drop);
 }
 
 TEST_CASE("the preset beside the laboratory file goes before the installed one") {
@@ -105,8 +105,8 @@ TEST_CASE("the preset beside the laboratory file goes before the installed one")
   folder.write("rigs/en12350-5.json", rig.dump());
   json document = lab();
   document["apparatus"] = {{"preset", "en12350-5"}};
-  CHECK(lab_from_json(document, folder.path() / "lab").value().test.mould.height_m == 0.199);
-  CHECK(lab_from_json(document, folder.path()).value().test.mould.height_m == 0.2);
+  CHECK(std::get<SlumpTest>(lab_from_json(document, folder.path() / "lab").value().test).mould.height_m == 0.199);
+  CHECK(std::get<SlumpTest>(lab_from_json(document, folder.path()).value().test).mould.height_m == 0.2);
 }
 
 TEST_CASE("an unknown preset is answered with the nearest one") {
@@ -221,7 +221,7 @@ TEST_CASE("a profile becomes the outline that the heap is compared with, and its
   const Result<Lab> read = lab_from_json(document, ".");
   INFO((read.ok() ? "" : message_of(read.faults())));
   REQUIRE(read.ok());
-  const auto& outline = read.value().test.reading.outline_step1;
+  const auto& outline = std::get<SlumpTest>(read.value().test).reading.outline_step1;
   REQUIRE(outline.size() == 5);
   CHECK(outline[1][0] == Approx(-0.08));
   CHECK(outline[1][1] == Approx(0.04));
@@ -250,7 +250,8 @@ TEST_CASE("grains state what their distribution needs, and no more") {
   document["grains"] = {{"distribution", "uniform"}, {"smallest_mm", 6}, {"largest_mm", 10}};
   const Result<Lab> uniform = lab_from_json(document, ".");
   REQUIRE(uniform.ok());
-  CHECK(uniform.value().test.grains.radius_m == Approx(0.008));  // the mean, to which the contact law refers
+  CHECK(specimen_of(uniform.value().test).grains.radius_m ==
+        Approx(0.008));  // the mean, to which the contact law refers
   document["grains"]["radius_mm"] = 8;
   CHECK(says(at(faults_of(document), "grains.radius_mm"), "leave it out"));
   document["grains"] = {{"distribution", "normal"}, {"radius_mm", 8}, {"smallest_mm", 9}, {"largest_mm", 10}};
@@ -330,20 +331,18 @@ TEST_CASE("the hash follows content and preset, not comments and white space") {
 }
 
 TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
-  SlumpTable test;
+  SlumpTest test;
   test.drop.emplace();
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
-  CHECK(names.size() == reading_kinds().size());
-  for (const ReadingKind& kind : reading_kinds()) {
+  const auto kinds = reading_kinds(test);
+  CHECK(names.size() == kinds.size());
+  for (const ReadingKind& kind : kinds) {
     INFO(kind.name);
     CHECK(kind.key.empty() == kind.measure.empty());
     if (!kind.key.empty()) CHECK(std::find(names.begin(), names.end(), kind.measure) != names.end());
-    for (const Ceiling& ceiling : kind.ceilings) CHECK((ceiling.name.empty() || reading_kind(ceiling.name)));
-    CHECK(kind.name.starts_with(kind.stage == Stage::fill    ? "fill."
-                                : kind.stage == Stage::step1 ? "step1."
-                                                             : "step2."));
-    CHECK(stage_of(kind.name) == kind.stage);
+    for (const Ceiling& ceiling : kind.ceilings) CHECK((ceiling.name.empty() || find_kind(kinds, ceiling.name)));
+    CHECK(kind.name.starts_with(kind.stage == kFill ? "fill." : kind.stage == kStep1 ? "step1." : "step2."));
   }
 }
 

@@ -24,15 +24,15 @@ double force(const Bridge& bridge, double d) {
 TEST_CASE("every point of the unit cube is an admissible bridge that is fit to run") {
   for (const BridgeFormation formation : {BridgeFormation::film, BridgeFormation::touch}) {
     Study study = bridge_study();
-    SlumpTable own;
+    SlumpTest own;
     own.contact.bridge.formation = formation;
     std::ranges::find(study.parameters, "youngs_modulus_pa", &Parameter::name)->value = 1e9;  // carries the strongest
     if (formation == BridgeFormation::touch) study.parameters[4].lower = 0.01;
     Eigen::VectorXd point(5);
     for (int corner = 0; corner < 243; ++corner) {
       for (int axis = 0, rest = corner; axis < 5; ++axis, rest /= 3) point[axis] = std::array{0.0, 0.37, 1.0}[rest % 3];
-      const SlumpTable test = test_with(own, values_at(study, point), 1);
-      const Bridge& bridge = test.contact.bridge;
+      const Test test = test_with(own, values_at(study, point), 1);
+      const Bridge& bridge = specimen_of(test).contact.bridge;
       const double little = 1e-12 * bridge.c_n;
       INFO("corner " << corner);
       CHECK(bridge.c_n > 0);
@@ -54,35 +54,35 @@ TEST_CASE("strength, rupture force, curvature, gap and offset are what their nam
   values[2] = 1;
   values[3] = 0.3;
   values[4] = 0.1;
-  SlumpTable test;
+  SlumpTest test;
   test.grains.radius_m = radius;
-  const Bridge bridge = with_contact_of(test, values).contact.bridge;
+  const Bridge bridge = specimen_of(with_contact_of(test, values)).contact.bridge;
   CHECK(bridge.c_n == Approx(0.32));
   CHECK(bridge.d_c_m == Approx(-0.0024));
   CHECK(bridge.offset_m == Approx(0.0008));
   CHECK(force(bridge, bridge.d_c_m) == Approx(0.25 * 0.32));
   CHECK(bridge.b_n_m + 2 * bridge.a_n_m2 * bridge.d_c_m == Approx(0).margin(1e-9));  // flat at rupture
   values[2] = -1;
-  CHECK(with_contact_of(test, values).contact.bridge.b_n_m == 0);  // flat at touch
+  CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.b_n_m == 0);  // flat at touch
   values[2] = 0;
-  CHECK(with_contact_of(test, values).contact.bridge.a_n_m2 == 0);  // straight
+  CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.a_n_m2 == 0);  // straight
 }
 
 TEST_CASE("with formation by touch the offset bounds the rupture gap, and only then") {
   std::vector<double> values = usual_values();
   values[3] = 0.5;
   values[4] = 0.1;
-  SlumpTable test;
+  SlumpTest test;
   test.contact.bridge.formation = BridgeFormation::touch;
-  CHECK(with_contact_of(test, values).contact.bridge.d_c_m == Approx(-0.2 * 0.008));
+  CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.d_c_m == Approx(-0.2 * 0.008));
   test.contact.bridge.formation = BridgeFormation::film;
-  CHECK(with_contact_of(test, values).contact.bridge.d_c_m == Approx(-0.5 * 0.008));
+  CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.d_c_m == Approx(-0.5 * 0.008));
 }
 
 TEST_CASE("each parameter reaches its own place in the test") {
   std::vector<double> values = usual_values();
   for (std::size_t i = 5; i < values.size(); ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
-  const SlumpTable test = with_contact_of({}, values);
+  const auto test = std::get<SlumpTest>(with_contact_of(SlumpTest{}, values));
   CHECK(test.contact.friction == values[5]);
   CHECK(test.contact.rolling_friction == values[6]);
   CHECK(test.contact.restitution == values[7]);
@@ -120,7 +120,7 @@ TEST_CASE("usual values lie in their admissible range, and names are unique") {
 }
 
 TEST_CASE("the packing seed is the one that was asked for") {
-  CHECK(test_with(SlumpTable{}, usual_values(), 77).packing_seed == 77);
+  CHECK(specimen_of(test_with(SlumpTest{}, usual_values(), 77)).packing_seed == 77);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/template.h"
@@ -84,8 +84,9 @@ TEST_CASE("contact choices of the study reach the test") {
   document["contact"] = {{"formation", "touch"}, {"rolling_model", "none"}, {"friction_basis", "total"}};
   const Result<Study> read = Desk().read(document);
   REQUIRE(read.ok());
-  const SlumpTable test =
+  const Test of_study =
       test_with(read.value().tests[0].lab.test, values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
+  const Specimen& test = specimen_of(of_study);
   CHECK(test.contact.bridge.formation == BridgeFormation::touch);
   CHECK(test.contact.rolling == RollingModel::none);
   CHECK(test.contact.friction_basis == FrictionBasis::total);
@@ -177,7 +178,8 @@ TEST_CASE("a study may name several laboratory files, fitted ones first, hold-ou
   REQUIRE(study.tests.size() == 3);
   CHECK(study.tests[0].name == "cone");
   CHECK(study.tests[2].hold_out);
-  for (const StudyTest& test : study.tests) CHECK(test.lab.test.contact.friction_basis == FrictionBasis::elastic);
+  for (const StudyTest& test : study.tests)
+    CHECK(specimen_of(test.lab.test).contact.friction_basis == FrictionBasis::elastic);
   const auto readings = readings_of(study);
   REQUIRE(readings.size() == 4);
   CHECK(readings[0].name == "cone/step1.height_mm");
@@ -326,7 +328,7 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
   const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
   const std::string lab_template(template_text("lab").value());
   std::size_t keys = 0;
-  for (const ReadingKind& kind : reading_kinds()) {
+  for (const ReadingKind& kind : all_reading_kinds()) {
     if (kind.key.empty()) continue;
     INFO(kind.key);
     ++keys;

@@ -288,7 +288,7 @@ TEST_CASE("a two-step slump test reads the same with sleep and without, dry and 
     std::vector<double> changes[3];
     double asleep = 0;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      SlumpTable test;
+      SlumpTest test;
       test.grains.radius_m = 0.014;
       test.packing_seed = seed;
       test.lift_velocity_m_s = 0.2;

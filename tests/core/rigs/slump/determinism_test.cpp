@@ -15,8 +15,8 @@ using namespace pastefit;
 
 namespace {
 
-SlumpTable sticky_test() {
-  SlumpTable test;
+SlumpTest sticky_test() {
+  SlumpTest test;
   test.grains.radius_m = 0.014;
   test.lift_velocity_m_s = 0.3;
   test.contact.youngs_modulus_pa = 5e6;
@@ -41,7 +41,7 @@ std::uint64_t hash_of(const Particles& grains) {
 }
 
 /// At the last moment watched; 0 if the run failed.
-std::uint64_t hash_of_run(const SlumpTable& test, RunOptions options = {}) {
+std::uint64_t hash_of_run(const SlumpTest& test, RunOptions options = {}) {
   std::uint64_t hash = 0;
   options.watch = [&](const Moment& moment) {
     hash = hash_of(moment.world->particles);
@@ -53,7 +53,7 @@ std::uint64_t hash_of_run(const SlumpTable& test, RunOptions options = {}) {
 /// A heap of sticky grains, large enough for several blocks, that falls onto a floor and against two walls; 0 if it
 /// failed.
 std::uint64_t hash_of_large_heap(int threads) {
-  const SlumpTable material = sticky_test();
+  const SlumpTest material = sticky_test();
   const double radius = material.grains.radius_m;
   const RandomStream jitter(1, "large-heap");
   std::vector<Vec3> centres;
@@ -82,7 +82,7 @@ std::uint64_t hash_of_large_heap(int threads) {
 /// A floor covered with grains in several blocks, most of which fall asleep before a clump of others lands on them; 0
 /// if it failed, or if none slept or woke.
 std::uint64_t hash_of_sleeping_floor(int threads) {
-  const SlumpTable material = sticky_test();
+  const SlumpTest material = sticky_test();
   const double radius = material.grains.radius_m;
   std::vector<Vec3> centres;
   for (int n = 0; n < 9000; ++n) centres.push_back({2.05 * (n % 50) * radius, 2.05 * (n / 50) * radius, radius});
@@ -135,7 +135,7 @@ TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {
 }
 
 TEST_CASE("without the ledger of energy a run has the same bits, and says that it kept none") {
-  SlumpTable test = sticky_test();
+  SlumpTest test = sticky_test();
   test.drop = DropPlate{};
   RunOptions without;
   without.steps.ledger = false;

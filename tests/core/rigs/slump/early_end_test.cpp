@@ -9,8 +9,8 @@ namespace {
 
 /// A paste of coarse grains that slumps to about half, or with `drop` on a drop plate. The ruler reads the highest
 /// point.
-SlumpTable slumping(bool drop) {
-  SlumpTable test;
+SlumpTest slumping(bool drop) {
+  SlumpTest test;
   test.grains.radius_m = 0.014;
   test.lift_velocity_m_s = 0.2;
   test.reading.height = HeightReading::highest;
@@ -31,7 +31,7 @@ SlumpTable slumping(bool drop) {
 }
 
 /// The test without a cutoff.
-Outcome whole_run(const SlumpTable& test, std::shared_ptr<const Packing> packing) {
+Outcome whole_run(const SlumpTest& test, std::shared_ptr<const Packing> packing) {
   RunOptions options;
   options.packing = std::move(packing);
   Outcome whole = simulate(test, options);
@@ -39,7 +39,7 @@ Outcome whole_run(const SlumpTable& test, std::shared_ptr<const Packing> packing
   return whole;
 }
 
-Outcome run(const SlumpTable& test, std::shared_ptr<const Packing> packing, double lowest_mm, double highest_mm = 1e9) {
+Outcome run(const SlumpTest& test, std::shared_ptr<const Packing> packing, double lowest_mm, double highest_mm = 1e9) {
   RunOptions options;
   options.packing = std::move(packing);
   options.cutoff = Cutoff{"step1.height_mm", lowest_mm, highest_mm};
@@ -49,7 +49,7 @@ Outcome run(const SlumpTable& test, std::shared_ptr<const Packing> packing, doub
 }  // namespace
 
 TEST_CASE("a heap that has sunk below its cutoff ends early, and only such a one") {
-  const SlumpTable test = slumping(false);
+  const SlumpTest test = slumping(false);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);
   const double height = whole.observables.find("step1.height_mm").value();
@@ -74,7 +74,7 @@ TEST_CASE("a heap that has sunk below its cutoff ends early, and only such a one
 
 TEST_CASE("no heap that ends early would have read more than the lower end of its cutoff", "[campaign]") {
   for (const double strength : {500.0, 1500.0, 4000.0, 9000.0}) {
-    SlumpTable test = slumping(false);
+    SlumpTest test = slumping(false);
     Bridge& bridge = test.contact.bridge;
     const double factor = strength / 2000;
     bridge.a_n_m2 *= factor;
@@ -90,7 +90,7 @@ TEST_CASE("no heap that ends early would have read more than the lower end of it
 }
 
 TEST_CASE("step 2 is not run where step 1 reads beyond the cutoff on either side") {
-  const SlumpTable test = slumping(true);
+  const SlumpTest test = slumping(true);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);
   const double height = whole.observables.find("step1.height_mm").value();

@@ -14,8 +14,8 @@ using namespace pastefit;
 namespace {
 
 /// The EN 12350-5 cone with grains of 8 mm of a paste of this strength c/R^2 [Pa].
-SlumpTable paste(double strength_pa, double friction) {
-  SlumpTable test;
+SlumpTest paste(double strength_pa, double friction) {
+  SlumpTest test;
   const double r = test.grains.radius_m = 0.008;
   test.lift_velocity_m_s = 0.2;
   test.contact.friction = friction;
@@ -36,7 +36,7 @@ struct Stand {
   bool touches = false;  ///< some grain touches the side
 };
 
-Stand stand_of(const SlumpTable& test, const Packing& packing) {
+Stand stand_of(const SlumpTest& test, const Packing& packing) {
   const Mould& mould = test.mould;
   const double slope = (mould.base_radius_m - mould.top_radius_m) / mould.height_m;
   std::array<double, 8 * 12> nearest;  // 25 mm of height, 30 degrees
@@ -61,7 +61,7 @@ TEST_CASE("what is lifted fills the mould, whatever the strength and the frictio
   constexpr int kPackings = 3;
   for (const double friction : {0.05, 0.8})
     for (const double strength : {1.0, 1000.0, 10000.0, 40000.0}) {
-      SlumpTable test = paste(strength, friction);
+      SlumpTest test = paste(strength, friction);
       INFO("strength " << strength << " Pa, friction " << friction);
       double volume = 0;
       for (test.packing_seed = 1; test.packing_seed <= kPackings; ++test.packing_seed) {
@@ -93,7 +93,7 @@ TEST_CASE("what is lifted fills the mould, whatever the strength and the frictio
 TEST_CASE("what is lifted stays as high as it was struck off when lid and drag are gone") {
   for (const double friction : {0.15, 0.5})
     for (const double strength : {1.0, 1000.0, 10000.0, 40000.0}) {
-      SlumpTable test = paste(strength, friction);
+      SlumpTest test = paste(strength, friction);
       test.lift_velocity_m_s = 1e-4;  // nothing leaves the mould while we look
       RunOptions options;
       double highest_mean = 0, mean = 0;
@@ -117,7 +117,7 @@ TEST_CASE(
   std::vector<double> added;
   for (const double friction : {0.15, 0.5})
     for (const double strength : {300.0, 1500.0, 12000.0}) {
-      const SlumpTable test = paste(strength, friction);
+      const SlumpTest test = paste(strength, friction);
       Particles heap;
       RunOptions options;
       options.watch = [&](const Moment& moment) {

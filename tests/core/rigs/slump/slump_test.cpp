@@ -13,8 +13,8 @@ using namespace pastefit;
 namespace {
 
 /// The EN 12350-5 cone filled with coarse grains: a test of a second.
-SlumpTable small_test(double strength_in_weights) {
-  SlumpTable test;
+SlumpTest small_test(double strength_in_weights) {
+  SlumpTest test;
   test.grains.radius_m = 0.012;
   test.lift_velocity_m_s = 0.2;
   const double r = test.grains.radius_m;
@@ -49,9 +49,9 @@ TEST_CASE("the mould is filled level with its rim") {
 }
 
 TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
-  SlumpTable wide = small_test(0);
+  SlumpTest wide = small_test(0);
   wide.grains = {SizeDistribution::uniform, 0.010, 0, 0.007, 0.013};
-  for (const SlumpTable& test : {small_test(0), small_test(30), wide}) {
+  for (const SlumpTest& test : {small_test(0), small_test(30), wide}) {
     std::int64_t poured = 0;
     RunOptions options;
     options.watch = [&](const Moment& moment) {
@@ -64,12 +64,12 @@ TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
 }
 
 TEST_CASE("tests with like frictions share a fill; a fill of its own feels the test's own laws") {
-  SlumpTable smooth = small_test(0), rough = small_test(0);
+  SlumpTest smooth = small_test(0), rough = small_test(0);
   smooth.contact.friction = 0.21;
   rough.contact.friction = 0.29;
   RunOptions own;
   own.own_fill = true;
-  const auto height = [](const SlumpTable& test, const RunOptions& options) {
+  const auto height = [](const SlumpTest& test, const RunOptions& options) {
     const auto packing = fill_mould(test, options);
     REQUIRE_FALSE(packing->failure);
     return packing->centres.front().z;
@@ -84,7 +84,7 @@ TEST_CASE("tests with like frictions share a fill; a fill of its own feels the t
 TEST_CASE("with a fixed wait the phases last as long whatever the heap does") {
   RunOptions options;
   options.fixed_wait_s = 0.3;
-  const SlumpTable test = small_test(30);
+  const SlumpTest test = small_test(30);
   options.packing = fill_mould(test);
   std::vector<std::pair<std::string, double>> begun;
   options.watch_interval_s = 1e-4;
@@ -103,7 +103,7 @@ TEST_CASE("with a fixed wait the phases last as long whatever the heap does") {
 }
 
 TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lower") {
-  SlumpTable dry = small_test(0), strong = small_test(30);
+  SlumpTest dry = small_test(0), strong = small_test(30);
   dry.drop = DropPlate{};
   const Outcome flat = simulate(dry), upright = simulate(strong);
   REQUIRE_FALSE(flat.failure);
@@ -119,13 +119,13 @@ TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lowe
 }
 
 TEST_CASE("the mould holds the laboratory's mass whatever the packing") {
-  const SlumpTable test = small_test(1);
+  const SlumpTest test = small_test(1);
   const Outcome outcome = simulate(test);
   CHECK(*outcome.observables.find("fill.mass_kg") == Approx(test.bulk_density_kg_m3 * volume_m3(test.mould)));
 }
 
 TEST_CASE("the same test gives the same bits, another packing others") {
-  SlumpTable test = small_test(1);
+  SlumpTest test = small_test(1);
   const double first = *simulate(test).observables.find("step1.height_mm");
   const double again = *simulate(test).observables.find("step1.height_mm");
   test.packing_seed = 2;
@@ -136,7 +136,7 @@ TEST_CASE("the same test gives the same bits, another packing others") {
 
 TEST_CASE("the energy of a slump in two steps is accounted for to the second order of the step, dry and sticky") {
   for (const double strength : {0.0, 5.0}) {
-    SlumpTable test = small_test(strength);
+    SlumpTest test = small_test(strength);
     test.drop = DropPlate{};
     const auto error_with = [&](double impact_resolution) {
       RunOptions options;
@@ -154,7 +154,7 @@ TEST_CASE("the energy of a slump in two steps is accounted for to the second ord
 }
 
 TEST_CASE("grains that resist rolling strongly come to rest, and do not hum on the spot") {
-  SlumpTable test = small_test(5);
+  SlumpTest test = small_test(5);
   test.contact.restitution = 0.6;
   test.contact.rolling_friction = 0.9;
   const Outcome outcome = simulate(test);
@@ -164,7 +164,7 @@ TEST_CASE("grains that resist rolling strongly come to rest, and do not hum on t
 }
 
 TEST_CASE("a mould that starts at full speed from soft grains creates no energy") {
-  SlumpTable test = small_test(0);
+  SlumpTest test = small_test(0);
   test.contact.youngs_modulus_pa = 3e5;
   test.lift_velocity_m_s = 0.9;
   const Outcome outcome = simulate(test);
@@ -173,7 +173,7 @@ TEST_CASE("a mould that starts at full speed from soft grains creates no energy"
 }
 
 TEST_CASE("a heap that has flowed off its table has no height below zero, and none at all where nothing is left") {
-  SlumpTable test = small_test(0);
+  SlumpTest test = small_test(0);
   test.contact.friction = test.table_wall.friction = 0.02;
   test.contact.rolling = RollingModel::none;
   test.table_length_m = 0.21;
@@ -191,7 +191,7 @@ TEST_CASE("a heap that has flowed off its table has no height below zero, and no
 }
 
 TEST_CASE("a heap does not differ from its own outline, and another one does by a little") {
-  SlumpTable test = small_test(1);
+  SlumpTest test = small_test(1);
   Outline side;
   RunOptions options;
   options.watch = [&](const Moment& moment) {
@@ -227,7 +227,7 @@ TEST_CASE("a step far too large ends as a classified failure") {
 }
 
 TEST_CASE("every fault of a test is named at once") {
-  SlumpTable test = small_test(1);
+  SlumpTest test = small_test(1);
   test.mould.top_radius_m = 0.2;
   test.contact.restitution = 0;
   test.contact.bridge.b_n_m = -1;

@@ -1,4 +1,4 @@
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 
 #include <algorithm>
 #include <array>

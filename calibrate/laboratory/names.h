@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
-#include "calibrate/study/json_reader.h"
-#include "calibrate/study/study.h"
+#include "calibrate/base/json_reader.h"
 #include "core/laws/table.h"
 #include "core/rigs/slump/slump_test.h"
 
@@ -17,7 +17,7 @@ inline constexpr std::array<Named<SizeDistribution>, 3> size_distributions{
 /// Laws bring their words with them.
 template <class... Laws>
 constexpr auto words_of(TypeList<Laws...>) {
-  return std::array{Named{Laws::word, Laws::choice}...};
+  return std::array{Named<std::remove_const_t<decltype(Laws::choice)>>{Laws::word, Laws::choice}...};
 }
 
 inline constexpr auto normal_laws = words_of(NormalLaws{});
@@ -32,7 +32,5 @@ inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
 
 inline constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
-
-inline constexpr std::array<Named<Scale>, 2> scales{{{"linear", Scale::linear}, {"log", Scale::logarithmic}}};
 
 }  // namespace pastefit

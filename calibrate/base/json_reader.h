@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/study/fault_text.h"
-#include "calibrate/study/json_document.h"
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/json_document.h"
 #include "core/result.h"
 
 namespace pastefit {

@@ -1,16 +1,16 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/slump_table_json.h"
 #include "tests/calibrate/study/files.h"
 
 namespace pastefit {
 namespace {
 
 /// A test whose numbers have no short decimal form.
-SlumpTable awkward() {
-  SlumpTable test = with_contact_of({}, usual_values());
+SlumpTest awkward() {
+  auto test = std::get<SlumpTest>(with_contact_of(SlumpTest{}, usual_values()));
   test.bulk_density_kg_m3 = 2300.0 / 7 * 7.0000000001;
   test.contact.friction = 1.0 / 3;
   test.contact.bridge.offset_m = 0.0008000000000000001;
@@ -21,39 +21,40 @@ SlumpTable awkward() {
 
 TEST_CASE("a test survives JSON text bit for bit") {
   for (const bool drop : {false, true}) {
-    SlumpTable test = awkward();
+    SlumpTest test = awkward();
     if (drop) test.drop = DropPlate{0.7, 16.0 / 3, 0.04, 0.1 / 3};
     const std::string text = to_json(test).dump();
-    const Result<SlumpTable> back = slump_table_from_json(nlohmann::json::parse(text));
-    REQUIRE(back.ok());
-    CHECK(to_json(back.value()).dump() == text);
-    CHECK(back.value().bulk_density_kg_m3 == test.bulk_density_kg_m3);
-    CHECK(back.value().contact.friction == test.contact.friction);
-    CHECK(back.value().contact.bridge.offset_m == test.contact.bridge.offset_m);
-    CHECK(back.value().contact.bridge.shape == BridgeShape::polynomial);
-    CHECK(back.value().contact.cohesion_n == test.contact.cohesion_n);
-    CHECK(back.value().table_wall.rolling_friction == test.table_wall.rolling_friction);
-    CHECK(back.value().packing_seed == test.packing_seed);
-    REQUIRE(back.value().drop.has_value() == drop);
-    if (drop) CHECK(back.value().drop->mass_kg == test.drop->mass_kg);
+    const Result<Test> read = test_from_json(nlohmann::json::parse(text));
+    REQUIRE(read.ok());
+    const auto& back = std::get<SlumpTest>(read.value());
+    CHECK(to_json(back).dump() == text);
+    CHECK(back.bulk_density_kg_m3 == test.bulk_density_kg_m3);
+    CHECK(back.contact.friction == test.contact.friction);
+    CHECK(back.contact.bridge.offset_m == test.contact.bridge.offset_m);
+    CHECK(back.contact.bridge.shape == BridgeShape::polynomial);
+    CHECK(back.contact.cohesion_n == test.contact.cohesion_n);
+    CHECK(back.table_wall.rolling_friction == test.table_wall.rolling_friction);
+    CHECK(back.packing_seed == test.packing_seed);
+    REQUIRE(back.drop.has_value() == drop);
+    if (drop) CHECK(back.drop->mass_kg == test.drop->mass_kg);
   }
 }
 
 TEST_CASE("tests that differ in one bit differ in their text") {
-  SlumpTable test = awkward();
+  SlumpTest test = awkward();
   const std::string text = to_json(test).dump();
   test.contact.friction = std::nextafter(test.contact.friction, 1.0);
   CHECK(to_json(test).dump() != text);
 }
 
 TEST_CASE("no cohesion of its own is written as null and read back as none") {
-  SlumpTable test = awkward();
+  SlumpTest test = awkward();
   test.contact.cohesion_n.reset();
   const nlohmann::json document = to_json(test);
   CHECK(document.at("contact").at("cohesion_n").is_null());
-  const Result<SlumpTable> back = slump_table_from_json(document);
+  const Result<Test> back = test_from_json(document);
   REQUIRE(back.ok());
-  CHECK_FALSE(back.value().contact.cohesion_n.has_value());
+  CHECK_FALSE(specimen_of(back.value()).contact.cohesion_n.has_value());
 }
 
 TEST_CASE("a missing, an unknown and a wrong key are all named") {
@@ -62,7 +63,7 @@ TEST_CASE("a missing, an unknown and a wrong key are all named") {
   document["contact"]["bridge"]["shape"] = "cubic";
   document["drop"] = 3;
   document["extra"] = 1;
-  const Result<SlumpTable> back = slump_table_from_json(document);
+  const Result<Test> back = test_from_json(document);
   REQUIRE_FALSE(back.ok());
   CHECK(back.faults().size() == 4);
   CHECK(test::says(test::at(back.faults(), "mould.height_m"), "missing"));
@@ -74,7 +75,16 @@ TEST_CASE("a missing, an unknown and a wrong key are all named") {
 TEST_CASE("a test that cannot be simulated is refused") {
   nlohmann::json document = to_json(awkward());
   document["mould"]["height_m"] = -1;
-  CHECK_FALSE(slump_table_from_json(document).ok());
+  CHECK_FALSE(test_from_json(document).ok());
+}
+
+TEST_CASE("a test of a kind that this version does not know is refused") {
+  nlohmann::json document = to_json(Test(awkward()));
+  CHECK(document["kind"] == "slump");
+  document["kind"] = "kneading";
+  const Result<Test> back = test_from_json(document);
+  REQUIRE_FALSE(back.ok());
+  CHECK(test::says(test::at(back.faults(), "kind"), "kneading"));
 }
 
 }  // namespace

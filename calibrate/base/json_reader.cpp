@@ -1,4 +1,4 @@
-#include "calibrate/study/json_reader.h"
+#include "calibrate/base/json_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "calibrate/study/json_document.h"
+#include "calibrate/base/json_document.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-#include "calibrate/study/fault_text.h"
+#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 namespace {

@@ -1,0 +1,179 @@
+#include "calibrate/laboratory/slump.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/object_writer.h"
+#include "calibrate/laboratory/names.h"
+#include "calibrate/laboratory/specimen_json.h"
+#include "core/rigs/slump/ruler.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double mm = 1000;           // millimetres in a metre
+constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
+constexpr Range apparatus_length{0, 5000, true};
+constexpr Range any;  // the test's own `validate` knows the ranges
+constexpr Need required = Need::required;
+
+template <class Fields, class Test>
+void describe_test(Fields& fields, Test& test) {
+  fields.object("mould", required, [&](auto& mould) {
+    mould.number("base_radius_m", test.mould.base_radius_m, any, required);
+    mould.number("top_radius_m", test.mould.top_radius_m, any, required);
+    mould.number("height_m", test.mould.height_m, any, required);
+  });
+  fields.number("lift_velocity_m_s", test.lift_velocity_m_s, any, required);
+  fields.number("table_length_m", test.table_length_m, any, required);
+  fields.nullable_object("drop", test.drop, required, [](auto& drop, auto& plate) {
+    drop.number("length_m", plate.length_m, any, required);
+    drop.number("mass_kg", plate.mass_kg, any, required);
+    drop.number("lift_height_m", plate.lift_height_m, any, required);
+    drop.number("lift_duration_s", plate.lift_duration_s, any, required);
+  });
+  fields.object("reading", required, [&](auto& reading) {
+    reading.choice("height", test.reading.height, height_readings, required);
+    reading.number("probe_diameter_m", test.reading.probe_diameter_m, any, required);
+    reading.number("sag_window_m", test.reading.sag_window_m, any, Need::optional);
+    reading.pairs("outline_step1_m", test.reading.outline_step1, any, any, Need::optional, 0);
+    reading.pairs("outline_step2_m", test.reading.outline_step2, any, any, Need::optional, 0);
+  });
+  fields.number("bulk_density_kg_m3", test.bulk_density_kg_m3, any, required);
+  fields.object("grains", required, [&](auto& grains) { describe_grains(grains, test.grains); });
+  fields.object("contact", required, [&](auto& contact) { describe_contact(contact, test.contact); });
+  fields.object("mould_wall", required, [&](auto& wall) { describe_wall(wall, test.mould_wall); });
+  fields.object("table_wall", required, [&](auto& wall) { describe_wall(wall, test.table_wall); });
+  fields.integer("packing_seed", test.packing_seed, required);
+}
+
+double largest_pressure_pa(const SlumpTest& test) {
+  constexpr double gravity = 9.81;
+  return test.bulk_density_kg_m3 * gravity * test.mould.height_m;
+}
+
+}  // namespace
+
+std::vector<Surface> surfaces_of(SlumpTest& test) {
+  return {{"mould", test.mould_wall}, {"table", test.table_wall}};
+}
+
+std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options) {
+  return fill_mould(test, options);
+}
+
+std::string preparation_key(const SlumpTest& test) {
+  const Filling filling = filling_of(test);
+  return nlohmann::json{filling.friction, filling.squeeze, filling.youngs_modulus_pa}.dump();
+}
+
+double grains_needed(const SlumpTest& test) {
+  return poured_grains(test);
+}
+
+void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
+  apparatus.object("mould", need, [&](ObjectReader& mould) {
+    mould.number("base_diameter_mm", test.mould.base_radius_m, apparatus_length, need, diameter_mm);
+    mould.number("top_diameter_mm", test.mould.top_radius_m, apparatus_length, need, diameter_mm);
+    mould.number("height_mm", test.mould.height_m, apparatus_length, need, mm);
+  });
+  apparatus.number("table_length_mm", test.table_length_m, {0, 20000, true}, need, mm);
+  apparatus.number("lift_velocity_mm_s", test.lift_velocity_m_s, {0, 5000, true}, need, mm);
+  const Need plate_need = test.drop ? Need::optional : Need::required;
+  apparatus.nullable_object("drop_plate", test.drop, Need::optional, [&](ObjectReader& plate, DropPlate& drop) {
+    plate.number("length_mm", drop.length_m, {0, 20000, true}, plate_need, mm);
+    plate.number("mass_kg", drop.mass_kg, {0, 1000, true}, plate_need);
+    plate.number("lift_height_mm", drop.lift_height_m, {0, 1000, true}, plate_need, mm);
+    plate.number("lift_duration_s", drop.lift_duration_s, {0, 60, true}, Need::optional);
+  });
+  apparatus.object("reading", need, [&](ObjectReader& reading) {
+    reading.choice("height", test.reading.height, height_readings, need);
+    reading.number("probe_diameter_mm", test.reading.probe_diameter_m, {0, 1000, true}, Need::optional, mm);
+    reading.number("sag_window_mm", test.reading.sag_window_m, {0, 1000, true}, Need::optional, mm);
+  });
+}
+
+void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test) {
+  constexpr std::size_t fewest = 5;
+  const double half_table_mm = 0.5 * mm * test.table_length_m;
+  const auto kinds = reading_kinds(test);
+  const ReadingRange heights = find_kind(kinds, "step1.height_mm")->possible;
+  std::vector<OutlinePoint> points;
+  if (reader.pairs("points", points, {-half_table_mm, half_table_mm}, {heights.smallest, heights.largest},
+                   Need::required, fewest))
+    for (auto& [x, z] : points) {
+      x *= 1e-3;
+      z *= 1e-3;
+    }
+  (kind.stage == kStep2 ? test.reading.outline_step2 : test.reading.outline_step1) = std::move(points);
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> places{{{"mould.base_radius_m", "apparatus.mould.base_diameter_mm"},
+{"mould.top_radius_m", "apparatus.mould.top_diameter_mm"},
+{"mould.height_m", "apparatus.mould.height_mm"},
+{"mould_wall", "parameters: mould_wall"},
+{"mould", "apparatus.mould"},
+{"table_wall", "parameters: table_wall"},
+{"table_length_m", "apparatus.table_length_mm"},
+{"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"},
+{"drop.length_m", "apparatus.drop_plate.length_mm"},
+{"drop.lift_height_m", "apparatus.drop_plate.lift_height_mm"},
+{"drop", "apparatus.drop_plate"},
+{"reading.probe_diameter_m", "apparatus.reading.probe_diameter_mm"},
+{"reading.sag_window_m", "apparatus.reading.sag_window_mm"}}};
+  return places;
+}
+
+nlohmann::json to_json(const SlumpTest& test) {
+  nlohmann::json document;
+  ObjectWriter writer(document);
+  describe_test(writer, test);
+  return document;
+}
+
+SlumpTest usual_test(const SlumpTest&) {
+  SlumpTest test;
+  test.drop.emplace();
+  return test;
+}
+
+void read_test(ObjectReader& reader, SlumpTest& test) {
+  describe_test(reader, test);
+}
+
+nlohmann::ordered_json conditions_of(const SlumpTest& test) {
+  return {{"lift_velocity_m_s", test.lift_velocity_m_s}, {"largest_pressure_pa", largest_pressure_pa(test)}};
+}
+
+std::string conditions_in_words(const SlumpTest& test) {
+  return format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
+                diameter_mm * test.mould.base_radius_m, diameter_mm * test.mould.top_radius_m,
+                mm * test.mould.height_m, mm * test.lift_velocity_m_s) +
+         format("  pressure                 up to %.3g Pa, the weight of the full mould\n", largest_pressure_pa(test));
+}
+
+std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {
+  int sheared = 0, whole = 0;
+  double all_mm = 0, whole_mm = 0;
+  for (const Observables& run : runs) {
+    const double height_mm = run.find("step1.height_mm").value_or(0);
+    const bool broke = has_sheared(test, run);
+    ++(broke ? sheared : whole);
+    all_mm += height_mm;
+    if (!broke) whole_mm += height_mm;
+  }
+  if (sheared == 0) return {};
+  const double limit_mm = mm * kShearedShift * test.mould.base_radius_m;
+  if (runs.size() == 1)
+    return format("the heap sheared off: its top shifted by %.0f mm, more than %g mm; the standards reject such a test",
+                  *runs[0].find("step1.lateral_shift_mm"), limit_mm);
+  return format(
+             "%d of %zu packings sheared off (top shifted by more than %g mm), which the standards reject: "
+             "height after step 1 %.1f mm with them",
+             sheared, runs.size(), limit_mm, all_mm / (sheared + whole)) +
+         (whole > 0 ? format(", %.1f mm without", whole_mm / whole) : std::string());
+}
+
+}  // namespace pastefit

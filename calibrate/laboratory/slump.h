@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/surface.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_readings.h"
+#include "core/rigs/slump/slump_test.h"
+
+namespace pastefit {
+
+// The slump test in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind.
+
+inline constexpr std::string_view kind_of(const SlumpTest&) {
+  return "slump";
+}
+
+std::vector<Surface> surfaces_of(SlumpTest& test);
+
+/// Pours the grains into the mould. Tests of one laboratory file with the same seed and key share what that gives.
+std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& options);
+std::string preparation_key(const SlumpTest& test);
+double grains_needed(const SlumpTest& test);
+
+/// The keys of "apparatus" in laboratory and rig files, in millimetres.
+void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need);
+
+/// The outline of a heap seen from the side, which a reading of this kind is the distance from.
+void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
+
+/// The apparatus' places in `validate`'s words and in those of laboratory and rig files.
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&);
+
+/// Complete and in SI, the unit in each key.
+nlohmann::json to_json(const SlumpTest& test);
+/// A test that has every part, with usual values.
+SlumpTest usual_test(const SlumpTest&);
+/// Reads what `to_json` writes; every key must be there. Faults of form only.
+void read_test(ObjectReader& reader, SlumpTest& test);
+
+/// What a fit in this test was made for, for cards, and in words.
+nlohmann::ordered_json conditions_of(const SlumpTest& test);
+std::string conditions_in_words(const SlumpTest& test);
+
+/// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
+std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs);
+
+}  // namespace pastefit

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "calibrate/laboratory/names.h"
+#include "core/rigs/specimen.h"
+
+namespace pastefit {
+
+// What tests of all kinds have in their JSON, in SI, for an `ObjectReader` and an `ObjectWriter` alike. The test's own
+// `validate` knows the ranges.
+
+template <class Fields, class Grains>
+void describe_grains(Fields& fields, Grains& grains) {
+  fields.choice("distribution", grains.distribution, size_distributions, Need::required);
+  fields.number("radius_m", grains.radius_m, Range{}, Need::required);
+  fields.number("standard_deviation_m", grains.standard_deviation_m, Range{}, Need::required);
+  fields.number("smallest_m", grains.smallest_m, Range{}, Need::required);
+  fields.number("largest_m", grains.largest_m, Range{}, Need::required);
+}
+
+template <class Fields, class Model>
+void describe_bridge(Fields& fields, Model& bridge) {
+  fields.choice("shape", bridge.shape, bridge_shapes, Need::required);
+  fields.choice("formation", bridge.formation, bridge_formations, Need::required);
+  fields.number("a_n_m2", bridge.a_n_m2, Range{}, Need::required);
+  fields.number("b_n_m", bridge.b_n_m, Range{}, Need::required);
+  fields.number("c_n", bridge.c_n, Range{}, Need::required);
+  fields.number("d_c_m", bridge.d_c_m, Range{}, Need::required);
+  fields.number("offset_m", bridge.offset_m, Range{}, Need::required);
+  fields.number("liquid_volume_m3", bridge.liquid_volume_m3, Range{}, Need::required);
+  fields.number("surface_tension_n_m", bridge.surface_tension_n_m, Range{}, Need::required);
+  fields.number("contact_angle_rad", bridge.contact_angle_rad, Range{}, Need::required);
+}
+
+template <class Fields, class Model>
+void describe_contact(Fields& fields, Model& contact) {
+  fields.number("youngs_modulus_pa", contact.youngs_modulus_pa, Range{}, Need::required);
+  fields.number("poissons_ratio", contact.poissons_ratio, Range{}, Need::required);
+  fields.number("restitution", contact.restitution, Range{}, Need::required);
+  fields.number("friction", contact.friction, Range{}, Need::required);
+  fields.number("rolling_friction", contact.rolling_friction, Range{}, Need::required);
+  fields.choice("rolling", contact.rolling, rolling_models, Need::required);
+  fields.choice("friction_basis", contact.friction_basis, friction_bases, Need::required);
+  fields.nullable_number("cohesion_n", contact.cohesion_n, Range{}, Need::required);
+  fields.object("bridge", Need::required, [&](auto& inner) { describe_bridge(inner, contact.bridge); });
+}
+
+template <class Fields, class Wall>
+void describe_wall(Fields& fields, Wall& wall) {
+  fields.number("youngs_modulus_pa", wall.youngs_modulus_pa, Range{}, Need::required);
+  fields.number("poissons_ratio", wall.poissons_ratio, Range{}, Need::required);
+  fields.number("restitution", wall.restitution, Range{}, Need::required);
+  fields.number("friction", wall.friction, Range{}, Need::required);
+  fields.number("rolling_friction", wall.rolling_friction, Range{}, Need::required);
+  fields.number("cohesion_factor", wall.cohesion_factor, Range{}, Need::required);
+}
+
+}  // namespace pastefit

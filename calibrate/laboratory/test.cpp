@@ -1,0 +1,182 @@
+#include "calibrate/laboratory/test.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+
+/// Calls `look(Kind{})` for every kind until one returns true.
+template <class Look>
+void each_kind(const Look& look) {
+  const auto all = [&]<std::size_t... row>(std::index_sequence<row...>) {
+    (void)(look(std::variant_alternative_t<row, Test>{}) || ...);
+  };
+  all(std::make_index_sequence<std::variant_size_v<Test>>{});
+}
+
+}  // namespace
+
+Specimen& specimen_of(Test& test) {
+  return std::visit([](auto& one) -> Specimen& { return one; }, test);
+}
+
+const Specimen& specimen_of(const Test& test) {
+  return std::visit([](const auto& one) -> const Specimen& { return one; }, test);
+}
+
+std::string_view kind_of(const Test& test) {
+  return std::visit([](const auto& one) { return kind_of(one); }, test);
+}
+
+std::vector<Surface> surfaces_of(Test& test) {
+  return std::visit([](auto& one) { return surfaces_of(one); }, test);
+}
+
+std::shared_ptr<const Packing> prepare(const Test& test, const RunOptions& options) {
+  return std::visit([&](const auto& one) { return prepare(one, options); }, test);
+}
+
+std::string preparation_key(const Test& test) {
+  return std::visit([](const auto& one) { return preparation_key(one); }, test);
+}
+
+double grains_needed(const Test& test) {
+  return std::visit([](const auto& one) { return grains_needed(one); }, test);
+}
+
+Outcome simulate(const Test& test, const RunOptions& options) {
+  return std::visit([&](const auto& one) { return simulate(one, options); }, test);
+}
+
+std::vector<ReadingKind> reading_kinds(const Test& test) {
+  return std::visit([](const auto& one) { return reading_kinds(one); }, test);
+}
+
+void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
+  std::visit([&](auto& one) { read_apparatus(apparatus, one, need); }, test);
+}
+
+void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test) {
+  std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
+}
+
+nlohmann::ordered_json conditions_of(const Test& test) {
+  return std::visit([](const auto& one) { return conditions_of(one); }, test);
+}
+
+std::string conditions_in_words(const Test& test) {
+  return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
+}
+
+std::string remarks_on(const Test& test, std::span<const Observables> runs) {
+  return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
+}
+
+Faults validate(const Test& test) {
+  return std::visit([](const auto& one) { return validate(one); }, test);
+}
+
+Faults validate_in_file_words(const Test& test) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> specimen{
+      {{"bulk_density_kg_m3", "material.bulk_density_kg_m3"},
+       {"grains.radius_m", "grains.radius_mm"},
+       {"grains.standard_deviation_m", "grains.standard_deviation_mm"},
+       {"grains.smallest_m", "grains.smallest_mm"},
+       {"grains.largest_m", "grains.largest_mm"},
+       {"contact", "parameters: contact"}}};
+  const auto renamed = [](Fault& fault, auto places) {
+    for (const auto& [ours, theirs] : places) {
+      if (!fault.where.starts_with(ours)) continue;
+      if (fault.where.size() > ours.size() && fault.where[ours.size()] != '.') continue;
+      fault.where.replace(0, ours.size(), theirs);
+      return true;
+    }
+    return false;
+  };
+  Faults faults = validate(test);
+  for (Fault& fault : faults)
+    if (!renamed(fault, std::visit([](const auto& one) { return places_in_files(one); }, test)))
+      renamed(fault, std::span(specimen));
+  return faults;
+}
+
+std::vector<std::string_view> kinds_of_tests() {
+  std::vector<std::string_view> words;
+  each_kind([&](const auto& kind) {
+    words.push_back(kind_of(kind));
+    return false;
+  });
+  return words;
+}
+
+std::optional<Test> test_of_kind(std::string_view word) {
+  std::optional<Test> test;
+  each_kind([&](const auto& kind) {
+    if (kind_of(kind) == word) test = kind;
+    return test.has_value();
+  });
+  return test;
+}
+
+Fault no_such_kind(std::string where, std::string_view word) {
+  std::string known;
+  for (const std::string_view kind : kinds_of_tests()) known += (known.empty() ? "" : ", ") + std::string(kind);
+  return {std::move(where), "there is no test " + in_quotes(word), "one of: " + known};
+}
+
+std::vector<ReadingKind> all_reading_kinds() {
+  std::vector<ReadingKind> all;
+  each_kind([&](const auto& kind) {
+    const auto own = reading_kinds(usual_test(kind));
+    all.insert(all.end(), own.begin(), own.end());
+    return false;
+  });
+  return all;
+}
+
+json to_json(const Test& test) {
+  json document = std::visit([](const auto& one) { return to_json(one); }, test);
+  document["kind"] = kind_of(test);
+  return document;
+}
+
+Result<Test> test_from_json(const json& document) {
+  if (!document.is_object()) return Fault{"", "a test must be an object", "write { ... }"};
+  Faults faults;
+  std::optional<Test> test;
+  {
+    ObjectReader reader(document, "", faults);
+    std::string word = "slump";
+    reader.text("kind", word, Need::optional);
+    test = test_of_kind(word);
+    if (!test) return no_such_kind("kind", word);
+    std::visit([&](auto& one) { read_test(reader, one); }, *test);
+  }
+  if (faults.empty()) faults = validate(*test);
+  if (!faults.empty()) return faults;
+  return *test;
+}
+
+json differing_part(const json& value, const json& usual) {
+  if (!value.is_object() || !usual.is_object()) return value;
+  json part = json::object();
+  for (const auto& [key, member] : value.items()) {
+    const auto known = usual.find(key);
+    if (known == usual.end())
+      part[key] = member;
+    else if (member != *known)
+      part[key] = differing_part(member, *known);
+  }
+  return part;
+}
+
+json identity_of(const Test& test) {
+  const auto usual = std::visit([](const auto& one) { return to_json(usual_test(one)); }, test);
+  return {kind_of(test), differing_part(std::visit([](const auto& one) { return to_json(one); }, test), usual)};
+}
+
+}  // namespace pastefit

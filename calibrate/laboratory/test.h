@@ -1,0 +1,105 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "calibrate/laboratory/slump.h"
+
+namespace pastefit {
+
+/// A laboratory test of any kind. To add a kind: a folder in core/rigs with the apparatus as a value that begins with a
+/// `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what each
+/// does), and its row in this list.
+using Test = std::variant<SlumpTest>;
+
+template <class T>
+concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
+    requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
+             std::span<const Observables> runs) {
+  { kind_of(given) } -> std::convertible_to<std::string_view>;
+  { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
+  { validate(given) } -> std::same_as<Faults>;
+  { prepare(given, options) } -> std::same_as<std::shared_ptr<const Packing>>;
+  { preparation_key(given) } -> std::same_as<std::string>;
+  { grains_needed(given) } -> std::same_as<double>;
+  { simulate(given, options) } -> std::same_as<Outcome>;
+  { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
+  {read_apparatus(reader, test, Need::required)};
+  {read_outline(reader, reading, test)};
+  {places_in_files(given).size()};
+  { to_json(given) } -> std::same_as<nlohmann::json>;
+  { usual_test(given) } -> std::same_as<T>;
+  {read_test(reader, test)};
+  { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
+  { conditions_in_words(given) } -> std::same_as<std::string>;
+  { remarks_on(given, runs) } -> std::same_as<std::string>;
+};
+
+namespace detail {
+template <class... Kinds>
+constexpr bool are_laboratory_tests(const std::variant<Kinds...>*) {
+  return (LaboratoryTest<Kinds> && ...);
+}
+}  // namespace detail
+static_assert(detail::are_laboratory_tests(static_cast<const Test*>(nullptr)), "a kind of test lacks something");
+
+Specimen& specimen_of(Test& test);
+const Specimen& specimen_of(const Test& test);
+
+// The same for a test of any kind, as each kind has it.
+std::string_view kind_of(const Test& test);
+std::vector<Surface> surfaces_of(Test& test);
+std::shared_ptr<const Packing> prepare(const Test& test, const RunOptions& options = {});
+std::string preparation_key(const Test& test);
+double grains_needed(const Test& test);
+Outcome simulate(const Test& test, const RunOptions& options = {});
+std::vector<ReadingKind> reading_kinds(const Test& test);
+void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
+void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
+nlohmann::ordered_json conditions_of(const Test& test);
+std::string conditions_in_words(const Test& test);
+std::string remarks_on(const Test& test, std::span<const Observables> runs);
+
+/// Every fault that keeps the test from being simulated; places are paths in its JSON.
+Faults validate(const Test& test);
+
+/// The same, with places in the words of laboratory and rig files, e.g. "apparatus.mould.height_mm".
+Faults validate_in_file_words(const Test& test);
+
+/// The words of all kinds, in the order of `Test`.
+std::vector<std::string_view> kinds_of_tests();
+
+/// A test of this kind with usual values; nothing if there is no such kind.
+std::optional<Test> test_of_kind(std::string_view kind);
+
+/// The fault of a word that no kind has.
+Fault no_such_kind(std::string where, std::string_view word);
+
+/// The readings of all kinds of tests, with the values of usual ones.
+std::vector<ReadingKind> all_reading_kinds();
+
+/// The test as JSON, complete and in SI, the unit in each key: the canonical form for cards and stored evaluations.
+/// The same test gives the same text (keys sorted, doubles written so that they read back bit for bit).
+/// Requirement: every number is finite.
+nlohmann::json to_json(const Test& test);
+
+/// Reads what `to_json` writes; every key must be there, but the kind, without which it is a slump test.
+/// Errors: every fault of form, or else every fault that `validate` finds; places are paths in the JSON.
+Result<Test> test_from_json(const nlohmann::json& document);
+
+/// The part of a JSON value that differs from the usual one: of an object its members that do, each likewise; whole
+/// lists and numbers. Two values with the same part of the same usual value are the same.
+nlohmann::json differing_part(const nlohmann::json& value, const nlohmann::json& usual);
+
+/// What tells the test from others: its kind, and the part of its JSON that differs from that of a usual one. A field
+/// that is added with its usual value gives it no other name.
+nlohmann::json identity_of(const Test& test);
+
+}  // namespace pastefit
