@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "calibrate/study/json_reader.h"
 #include "calibrate/study/study.h"
@@ -17,7 +18,7 @@ inline constexpr std::array<Named<SizeDistribution>, 3> size_distributions{
 /// Laws bring their words with them.
 template <class... Laws>
 constexpr auto words_of(TypeList<Laws...>) {
-  return std::array{Named{Laws::word, Laws::choice}...};
+  return std::array{Named<std::remove_const_t<decltype(Laws::choice)>>{Laws::word, Laws::choice}...};
 }
 
 inline constexpr auto normal_laws = words_of(NormalLaws{});
