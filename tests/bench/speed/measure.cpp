@@ -46,8 +46,8 @@ class ScratchFolder {
 
 /// An engine and how it is run once.
 struct Contender {
-  Engine result;
-  std::function<void(Engine&)> run;
+  TimedEngine result;
+  std::function<void(TimedEngine&)> run;
 };
 
 /// The end of what a failed run said, on one line.
@@ -60,7 +60,7 @@ std::string last_lines(std::string text) {
 }
 
 /// Runs a function that returns {"seconds": ..., notes} as JSON in a child.
-void run_ours_in_child(Engine& engine, const std::function<Json()>& function, unsigned limit_s = kLimit) {
+void run_ours_in_child(TimedEngine& engine, const std::function<Json()>& function, unsigned limit_s = kLimit) {
   const ChildResult child = run_function([&] { return function().dump(); }, limit_s);
   if (!child.ok) {
     engine.problem = last_lines(child.output);
@@ -103,7 +103,7 @@ std::pair<std::vector<Peer>, std::vector<std::string>> installed(const std::vect
   return found;
 }
 
-void run_peer(Engine& engine, const Peer& peer, const std::vector<std::string>& command, bool whole) {
+void run_peer(TimedEngine& engine, const Peer& peer, const std::vector<std::string>& command, bool whole) {
   const ChildResult child = run_program(command, kLimit);
   const std::optional<double> seconds = whole && child.ok ? child.processor_s : loop_seconds(peer, child);
   if (!seconds) {
@@ -124,7 +124,7 @@ Contender contender_of(const Peer& peer, std::string_view deck, const Variables&
   contender.result.name = peer.name;
   contender.result.laws = peer.laws;
   contender.result.time_step_s = time_step;
-  contender.run = [peer, command = command_of(peer, deck, variables), whole = deck == "test"](Engine& engine) {
+  contender.run = [peer, command = command_of(peer, deck, variables), whole = deck == "test"](TimedEngine& engine) {
     run_peer(engine, peer, command, whole);
   };
   return contender;
@@ -181,7 +181,7 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
   std::vector<Contender> contenders(1);
   contenders[0].result.name = options.ledger ? "ours with ledger" : "ours";
   contenders[0].result.time_step_s = kSceneStep;
-  contenders[0].run = [&](Engine& engine) {
+  contenders[0].run = [&](TimedEngine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
       const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger);
       return {{"seconds", run.seconds},
@@ -204,7 +204,7 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
     for (const Peer& peer : found.first) {
       contenders.push_back(contender_of(peer, box ? "box" : "slump", variables, kSceneStep));
       const double needed = kBytesPerGrainOfYade * size.grains;
-      if (peer.engine == Peer::Engine::yade && needed > 0.6 * memory_available_bytes())
+      if (peer.engine == Peer::TimedEngine::yade && needed > 0.6 * memory_available_bytes())
         contenders.back().result.problem = "not run: it would need " + decimal(1e-9 * needed) + " GB of memory";
     }
   }
@@ -228,7 +228,7 @@ SceneResult measure_test(const MeasureOptions& options, const ScratchFolder& fol
 
   std::vector<Contender> contenders(1);
   contenders[0].result.name = "ours";
-  contenders[0].run = [&](Engine& engine) {
+  contenders[0].run = [&](TimedEngine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
       const TestAnswer answer = answer_ours(bed);
       return {{"seconds", answer.seconds},
@@ -274,7 +274,7 @@ SceneResult measure_calibration(const std::string& scene, const MeasureOptions& 
   double smallest_step = 0;
   for (Contender& contender : contenders) {
     const bool ours = &contender == &contenders[0];
-    contender.run = [&, ours](Engine& engine) {
+    contender.run = [&, ours](TimedEngine& engine) {
       const std::uint64_t seed = engine.seconds.size() + 1;
       const auto store = folder / (scene + (ours ? "-ours-" : "-plain-") + std::to_string(seed));
       run_ours_in_child(
@@ -296,7 +296,7 @@ SceneResult measure_calibration(const std::string& scene, const MeasureOptions& 
 
 }  // namespace
 
-double Engine::median() const {
+double TimedEngine::median() const {
   std::vector<double> sorted = seconds;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t n = sorted.size();

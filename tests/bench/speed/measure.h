@@ -19,7 +19,7 @@ struct MeasureOptions {
 };
 
 /// One engine's runs of a scene.
-struct Engine {
+struct TimedEngine {
   std::string name;                                   ///< as in `Peer`, or "ours", or "ours with ledger"
   std::string laws;                                   ///< peers only
   std::vector<double> seconds;                        ///< of the processor, each run
@@ -37,13 +37,13 @@ struct SceneResult {
   std::string scene;
   double grains = 0;
   double steps = 0;  ///< timed; 0 where the time to an answer counts
-  std::vector<Engine> engines;
+  std::vector<TimedEngine> engines;
   std::vector<std::string> not_installed;  ///< Debian packages
 
-  const Engine& ours() const { return engines.front(); }
+  const TimedEngine& ours() const { return engines.front(); }
   /// How many times as fast as the fastest peer we are; empty if no peer was measured.
   std::optional<double> ratio_to_fastest_peer() const;
-  double particle_steps_per_s(const Engine& engine) const { return grains * steps / engine.median(); }
+  double particle_steps_per_s(const TimedEngine& engine) const { return grains * steps / engine.median(); }
 };
 
 /// The scenes that can be measured: those of `scene_names()`, "test", "calibration" and "calibration-NN" for each

@@ -36,7 +36,7 @@ Peer lammps(const ContactModel& m, const Numbers& n, double skin) {
   const std::string rest = " tangential mindlin NULL 1.0 " + decimal(m.friction) + " damping tsuji rolling sds " +
                            decimal(n.roll_stiffness) + " 0.01 " + decimal(m.rolling_friction);
   const std::string dry = "hertz/material " + elastic + rest;
-  Peer peer{Peer::Engine::lammps, "lammps", "lmp", "lammps", "granular: hertz/material, mindlin, rolling sds", {}};
+  Peer peer{Peer::TimedEngine::lammps, "lammps", "lmp", "lammps", "granular: hertz/material, mindlin, rolling sds", {}};
   std::string grains = dry;
   if (n.pull > 0) {
     peer.laws = "granular: dmt, mindlin, rolling sds";
@@ -57,7 +57,7 @@ Peer lammps_jkr(Peer peer, const ContactModel& m, const Numbers& n) {
 
 Peer liggghts(std::string name, const std::string& cohesion, const std::string& rolling, const ContactModel& m,
               const Numbers& n, double radius, double skin) {
-  Peer peer{Peer::Engine::liggghts, std::move(name), "liggghts", "liggghts", "", {}};
+  Peer peer{Peer::TimedEngine::liggghts, std::move(name), "liggghts", "liggghts", "", {}};
   peer.laws = "hertz, tangential history, " + (cohesion.empty() ? "" : cohesion + ", ") + rolling;
   const std::string contact = "model hertz tangential history", roll = " rolling_friction " + rolling;
   // Where the pull c holds two grains together without load.
@@ -81,7 +81,7 @@ Peer liggghts(std::string name, const std::string& cohesion, const std::string& 
 }
 
 Peer yade(const ContactModel& m, const Numbers& n, double radius, double skin) {
-  Peer peer{Peer::Engine::yade, "yade", "yade", "yade", "MindlinPhys with moments", {}};
+  Peer peer{Peer::TimedEngine::yade, "yade", "yade", "yade", "MindlinPhys with moments", {}};
   if (n.pull > 0) peer.laws += " and DMT adhesion";
   peer.variables = {{"youngs_modulus", decimal(m.youngs_modulus_pa)},
                     {"poissons_ratio", decimal(m.poissons_ratio)},
@@ -108,14 +108,14 @@ std::vector<Peer> peers_of(const ContactModel& m, double radius, double skin) {
 }
 
 std::vector<std::string> command_of(const Peer& peer, std::string_view deck, const Variables& variables) {
-  const bool yade = peer.engine == Peer::Engine::yade;
+  const bool yade = peer.engine == Peer::TimedEngine::yade;
   std::vector<std::string> command{peer.program};
   const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
   if (yade) {
     add({"-j1", "-n", "-x", (kDecks / "yade" / deck).string() + ".py"});
   } else {
-    if (peer.engine == Peer::Engine::lammps) add({"-nocite"});
-    const char* folder = peer.engine == Peer::Engine::lammps ? "lammps" : "liggghts";
+    if (peer.engine == Peer::TimedEngine::lammps) add({"-nocite"});
+    const char* folder = peer.engine == Peer::TimedEngine::lammps ? "lammps" : "liggghts";
     add({"-log", "none", "-in", (kDecks / folder / deck).string() + ".in"});
   }
   for (const Variables* group : {&variables, &peer.variables})
@@ -154,10 +154,10 @@ double idle_start(const Peer& peer) {
 
 std::optional<double> loop_seconds(const Peer& peer, const ChildResult& run) {
   if (!run.ok) return {};
-  if (peer.engine == Peer::Engine::yade) return number_after(run.output, "Loop seconds ");
+  if (peer.engine == Peer::TimedEngine::yade) return number_after(run.output, "Loop seconds ");
   const std::optional<double> wall = number_after(run.output, "Loop time of ");
   if (!wall) return {};
-  if (peer.engine == Peer::Engine::liggghts)
+  if (peer.engine == Peer::TimedEngine::liggghts)
     return *wall * std::min(run.processor_s / (run.wall_s - idle_start(peer)), 1.0);
   const std::size_t share = run.output.rfind("% CPU use");
   if (share == std::string::npos) return {};

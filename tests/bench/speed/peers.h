@@ -17,8 +17,8 @@ using Variables = std::vector<std::pair<std::string, std::string>>;
 
 /// Another engine with one choice of laws.
 struct Peer {
-  enum class Engine { lammps, liggghts, yade };
-  Engine engine;
+  enum class TimedEngine { lammps, liggghts, yade };
+  TimedEngine engine;
   std::string name;     ///< as in tables and JSON, e.g. "liggghts-capillary"
   std::string program;  ///< looked for on the PATH
   std::string package;  ///< Debian's

@@ -31,7 +31,7 @@ std::string csv_key(const std::string& machine, const SceneResult& r) {
   return '"' + machine + "\"," + r.scene + ',' + text("%.0f", r.grains) + ',' + text("%.0f", r.steps) + ',';
 }
 
-std::string row_of(const SceneResult& r, const Engine& e) {
+std::string row_of(const SceneResult& r, const TimedEngine& e) {
   std::string row = "| " + e.name + " | ";
   if (!e.measured()) return row + "failed: " + e.problem + " |\n";
   if (r.steps > 0) row += text("%.2f | ", 1e-6 * r.particle_steps_per_s(e));
@@ -68,7 +68,7 @@ std::string table_of(const SceneResult& r) {
   if (r.steps > 0) out += "M particle-steps/s | ";
   out += "processor s | ours is faster by | peak bytes/grain | time step s | laws and notes |\n|---|";
   out += r.steps > 0 ? "---:|---:|---:|---:|---:|---|\n" : "---:|---:|---:|---:|---|\n";
-  for (const Engine& e : r.engines) out += row_of(r, e);
+  for (const TimedEngine& e : r.engines) out += row_of(r, e);
   if (const auto ratio = r.ratio_to_fastest_peer()) out += text("\nAgainst the fastest peer: %.2f x\n", *ratio);
   for (const std::string& package : r.not_installed)
     out += "\n" + package + " is not installed; apt-get install " + package + "\n";
@@ -93,7 +93,7 @@ nlohmann::ordered_json json_of(const std::vector<SceneResult>& results) {
   using Json = nlohmann::ordered_json;
   Json scenes = Json::object();
   for (const SceneResult& r : results) {
-    const auto engine = [&](const Engine& e) {
+    const auto engine = [&](const TimedEngine& e) {
       Json json = Json::object();
       if (!e.laws.empty()) json["laws"] = e.laws;
       if (!e.measured()) {
@@ -148,7 +148,7 @@ Faults append_csv(const std::filesystem::path& csv, const std::vector<SceneResul
   known << file.rdbuf();
   std::string content = known.str().empty() ? kCsvHead : known.str();
   for (const SceneResult& r : results)
-    for (const Engine& e : r.engines) {
+    for (const TimedEngine& e : r.engines) {
       if (!e.measured()) continue;
       content += csv_key(machine_name(), r) + e.name + ',' + text("%.6g,", e.median());
       if (r.steps > 0) content += text("%.6g", r.particle_steps_per_s(e));
