@@ -189,7 +189,7 @@ TEST_CASE("the summary counts the fillings that sheared off, with the mean with 
     run.observables.set("step1.lateral_shift_mm", shift);
     material.baseline.runs.push_back(run);
   }
-  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 fillings sheared off") &&
+  CHECK_THAT(summary_of(material), Catch::Contains("1 of 3 packings sheared off") &&
                                        Catch::Contains("98.0 mm with them") && Catch::Contains("92.0 mm without"));
   material.baseline.runs.pop_back();
   CHECK_THAT(summary_of(material), !Catch::Contains("sheared"));

@@ -32,6 +32,7 @@ Card paste() {
 ExportScene scene(const Card& material) {
   ExportScene out;
   out.card = material;
+  out.test = std::get<SlumpTest>(material.test);
   out.packing.centres = {{0, 0, kRadius}, {0.05, 0, kRadius}, {0, 0.05, 0.1}};
   out.packing.radii.assign(3, kRadius);
   out.grain_density_kg_m3 = 3800;

@@ -159,10 +159,11 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
   scene.packing.centres = {{0, 0, kGrainRadius}};
   scene.packing.radii = {kGrainRadius};
   scene.card = card;
+  scene.test = std::get<SlumpTest>(card.test);
   scene.sizes = size_classes(scene.packing.radii);
   for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,
                            BridgeShape::capillary}) {
-    specimen_of(scene.card.test).contact.bridge.shape = shape;
+    scene.test.contact.bridge.shape = shape;
     const auto written = export_lammps(scene);
     REQUIRE(written.ok());
     const std::string& deck = written.value().files[0].content;
@@ -177,7 +178,7 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
     CHECK(style::read_law(after("pair_style   pastefit ", "\npair_coeff"), law) == "");
     style::WallLaw wall;
     CHECK(style::read_wall_law(after("wall/pastefit mould ", "\ncompute"), wall) == "");
-    CHECK(wall.friction == std::get<SlumpTest>(scene.card.test).mould_wall.friction);
+    CHECK(wall.friction == scene.test.mould_wall.friction);
     style::Hinge plate;
     CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
     CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));
