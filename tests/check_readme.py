@@ -104,7 +104,7 @@ class Readme(unittest.TestCase):
                 self.assertEqual("step 1 only" in cells[1], steps == ["step1"], name)
                 self.assertEqual(cells[1].startswith("step 2"), steps == ["step2"], name)
                 told |= {f"{step}.{name}" for step in steps}
-        told |= set(re.findall(r"Readings of a laboratory file: `([\w.]+)`", README))
+        told |= set(re.findall(r"In a laboratory file: `([\w.]+)`", README))
         self.assertEqual(told, keys)
 
     def test_the_example_does_what_it_says(self):
