@@ -130,7 +130,7 @@ struct Rescaling {
 /// comes from. File format "pastefit-card-3", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
-  Test test;                            ///< apparatus, grains and contact laws, in SI
+  Test test;                                  ///< apparatus, grains and contact laws, in SI
   std::optional<double> grain_density_kg_m3;  ///< of the grains, such that the mould holds the bulk density
   std::vector<Parameter> parameters;          ///< scale-free, every known one, in the order of `parameter_kinds`
   std::vector<CardObservable> observables;

@@ -2,13 +2,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
 #include "calibrate/card/two_forms.h"
-#include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/laboratory/test.h"
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
@@ -51,8 +51,7 @@ Range simulated_range(const std::string& name, const Test* test) {
   return {1.5 * std::min(smallest, 0.0), 1.5 * largest};
 }
 
-void read_observables(ObjectReader& card, const json& document, const Test* test,
-                      std::vector<CardObservable>& target) {
+void read_observables(ObjectReader& card, const json& document, const Test* test, std::vector<CardObservable>& target) {
   card.object("observables", kRequired, [&](ObjectReader& observables) {
     for (const auto& [name, value] : document["observables"].items())
       observables.object(name, kRequired, [&, key = name](ObjectReader& observable) {

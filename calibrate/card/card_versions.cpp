@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "calibrate/card/card.h"
 #include "calibrate/base/json_document.h"
+#include "calibrate/card/card.h"
 
 namespace pastefit {
 

@@ -5,13 +5,13 @@
 #include <bit>
 #include <cmath>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/check/law.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/store/program.h"
-#include "calibrate/base/fault_text.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

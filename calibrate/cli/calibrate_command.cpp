@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
@@ -19,7 +20,6 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"
-#include "calibrate/base/json_reader.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"

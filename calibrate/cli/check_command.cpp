@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
-#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 

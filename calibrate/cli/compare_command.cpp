@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
@@ -13,7 +14,6 @@
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/program.h"
-#include "calibrate/base/fault_text.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

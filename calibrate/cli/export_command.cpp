@@ -5,10 +5,10 @@
 #include <set>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 

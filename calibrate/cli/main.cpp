@@ -3,9 +3,9 @@
 #include <set>
 #include <string>
 
+#include "calibrate/base/json_reader.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/store/program.h"
-#include "calibrate/base/json_reader.h"
 #include "core/step/kernels.h"
 
 namespace pastefit {

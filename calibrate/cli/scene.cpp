@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/study/impact_json.h"
-#include "calibrate/base/json_reader.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
@@ -108,7 +108,7 @@ Test with_parameters(const Test& test, std::vector<double> values, const Setting
 }
 
 std::optional<Test> study_scene(const json&, const Settings& settings, const std::filesystem::path& file,
-                                      Faults& faults) {
+                                Faults& faults) {
   const auto study = read_study(file);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
@@ -131,7 +131,7 @@ std::optional<Test> study_scene(const json&, const Settings& settings, const std
 }
 
 std::optional<Test> card_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
-                                     Faults& faults) {
+                               Faults& faults) {
   const auto card = read_with(document, settings, file, faults, card_from_json);
   if (!card.ok()) return std::nullopt;
   if (settings.parameters.empty()) return card.value().test;
@@ -141,7 +141,7 @@ std::optional<Test> card_scene(const json& document, const Settings& settings, c
 }
 
 std::optional<Test> test_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
-                                      Faults& faults) {
+                               Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(document, settings, file, faults);
   if (is_card(document)) return card_scene(document, settings, file, faults);

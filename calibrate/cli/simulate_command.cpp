@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
@@ -15,7 +16,6 @@
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/base/fault_text.h"
 #include "core/observe/outline.h"
 #include "core/rigs/slump/ruler.h"
 #include "core/world/world.h"

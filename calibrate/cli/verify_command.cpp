@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "calibrate/cli/commands.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/cli/commands.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {

@@ -137,8 +137,7 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
   constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
   const double nearest = 2 * radius - 0.05 * radius;
-  const double reach =
-      bridge_gaps(scene.test.contact, {radius, radius, scene.test.grains.radius_m}).rupture_m;
+  const double reach = bridge_gaps(scene.test.contact, {radius, radius, scene.test.grains.radius_m}).rupture_m;
   const double farthest = 2 * radius + 1.05 * std::max(reach, 0.05 * radius);
   std::string out = header(scene, {});
   out += begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "calibrate/inference/posterior.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/laboratory/test.h"
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 

@@ -110,19 +110,20 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
 }
 
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> places{{{"mould.base_radius_m", "apparatus.mould.base_diameter_mm"},
-{"mould.top_radius_m", "apparatus.mould.top_diameter_mm"},
-{"mould.height_m", "apparatus.mould.height_mm"},
-{"mould_wall", "parameters: mould_wall"},
-{"mould", "apparatus.mould"},
-{"table_wall", "parameters: table_wall"},
-{"table_length_m", "apparatus.table_length_mm"},
-{"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"},
-{"drop.length_m", "apparatus.drop_plate.length_mm"},
-{"drop.lift_height_m", "apparatus.drop_plate.lift_height_mm"},
-{"drop", "apparatus.drop_plate"},
-{"reading.probe_diameter_m", "apparatus.reading.probe_diameter_mm"},
-{"reading.sag_window_m", "apparatus.reading.sag_window_mm"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> places{
+      {{"mould.base_radius_m", "apparatus.mould.base_diameter_mm"},
+       {"mould.top_radius_m", "apparatus.mould.top_diameter_mm"},
+       {"mould.height_m", "apparatus.mould.height_mm"},
+       {"mould_wall", "parameters: mould_wall"},
+       {"mould", "apparatus.mould"},
+       {"table_wall", "parameters: table_wall"},
+       {"table_length_m", "apparatus.table_length_mm"},
+       {"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"},
+       {"drop.length_m", "apparatus.drop_plate.length_mm"},
+       {"drop.lift_height_m", "apparatus.drop_plate.lift_height_mm"},
+       {"drop", "apparatus.drop_plate"},
+       {"reading.probe_diameter_m", "apparatus.reading.probe_diameter_mm"},
+       {"reading.sag_window_m", "apparatus.reading.sag_window_mm"}}};
   return places;
 }
 
@@ -149,8 +150,8 @@ nlohmann::ordered_json conditions_of(const SlumpTest& test) {
 
 std::string conditions_in_words(const SlumpTest& test) {
   return format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
-                diameter_mm * test.mould.base_radius_m, diameter_mm * test.mould.top_radius_m,
-                mm * test.mould.height_m, mm * test.lift_velocity_m_s) +
+                diameter_mm * test.mould.base_radius_m, diameter_mm * test.mould.top_radius_m, mm * test.mould.height_m,
+                mm * test.lift_velocity_m_s) +
          format("  pressure                 up to %.3g Pa, the weight of the full mould\n", largest_pressure_pa(test));
 }
 

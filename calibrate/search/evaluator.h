@@ -41,8 +41,8 @@ struct EvaluatorOptions {
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
   Engine engine;
-  /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation fills its
-  /// own mould. Other than the default it belongs into the identity of the store.
+  /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation
+  /// fills its own mould. Other than the default it belongs into the identity of the store.
   RunOptions run;
 };
 
@@ -101,8 +101,8 @@ class SimulationObjective : public Objective {
  private:
   /// One simulation, however many answers need it.
   struct Task {
-    std::size_t index = 0;               // of the test in the study
-    bool tried = false;                  // only tried out
+    std::size_t index = 0;         // of the test in the study
+    bool tried = false;            // only tried out
     std::optional<Cutoff> cutoff;  // if it is
     StoredEvaluation evaluation;
     bool finished = false;          // not cut off by a stop

@@ -22,7 +22,8 @@ std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std:
   std::vector<StoredEvaluation> found;
   for (const std::size_t test : tests) {
     const auto cutoff = tried ? cutoff_of(study, test) : std::nullopt;
-    auto evaluation = find(store, study.tests[test].lab.test, key_of(study, test, values, packing, store.identity().program), cutoff);
+    auto evaluation =
+        find(store, study.tests[test].lab.test, key_of(study, test, values, packing, store.identity().program), cutoff);
     if (!evaluation || evaluation->epoch >= before) return std::nullopt;
     found.push_back(std::move(*evaluation));
   }

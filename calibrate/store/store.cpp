@@ -7,9 +7,9 @@
 #include <unordered_map>
 
 #include "calibrate/base/content_hash.h"
+#include "calibrate/laboratory/test.h"
 #include "calibrate/store/database.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 

@@ -11,10 +11,9 @@ namespace pastefit {
 /// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound.
 /// A slump becomes the height that is left, mould height minus slump.
 /// Faults: readings that contradict each other beyond their deviations (a heap that is higher after the drop), a
-/// reading the apparatus cannot give, a value that the test cannot have, the same reading twice, no spread of repeats and no
-/// standard deviation, no reading at all.
-/// A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"}, becomes the outline of `test`, and its reading is
-/// the root mean square difference from it, measured as 0.
+/// reading the apparatus cannot give, a value that the test cannot have, the same reading twice, no spread of repeats
+/// and no standard deviation, no reading at all. A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"},
+/// becomes the outline of `test`, and its reading is the root mean square difference from it, measured as 0.
 std::vector<Measurement> read_measurements(ObjectReader& document, Test& test);
 
 }  // namespace pastefit

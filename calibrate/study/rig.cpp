@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double mm = 1000;           // millimetres in a metre
+constexpr double mm = 1000;  // millimetres in a metre
 constexpr Range grain_length{0, 500, true};
 
 std::optional<Rig> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {

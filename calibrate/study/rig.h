@@ -14,7 +14,7 @@ namespace pastefit {
 struct Rig {
   std::string title;
   Provenance provenance;
-  Test test;      ///< contact parameters have their usual values
+  Test test;            ///< contact parameters have their usual values
   std::string content;  ///< of the file, without comments and white space; part of the hash of whoever uses it
 };
 

@@ -114,7 +114,8 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
 
 /// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
 void check_touch(ObjectReader& document, const Study& study) {
-  if (study.tests.empty() || specimen_of(study.tests[0].lab.test).contact.bridge.formation != BridgeFormation::touch) return;
+  if (study.tests.empty() || specimen_of(study.tests[0].lab.test).contact.bridge.formation != BridgeFormation::touch)
+    return;
   const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
   if ((offset->free ? offset->lower : offset->value) > 0) return;
   document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/result.h"
 #include "calibrate/laboratory/test.h"
+#include "core/result.h"
 
 namespace pastefit {
 

@@ -34,8 +34,7 @@ std::vector<Target> read_targets(ObjectReader& document, const Lab& lab, bool ho
   std::vector<Target> targets;
   for (const Measurement& measurement : lab.measurements) targets.push_back({measurement.observable, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, lab, targets, {0, 1e6},
-                 [](Target& target, double weight) { target.weight = weight; });
+    read_numbers(reader, lab, targets, {0, 1e6}, [](Target& target, double weight) { target.weight = weight; });
     if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
       document.fault("weights", hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
                      "give at least one measurement a weight above 0");

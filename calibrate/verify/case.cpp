@@ -6,8 +6,8 @@
 #include <set>
 #include <system_error>
 
-#include "calibrate/study/impact_json.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/study/impact_json.h"
 
 namespace pastefit {
 
