@@ -15,6 +15,21 @@ SOURCE = pathlib.Path(sys.argv[1]).resolve()
 FILES = sorted(file for part in ("core", "calibrate") for file in (SOURCE / part).glob("**/*")
                if file.suffix in (".h", ".cpp"))
 
+# Files that may speak of the slump test, its mould or its plate, outside of comments: its own, the decks of its test,
+# the laws and words that its parameters have. A new kind of test needs no entry here but for decks of its own.
+SLUMP_FILES = {
+    "laboratory/slump.cpp", "laboratory/slump.h", "laboratory/test.cpp", "laboratory/test.h", "laboratory/names.h",
+    "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/lammps.cpp", "exports/lammps_deck.cpp",
+    "exports/lammps_deck.h", "exports/lammps_tables.cpp", "exports/liggghts.cpp", "exports/mercurydpm.cpp",
+    "exports/parameter_table.cpp", "exports/yade.cpp",
+    "cli/simulate_command.cpp",  # its series of pictures and its outlines
+    "inference/words.cpp",       # what else to measure
+    "study/parameters.cpp", "study/template.cpp",
+    # Plates as walls of a few bodies.
+    "study/impact_json.cpp", "verify/formulas.cpp", "verify/transform.cpp",
+}
+
+
 def room_of(path):
     """The folder of a file. What lies in core itself is used on every floor, so that each file is a room of its own."""
     folder = str(path.parent)
@@ -77,6 +92,15 @@ class Includes(unittest.TestCase):
         if circle:
             steps = [found[step][0] for step in zip(circle, circle[1:])]
             self.fail(" -> ".join(circle) + "\n" + "\n".join(steps))
+
+    def test_only_its_own_files_know_the_slump_test(self):
+        known = set()
+        for file in FILES:
+            here = file.relative_to(SOURCE)
+            code = re.sub(r"//[^\n]*", "", file.read_text())
+            if here.parts[0] == "calibrate" and re.search(r"slump|mould|\bplate", code, re.I):
+                known.add(str(here.relative_to("calibrate")))
+        self.assertEqual(known, SLUMP_FILES)
 
     def test_core_includes_nothing_of_calibrate(self):
         places = [place for (one, other), found in arrows().items() if one.startswith("core")
