@@ -85,6 +85,17 @@ double highest_point(const Particles& particles) {
   return top;
 }
 
+std::vector<double> posture_of_heap(const Particles& particles) {
+  const double n = std::max(particles.count(), 1);
+  double height = 0, distance = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    const Vec3& p = particles.motion[i].position;
+    height += p.z / n;
+    distance += std::sqrt(p.x * p.x + p.y * p.y) / n;
+  }
+  return {highest_point(particles), height, distance};
+}
+
 namespace {
 
 /// Calls `look(x, y, height)` for the points of the closed surface on a disc; x and y from its middle.

@@ -34,6 +34,10 @@ class HeightField {
 /// Highest point of any grain [m]. What EN 12350-2 reads.
 double highest_point(const Particles& particles);
 
+/// What stays where it is once a heap rests [m]: its highest point, the mean height of its grains, and their mean
+/// distance from the axis.
+std::vector<double> posture_of_heap(const Particles& particles);
+
 /// Where a flat-ended probe of this diameter is let down on a heap [m].
 struct Disc {
   double x = 0, y = 0;

@@ -2,36 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pastefit {
 
 namespace {
 
-/// What rest is judged by.
-struct Pose {
-  double speed = 0;          ///< root mean square [m/s]
-  double top = 0;            ///< highest point [m]
-  double mean_height = 0;    ///< [m]
-  double mean_distance = 0;  ///< from the axis [m]
-};
-
-Pose pose_of(const Particles& particles) {
-  Pose pose;
-  const double n = std::max(particles.count(), 1);
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Motion& m = particles.motion[i];
-    pose.speed += dot(m.velocity, m.velocity);
-    pose.top = std::max(pose.top, m.position.z + m.radius);
-    pose.mean_height += m.position.z / n;
-    pose.mean_distance += std::sqrt(m.position.x * m.position.x + m.position.y * m.position.y) / n;
-  }
-  pose.speed = std::sqrt(pose.speed / n);
-  return pose;
+double mean_speed(const Particles& particles) {
+  double squares = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i)
+    squares += dot(particles.motion[i].velocity, particles.motion[i].velocity);
+  return std::sqrt(squares / std::max(particles.count(), 1));
 }
 
-double largest_change(const Pose& a, const Pose& b) {
-  return std::max({std::fabs(a.top - b.top), std::fabs(a.mean_height - b.mean_height),
-                   std::fabs(a.mean_distance - b.mean_distance)});
+double largest_change(const std::vector<double>& before, const std::vector<double>& now) {
+  double largest = 0;
+  for (std::size_t k = 0; k < now.size(); ++k) largest = std::max(largest, std::fabs(now[k] - before[k]));
+  return largest;
 }
 
 // Unexplained energy over the energy put in beyond which a run is invalid. The ledger of a slump at the default step
@@ -40,13 +27,13 @@ double largest_change(const Pose& a, const Pose& b) {
 constexpr double kEnergyTolerance = 0.02;
 constexpr std::int64_t kStepsPerAudit = 8 * Stepper::kLedgerInterval;
 
-// Readings of a heap that still changes by more than this in one window mean nothing.
+// Readings of a specimen that still changes by more than this in one window mean nothing.
 constexpr double kStillFlowing = 0.1;  // of the mean radius
 
 }  // namespace
 
-Runner::Runner(World& world, const RunOptions& options)
-    : world_(world), options_(options), stepper_(world, options.steps) {
+Runner::Runner(World& world, const RunOptions& options, Posture posture)
+    : world_(world), options_(options), posture_(std::move(posture)), stepper_(world, options.steps) {
   summary_.particles = world.particles.count();
   summary_.settled = true;
 }
@@ -63,13 +50,12 @@ std::optional<Failure> Runner::show(std::string_view phase) {
                  "the run was asked to stop"};
 }
 
-std::optional<Failure> Runner::run(std::string_view phase, double duration_s, const Drive& drive,
-                                   const std::function<bool(const World&)>& done) {
+std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {
   const double end = world_.time + duration_s;
   while (world_.time < end) {
-    if (auto problem = tell(phase)) return problem;
-    if (auto problem = stepper_.step(drive)) {
-      problem->phase = phase;
+    if (auto problem = tell(phase.name)) return problem;
+    if (auto problem = stepper_.step(phase.drive)) {
+      problem->phase = phase.name;
       return problem;
     }
     ++summary_.steps;
@@ -77,7 +63,7 @@ std::optional<Failure> Runner::run(std::string_view phase, double duration_s, co
     asleep_steps_ += stepper_.sleeping();
     if (summary_.steps >= options_.step_limit)
       return Failure{FailureReason::step_limit,
-                     std::string(phase),
+                     std::string(phase.name),
                      world_.step,
                      world_.time,
                      -1,
@@ -85,9 +71,9 @@ std::optional<Failure> Runner::run(std::string_view phase, double duration_s, co
                      static_cast<double>(options_.step_limit),
                      "the bound on the number of steps was reached; allow more steps or choose softer grains"};
     if (world_.step % kStepsPerAudit == 1) {
-      if (auto problem = audit(phase)) return problem;
+      if (auto problem = audit(phase.name)) return problem;
     }
-    if (done && done(world_)) break;
+    if (phase.done && phase.done(world_)) break;
   }
   return {};
 }
@@ -119,20 +105,21 @@ std::optional<Failure> Runner::audit(std::string_view phase) {
                        "contacts; let the program choose it, or take a smaller one"};
 }
 
-Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const std::function<bool(const World&)>& free,
-                                   const std::function<bool(const World&)>& done) {
+Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, const std::function<bool(const World&)>& free) {
   const RestCriterion& criterion = options_.rest;
   const double radius = world_.reference_radius;
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
-  Pose before = pose_of(world_.particles);
+  std::vector<double> before = posture_(world_.particles);
   int calm = 0;
   for (double waited = 0; waited < cap_s; waited += criterion.window_s) {
-    wait.failure = run(phase, criterion.window_s, {}, done);
-    if (wait.failure || (done && done(world_))) return wait;
-    const Pose now = pose_of(world_.particles);
-    wait.change = largest_change(now, before);
-    calm = now.speed < slow && wait.change < criterion.change_over_radius * radius ? calm + 1 : 0;
+    wait.failure = run(phase, criterion.window_s);
+    wait.done = phase.done && phase.done(world_);
+    if (wait.failure || wait.done) return wait;
+    const std::vector<double> now = posture_(world_.particles);
+    wait.change = largest_change(before, now);
+    const bool is_calm = mean_speed(world_.particles) < slow && wait.change < criterion.change_over_radius * radius;
+    calm = is_calm ? calm + 1 : 0;
     wait.rested = calm >= criterion.windows;
     if (wait.rested && (!free || free(world_))) return wait;
     before = now;
@@ -140,31 +127,27 @@ Runner::Wait Runner::wait_for_rest(std::string_view phase, double cap_s, const s
   return wait;
 }
 
-std::optional<Failure> Runner::run_until_rest(std::string_view phase, double longest_s,
-                                              const std::function<bool(const World&)>& free,
-                                              const std::function<bool(const World&)>& done) {
-  return wait_for_rest(phase, longest_s, free, done).failure;
+std::optional<Failure> Runner::run_until_rest(const Phase& phase, double longest_s,
+                                              const std::function<bool(const World&)>& free) {
+  return wait_for_rest(phase, longest_s, free).failure;
 }
 
-std::optional<Failure> Runner::settle(std::string_view phase, double cap_s,
-                                      const std::function<bool(const World&)>& done) {
-  const Wait wait = wait_for_rest(phase, cap_s, {}, done);
-  if (wait.failure || wait.rested || (done && done(world_))) return wait.failure;
+std::optional<Failure> Runner::settle(const Phase& phase, double cap_s, double moved_s) {
+  if (options_.fixed_wait_s) return run(phase, moved_s + *options_.fixed_wait_s);
+  const Wait wait = wait_for_rest(phase, moved_s + cap_s);
+  if (wait.failure || wait.rested || wait.done) return wait.failure;
   summary_.settled = false;
   const double limit = kStillFlowing * world_.reference_radius;
   if (wait.change < limit) return {};
-  return Failure{FailureReason::never_settled,
-                 std::string(phase),
-                 world_.step,
-                 world_.time,
-                 -1,
-                 wait.change,
-                 limit,
-                 "the heap still moved when the time allowed was over; raise friction, rolling friction or strength"};
-}
-
-std::optional<Failure> Runner::relax(std::string_view phase, double cap_s) {
-  return wait_for_rest(phase, cap_s).failure;
+  return Failure{
+      FailureReason::never_settled,
+      std::string(phase.name),
+      world_.step,
+      world_.time,
+      -1,
+      wait.change,
+      limit,
+      "the specimen still moved when the time allowed was over; raise friction, rolling friction or strength"};
 }
 
 const RunSummary& Runner::summary() {

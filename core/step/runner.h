@@ -3,35 +3,42 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/step/run.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {
 
+/// A part of a test, in the laboratory's words.
+struct Phase {
+  std::string_view name;
+  std::function<void(World&, double dt)> drive{};  ///< moves walls before every step; empty: none is moved
+  std::function<bool(const World&)> done{};        ///< asked after every step; true ends the phase
+};
+
+/// Lengths of a specimen that stay where they are once it is at rest [m]: the rig's word.
+using Posture = std::function<std::vector<double>(const Particles&)>;
+
 /// Runs a world through the phases of a test, watched by the caller, until each phase's own end.
+///
+/// The specimen is at rest when its grains are slow and no length of its posture changes any more (`RestCriterion`).
 class Runner {
  public:
-  Runner(World& world, const RunOptions& options);
+  Runner(World& world, const RunOptions& options, Posture posture);
 
-  using Drive = std::function<void(World&, double dt)>;
+  /// Steps for `duration_s`, or until the phase is done.
+  std::optional<Failure> run(const Phase& phase, double duration_s);
 
-  /// Steps for `duration_s`, or until `done` (asked after every step) says so.
-  std::optional<Failure> run(std::string_view phase, double duration_s, const Drive& drive = {},
-                             const std::function<bool(const World&)>& done = {});
+  /// Steps until the specimen is at rest and `free` holds, or the phase is done, for `longest_s` at most.
+  std::optional<Failure> run_until_rest(const Phase& phase, double longest_s,
+                                        const std::function<bool(const World&)>& free);
 
-  /// Runs `run` in windows until the heap is at rest and `free` holds, or `done` does, for `longest_s` at most.
-  std::optional<Failure> run_until_rest(std::string_view phase, double longest_s,
-                                        const std::function<bool(const World&)>& free,
-                                        const std::function<bool(const World&)>& done);
-
-  /// Steps until the heap is at rest or `done` says so, for `cap_s` at most; at the cap the run goes on, marked as not
-  /// settled, unless the heap still moves fast enough that its readings mean nothing.
-  std::optional<Failure> settle(std::string_view phase, double cap_s,
-                                const std::function<bool(const World&)>& done = {});
-
-  /// As `settle`, but it does not matter whether rest is reached within the time.
-  std::optional<Failure> relax(std::string_view phase, double cap_s);
+  /// Steps until the specimen is at rest or the phase is done, for `moved_s`, in which the test itself moves it, and
+  /// `cap_s` more at most. At the cap the run goes on, marked as not settled, unless the specimen still moves fast
+  /// enough that its readings mean nothing. With `RunOptions::fixed_wait_s` for `moved_s` and that, whether it rests or
+  /// not.
+  std::optional<Failure> settle(const Phase& phase, double cap_s, double moved_s = 0);
 
   /// Calls the watch now, whatever its interval: a phase has ended that a picture should show.
   std::optional<Failure> show(std::string_view phase);
@@ -48,10 +55,10 @@ class Runner {
   struct Wait {
     std::optional<Failure> failure;
     bool rested = false;
+    bool done = false;  ///< by the phase's own word
     double change = 0;  ///< in the last window [m]
   };
-  Wait wait_for_rest(std::string_view phase, double cap_s, const std::function<bool(const World&)>& free = {},
-                     const std::function<bool(const World&)>& done = {});
+  Wait wait_for_rest(const Phase& phase, double cap_s, const std::function<bool(const World&)>& free = {});
   std::optional<Failure> tell(std::string_view phase);
   /// Energy created over energy put in, as of the ledger's last look.
   double energy_error() const;
@@ -59,6 +66,7 @@ class Runner {
 
   World& world_;
   const RunOptions& options_;
+  Posture posture_;
   Stepper stepper_;
   RunSummary summary_;
   double next_watch_ = 0;

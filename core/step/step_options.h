@@ -22,9 +22,9 @@ struct StepOptions {
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
 };
 
-/// When a heap counts as at rest: the grains' root mean square speed is below a bound, and neither the top, nor the
-/// mean height, nor the mean distance from the axis has changed by more than a share of a radius, in so many windows in
-/// a row. A stiff heap swings for long like a jelly; that moves no reading by more than these bounds.
+/// When a specimen counts as at rest: the root mean square speed of its grains is below a bound, and no length of its
+/// posture (`Runner`) has changed by more than a share of a radius, in so many windows in a row. A stiff heap swings
+/// for long like a jelly; that moves no reading by more than these bounds.
 struct RestCriterion {
   double window_s = 0.05;
   int windows = 2;

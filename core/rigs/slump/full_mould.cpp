@@ -55,14 +55,14 @@ Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptio
   options.steps.fixed_step_s.reset();                  // meant for the test
   World world = world_in_mould(test, packing);
   world.drag = kDrag;
-  Runner runner(world, options);
+  Runner runner(world, options, posture_of_heap);
   Packing full = packing;
   const Mould& mould = test.mould;
   const double width = mould.base_radius_m + mould.top_radius_m;
   double size = 1;
   int even = 0;  // looks in a row; what is lifted has had two of them to come to rest at its last size
   for (double waited = 0; even < 2; waited += kLook) {
-    full.failure = runner.run("fill.settle", kLook);
+    full.failure = runner.run({"fill.settle"}, kLook);
     if (full.failure) break;
     const Fit fit = fit_of(mould, world.particles, test.grains.radius_m * size);
     const double missing_height = (fit.roughness_m - packing.roughness_m) / mould.height_m;

@@ -5,8 +5,9 @@
 #include <numbers>
 
 #include "core/laws/constants.h"
+#include "core/observe/heap.h"
 #include "core/random.h"
-#include "core/rigs/waiting.h"
+#include "core/step/runner.h"
 
 namespace pastefit {
 
@@ -151,14 +152,14 @@ double pouring_speed(const World& world) {
 }
 
 /// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
-/// 0.59: a weak paste then stands 20 mm lower (see README).
+/// 0.59: a weak paste then stands 20 mm lower (core/README.md).
 void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   const double top = top_of(packing);
   World world = filling_world(test, options, packing, top);
   const double speed = pouring_speed(world);
   world.drag = kGravity / speed;
-  Runner runner(world, options);
-  packing.failure = wait(runner, options, "fill.pour", kFillCap, top / speed);
+  Runner runner(world, options, posture_of_heap);
+  packing.failure = runner.settle({"fill.pour"}, kFillCap, top / speed);
   add_work(packing, runner.summary());
   take_grains(world, packing);
 }
@@ -178,13 +179,13 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   const double top = std::max(top_of(packing), rim);
   World world = filling_world(test, options, packing, top);
   world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
-  Runner runner(world, options);
+  Runner runner(world, options, posture_of_heap);
   world.walls.back().velocity = {0, 0, -kLidSpeed};
-  packing.failure = runner.run("fill.strike", (top - rim) / kLidSpeed);
+  packing.failure = runner.run({"fill.strike"}, (top - rim) / kLidSpeed);
   if (!packing.failure) {
     world.walls.back().velocity = {};
     std::get<Plane>(world.walls.back().shape).point.z = rim;
-    packing.failure = wait(runner, options, "fill.rest", kFillCap);
+    packing.failure = runner.settle({"fill.rest"}, kFillCap);
   }
   add_work(packing, runner.summary());
   take_grains(world, packing);

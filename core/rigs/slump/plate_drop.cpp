@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/observe/heap.h"
 #include "core/rigs/rotor.h"
 #include "core/rigs/slump/slump_world.h"
-#include "core/rigs/waiting.h"
+#include "core/step/runner.h"
 
 namespace pastefit {
 
@@ -21,7 +22,7 @@ class Drop {
       : test_(test),
         options_(options),
         world_(std::move(world)),
-        runner_(world_, options),
+        runner_(world_, options, posture_of_heap),
         table_(world_.walls[kTable]) {
     runner_.follow(before);
   }
@@ -37,7 +38,7 @@ class Drop {
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
-  std::optional<Failure> rest(std::string_view phase) { return wait(runner_, options_, phase, kRestCap); }
+  std::optional<Failure> rest(std::string_view phase) { return runner_.settle({phase}, kRestCap); }
 
   /// Turns the plate up about its hinge with a smooth start and stop.
   std::optional<Failure> turn_plate_up() {
@@ -51,7 +52,7 @@ class Drop {
       table_.angular_velocity = {0, -angle * (after - before) / dt, 0};
     };
     table_.pivot = {-0.5 * plate.length_m, 0, 0};
-    if (auto problem = runner_.run("step2.raise", duration, turn)) return problem;
+    if (auto problem = runner_.run({"step2.raise", turn}, duration)) return problem;
     table_.angular_velocity = {};
     return rest("step2.raised");
   }
@@ -64,7 +65,8 @@ class Drop {
     const auto fall = [&](World& world, double dt) {
       if (turn_freely(rotor, table_, world.gravity, dt, dt)) stopped = true;
     };
-    if (auto problem = runner_.run("step2.drop", kDropCap, fall, [&](const World&) { return stopped; })) return problem;
+    if (auto problem = runner_.run({"step2.drop", fall, [&](const World&) { return stopped; }}, kDropCap))
+      return problem;
     table_.angular_velocity = {};
     table_.shape = level_table(test_);
     if (stopped) return {};

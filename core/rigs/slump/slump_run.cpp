@@ -6,7 +6,7 @@
 #include "core/rigs/slump/plate_drop.h"
 #include "core/rigs/slump/slump_test.h"
 #include "core/rigs/slump/slump_world.h"
-#include "core/rigs/waiting.h"
+#include "core/step/runner.h"
 
 namespace pastefit {
 
@@ -24,7 +24,7 @@ class MouldLift {
       : test_(test),
         options_(options),
         world_(world_in_mould(test, filled)),
-        runner_(world_, options),
+        runner_(world_, options, posture_of_heap),
         ruler_(test, filled.roughness_m, world_.particles) {
     if (options_.cutoff)
       lost_below_ = 1e-3 * options_.cutoff->lowest - ruler_.above_highest_m() - kRebound * test_.grains.radius_m;
@@ -66,8 +66,9 @@ class MouldLift {
     };
     const auto untouched = [&](const World&) { return norm(mould.force) == 0; };
     const double own_height = test_.mould.height_m / test_.lift_velocity_m_s;
-    auto problem = options_.fixed_wait_s ? runner_.run("step1.lift", own_height, {}, look_whether_lost())
-                                         : runner_.run_until_rest("step1.lift", 1.5 * own_height, untouched, clear);
+    auto problem = options_.fixed_wait_s
+                       ? runner_.run({"step1.lift", {}, look_whether_lost()}, own_height)
+                       : runner_.run_until_rest({"step1.lift", {}, clear}, 1.5 * own_height, untouched);
     if (problem) return problem;
     world_.walls.pop_back();
     runner_.changed();
@@ -75,9 +76,7 @@ class MouldLift {
   }
 
   /// The heap comes to rest on the table, unless it is lost before.
-  std::optional<Failure> rest_on_table() {
-    return wait(runner_, options_, "step1.rest", kRestCap, 0, look_whether_lost());
-  }
+  std::optional<Failure> rest_on_table() { return runner_.settle({"step1.rest", {}, look_whether_lost()}, kRestCap); }
 
   std::function<bool(const World&)> look_whether_lost() const {
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };

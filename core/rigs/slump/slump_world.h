@@ -8,6 +8,8 @@ namespace pastefit {
 /// Places of the walls in a slump test's world. The mould is the last one, and is gone after the lift.
 inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;
 
+inline constexpr double kRestCap = 4;  ///< [s] simulated time a heap is allowed for coming to rest
+
 /// The table, or the plate that can be dropped, when it is level.
 Plate level_table(const SlumpTest& test);
 
