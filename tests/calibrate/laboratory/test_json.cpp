@@ -3,7 +3,7 @@
 
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
-#include "tests/calibrate/study/files.h"
+#include "tests/calibrate/files.h"
 
 namespace pastefit {
 namespace {

@@ -8,7 +8,7 @@
 #include "calibrate/study/template.h"
 #include "calibrate/study/tests.h"
 #include "core/rigs/slump/slump_readings.h"
-#include "tests/calibrate/study/files.h"
+#include "tests/calibrate/files.h"
 
 namespace pastefit {
 namespace {
