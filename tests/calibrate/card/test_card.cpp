@@ -26,7 +26,7 @@ Card card() {
   out.parameters[0].upper = 60000;
   std::vector<double> values;
   for (const auto& parameter : out.parameters) values.push_back(parameter.value);
-  out.test = with_contact_of(out.test, values);
+  out.test = with_contact_of(with_usual_contact(out.test), values);
   std::get<SlumpTest>(out.test).drop = DropPlate{};
   out.grain_density_kg_m3 = 2238 / 0.6;
   out.observables = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};

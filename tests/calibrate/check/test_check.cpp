@@ -35,7 +35,7 @@ Card coarse_card() {
   specimen_of(card.test).contact.friction_basis = FrictionBasis::total;
   std::get<SlumpTest>(card.test).drop = DropPlate{};
   std::get<SlumpTest>(card.test).lift_velocity_m_s = 0.2;
-  card.test = with_contact_of(card.test, values);
+  card.test = with_contact_of(with_usual_contact(card.test), values);
   return card;
 }
 
