@@ -90,7 +90,7 @@ std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_po
 namespace {
 
 /// The place of a parameter whose name is put together in the program: a surface's, or a law's.
-std::size_t place_of(std::string_view name) {
+std::size_t parameter_at(std::string_view name) {
   const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
   assert(kind != kinds.end());
   return static_cast<std::size_t>(kind - kinds.begin());
@@ -155,7 +155,7 @@ Test with_contact_of(Test test, std::span<const double> values) {
   const auto make = [&, radius = specimen_of(test).grains.radius_m](auto law) {
     law.make(contact, radius, [&](std::string_view name) {
       assert(names(law, name));
-      return values[place_of(name)];
+      return values[parameter_at(name)];
     });
   };
   with_law(NormalLaws{}, contact.normal, make);
@@ -166,8 +166,8 @@ Test with_contact_of(Test test, std::span<const double> values) {
   contact.youngs_modulus_pa = values[at("youngs_modulus_pa")];
   contact.poissons_ratio = values[at("poissons_ratio")];
   for (const Surface& surface : surfaces_of(test)) {
-    surface.contact.friction = values[place_of(std::string(surface.name) + "_friction")];
-    surface.contact.cohesion_factor = values[place_of(std::string(surface.name) + "_cohesion_factor")];
+    surface.contact.friction = values[parameter_at(std::string(surface.name) + "_friction")];
+    surface.contact.cohesion_factor = values[parameter_at(std::string(surface.name) + "_cohesion_factor")];
   }
   return test;
 }
