@@ -22,7 +22,7 @@ Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
 }  // namespace
 
 Result<Export> export_mercurydpm(const ExportScene& scene) {
-  const KnownLaws known{"MercuryDPM's species", {NormalLaw::hertz}, kAllRolling};
+  const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
   if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
   return Export{
       {{"mercurydpm.txt", laws_in_words(scene) + kInstructions},

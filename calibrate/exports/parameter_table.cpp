@@ -17,6 +17,23 @@ void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const Wa
   rows.push_back({name + ".cohesion_factor", wall.cohesion_factor, "share of the grains' attraction that acts here"});
 }
 
+void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, double radius) {
+  const Bridge& bridge = contact.bridge;
+  const GrainPair pair{radius, radius, radius};
+  const BridgeGaps gaps = bridge_gaps(contact, pair);
+  rows.push_back({"cohesion_n", attraction_n(contact, pair, 1e-12), "constant attraction of overlapping grains"});
+  if (bridge.shape == BridgeShape::polynomial)
+    rows.insert(rows.end(), {{"a_n_m2", bridge.a_n_m2, "bridge a d^2 + b d + c"},
+                             {"b_n_m", bridge.b_n_m, "bridge a d^2 + b d + c"}});
+  if (bridge.shape == BridgeShape::capillary)
+    rows.insert(rows.end(), {{"liquid_volume_m3", bridge.liquid_volume_m3, "of a bridge"},
+                             {"surface_tension_n_m", bridge.surface_tension_n_m, "of the liquid"}});
+  rows.insert(rows.end(), {{"c_n", attraction_at_touch(bridge, radius), "attraction of two grains that just touch"},
+                           {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
+                           {"offset_m", bridge.offset_m, "thickness of the liquid shell"},
+                           {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"}});
+}
+
 std::string bridge_formula(BridgeShape shape) {
   switch (shape) {
     case BridgeShape::polynomial:
@@ -44,37 +61,22 @@ std::string laws_chosen(const ContactModel& contact) {
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
-  const double radius = test.grains.radius_m;
-  const auto gaps = bridge_gaps(contact, {radius, radius, radius});
   std::vector<ParameterRow> rows{
-      {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
+      {"grain_radius_m", test.grains.radius_m, "mean radius, to which the bridge's numbers belong"},
       {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains, such that the mould holds the bulk density"},
       {"bulk_density_kg_m3", test.bulk_density_kg_m3, "of the fresh material"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
       {"restitution", contact.restitution, "grain on grain, without attraction"},
       {"friction", contact.friction, "grain on grain"},
-      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"},
-      {"cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12),
-       "constant attraction of overlapping grains"}};
+      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"}};
   if (contact.normal == NormalLaw::jkr)
     rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
-  if (contact.bridge.shape == BridgeShape::polynomial)
-    rows.insert(rows.end(), {{"a_n_m2", contact.bridge.a_n_m2, "bridge a d^2 + b d + c"},
-                             {"b_n_m", contact.bridge.b_n_m, "bridge a d^2 + b d + c"}});
-  if (contact.bridge.shape == BridgeShape::capillary)
-    rows.insert(rows.end(), {{"liquid_volume_m3", contact.bridge.liquid_volume_m3, "of a bridge"},
-                             {"surface_tension_n_m", contact.bridge.surface_tension_n_m, "of the liquid"}});
-  const std::vector<ParameterRow> rest{
-      {"c_n", attraction_at_touch(contact.bridge, radius), "attraction of two grains that just touch"},
-      {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
-      {"offset_m", contact.bridge.offset_m, "thickness of the liquid shell"},
-      {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"},
-      {"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
-      {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
-      {"mould_height_m", test.mould.height_m, "apparatus"},
-      {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}};
-  rows.insert(rows.end(), rest.begin(), rest.end());
+  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, test.grains.radius_m);
+  rows.insert(rows.end(), {{"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
+                           {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
+                           {"mould_height_m", test.mould.height_m, "apparatus"},
+                           {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}});
   add_wall(rows, "mould", test.mould_wall);
   add_wall(rows, "table", test.table_wall);
   return rows;
