@@ -30,6 +30,13 @@ std::string text_of(const Range& range);
 /// Whether an object must have the key.
 enum class Need { required, optional };
 
+/// In the place of `Need`: an optional key that is left out where its value is the usual one, which the variable has
+/// before it is read.
+template <class T>
+struct Usual {
+  T value;
+};
+
 /// A word of a file and the value it stands for.
 template <class T>
 struct Named {
@@ -59,6 +66,9 @@ class ObjectReader {
 
   /// target = number in the file / `per_si`, e.g. 1000 for millimetres into metres. `range` is in the key's unit.
   bool number(std::string_view key, double& target, const Range& range, Need need, double per_si = 1);
+  bool number(std::string_view key, double& target, const Range& range, Usual<double>) {
+    return number(key, target, range, Need::optional);
+  }
   /// Null and an absent optional key empty the target.
   bool nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need);
   bool integer(std::string_view key, int& target, int smallest, int largest, Need need);
@@ -75,6 +85,10 @@ class ObjectReader {
   bool integers(std::string_view key, std::vector<std::uint64_t>& target, Need need);
   template <class T, std::size_t N>
   bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need);
+  template <class T, std::size_t N>
+  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Usual<T>) {
+    return choice(key, target, words, Need::optional);
+  }
   /// Calls `body(ObjectReader&)` for an object of this object.
   template <class Body>
   bool object(std::string_view key, Need need, Body body);

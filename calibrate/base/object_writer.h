@@ -16,6 +16,9 @@ class ObjectWriter {
   explicit ObjectWriter(nlohmann::json& object) : object_(object) { object_ = nlohmann::json::object(); }
 
   void number(const char* key, double value, const Range&, Need) { object_[key] = value; }
+  void number(const char* key, double value, const Range& range, Usual<double> usual) {
+    if (value != usual.value) number(key, value, range, Need::optional);
+  }
   void nullable_number(const char* key, const std::optional<double>& value, const Range&, Need) {
     object_[key] = value ? nlohmann::json(*value) : nlohmann::json();
   }
@@ -28,6 +31,10 @@ class ObjectWriter {
   void choice(const char* key, T value, const std::array<Named<T>, N>& words, Need) {
     for (const Named<T>& word : words)
       if (word.value == value) object_[key] = word.name;
+  }
+  template <class T, std::size_t N>
+  void choice(const char* key, T value, const std::array<Named<T>, N>& words, Usual<T> usual) {
+    if (value != usual.value) choice(key, value, words, Need::optional);
   }
   template <class Body>
   void object(const char* key, Need, Body body) {

@@ -143,6 +143,7 @@ ordered_json to_json(const Card& card) {
   out["parameters"] = ordered_json::object();
   out["free"] = ordered_json::object();
   for (const auto& parameter : card.parameters) {
+    if (!has_parameter(specimen_of(card.test).contact, parameter.name)) continue;
     out["parameters"][parameter.name] = parameter.value;
     if (!parameter.free) continue;
     auto& bounds = out["free"][parameter.name] = {{"lower", parameter.lower}, {"upper", parameter.upper}};

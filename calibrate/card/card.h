@@ -160,7 +160,7 @@ std::vector<TestOfCard> tests_of(Card& card);
 /// In which people are told the card's misfit.
 MisfitUnit misfit_unit_of(const Card& card);
 
-/// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws.
+/// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws, those that they have.
 /// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated
 /// - measured, standard_error = simulated_standard_deviation/sqrt(packings), `conditions` (what the fit was made for).
 /// `intervals`, `correlation`, `not_identified`, `test_name`, `further_tests`, `rebaselined` and `rescaled` are written

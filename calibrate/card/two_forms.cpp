@@ -22,6 +22,10 @@ Numbers numbers_of(Test test) {
                   {"test.contact.bridge.c_n", bridge.c_n},
                   {"test.contact.bridge.d_c_m", bridge.d_c_m},
                   {"test.contact.bridge.offset_m", bridge.offset_m},
+                  {"test.contact.bridge.liquid_volume_m3", bridge.liquid_volume_m3},
+                  {"test.contact.bridge.surface_tension_n_m", bridge.surface_tension_n_m},
+                  {"test.contact.bridge.contact_angle_rad", bridge.contact_angle_rad},
+                  {"test.contact.surface_energy_j_m2", contact.surface_energy_j_m2},
                   {"test.contact.cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},
                   {"test.contact.friction", contact.friction},
                   {"test.contact.rolling_friction", contact.rolling_friction},
@@ -45,7 +49,8 @@ Faults differing_forms(const Card& card) {
   const Numbers in_si = numbers_of(card.test), expected = numbers_of(from_parameters);
   // Of numbers that are small differences of larger ones, such as a, nine digits of the larger ones.
   const Bridge& bridge = specimen_of(from_parameters).contact.bridge;
-  const double curvature = bridge.c_n / (bridge.d_c_m * bridge.d_c_m), slope = bridge.c_n / -bridge.d_c_m;
+  const bool polynomial = bridge.shape == BridgeShape::polynomial;
+  const double slope = polynomial ? bridge.c_n / -bridge.d_c_m : 0, curvature = polynomial ? slope / -bridge.d_c_m : 0;
   Faults faults;
   for (std::size_t i = 0; i < in_si.size(); ++i) {
     const double scale = i == 0 ? curvature : (i == 1 ? slope : std::abs(expected[i].second));

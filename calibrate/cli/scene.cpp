@@ -102,8 +102,14 @@ auto read_with(json document, const Settings& settings, const std::filesystem::p
   return result;
 }
 
-Test with_parameters(const Test& test, std::vector<double> values, const Settings& settings) {
-  for (const auto& [index, value] : settings.parameters) values[index] = value;
+Test with_parameters(const Test& test, std::vector<double> values, const Settings& settings, Faults& faults) {
+  const ContactModel& laws = specimen_of(test).contact;
+  for (const auto& [index, value] : settings.parameters) {
+    const auto name = parameter_kinds()[index].name;
+    if (!has_parameter(laws, name))
+      faults.push_back(foreign_parameter(laws, "--set " + std::string(kParameters) + std::string(name), name));
+    values[index] = value;
+  }
   return with_contact_of(test, values);
 }
 
@@ -127,7 +133,7 @@ std::optional<Test> study_scene(const json&, const Settings& settings, const std
     specimen_of(test).contact = contact;
   }
   const UnitPoint middle = UnitPoint::Constant(free_count(study.value()), 0.5);
-  return with_parameters(test, values_at(study.value(), middle), settings);
+  return with_parameters(test, values_at(study.value(), middle), settings, faults);
 }
 
 std::optional<Test> card_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
@@ -137,7 +143,7 @@ std::optional<Test> card_scene(const json& document, const Settings& settings, c
   if (settings.parameters.empty()) return card.value().test;
   std::vector<double> values;
   for (const auto& parameter : card.value().parameters) values.push_back(parameter.value);
-  return with_parameters(card.value().test, std::move(values), settings);
+  return with_parameters(card.value().test, std::move(values), settings, faults);
 }
 
 std::optional<Test> test_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
@@ -148,12 +154,12 @@ std::optional<Test> test_scene(const json& document, const Settings& settings, c
   if (format == "pastefit-lab-1") {
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
-    if (lab.ok()) return with_parameters(lab.value().test, usual_values(), settings);
+    if (lab.ok()) return with_parameters(lab.value().test, usual_values(), settings, faults);
     return std::nullopt;
   }
   if (format == "pastefit-rig-1") {
     const auto rig = read_with(document, settings, file, faults, rig_from_json);
-    if (rig.ok()) return with_parameters(rig.value().test, usual_values(), settings);
+    if (rig.ok()) return with_parameters(rig.value().test, usual_values(), settings, faults);
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),

@@ -1,5 +1,6 @@
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/lammps_style.h"
 #include "calibrate/exports/parameter_table.h"
@@ -78,6 +79,8 @@ std::string wall_fix(const std::string& name, const WallContact& wall) {
 }  // namespace
 
 Result<Export> export_lammps(const ExportScene& scene) {
+  const KnownLaws known{"pair style pastefit", {NormalLaw::hertz}, kAllRolling, kAllAttractions};
+  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
   const auto& test = scene.test;

@@ -4,6 +4,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
@@ -98,10 +99,7 @@ double mass_of(double radius, double density) {
 }
 
 Faults lacking(const SlumpTest& test) {
-  Faults faults;
-  if (test.contact.rolling == RollingModel::constant_torque)
-    faults.push_back({"test.contact.rolling", "is a constant torque, which LAMMPS's granular style lacks",
-                      "export with --to lammps, or calibrate with rolling_model \"spring_dashpot\" or \"none\""});
+  Faults faults = unknown_laws(test.contact, {.target = "LAMMPS's granular style with tables"});
   for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
     if (wall.cohesion_factor > 0)
       faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
@@ -155,7 +153,8 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const double radius = test.grains.radius_m, density = scene.grain_density_kg_m3;
   const double load = 10 * mass_of(radius, density) * 9.81;
   const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
-  const bool attracts = attraction_n(test.contact, {radius, radius, radius}, 1e-12) > 0;
+  const GrainPair mean{radius, radius, radius};
+  const bool attracts = attraction_n(test.contact, mean, 1e-12) > 0 || attraction_n(test.contact, mean, 0) > 0;
 
   LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, {}, {}, false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)

@@ -4,6 +4,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/soulie.h"
 #include "calibrate/store/program.h"
@@ -181,7 +182,7 @@ std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fi
   if (fit) {
     const auto& difference = fit->difference;
     notes.push_back(
-        format("LIGGGHTS has no polynomial bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted "
+        format("LIGGGHTS has no such bridge. Its capillary bridge (easo, Soulie et al. 2006) was fitted "
                "to the card's curve: it differs by up to %.1f %% of the peak force, %.1f %% in root mean "
                "square, %+.1f %% in work.",
                100 * difference.largest, 100 * difference.root_mean_square, 100 * difference.work));
@@ -217,6 +218,8 @@ std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fi
 
 Result<Export> export_liggghts(const ExportScene& scene) {
   const auto& contact = scene.test.contact;
+  if (Faults faults = unknown_laws(contact, {"LIGGGHTS", {NormalLaw::hertz}, kAllRolling}); !faults.empty())
+    return faults;
   const double radius = scene.test.grains.radius_m;
   const bool attracts = bridge_gaps(contact, {radius, radius, radius}).rupture_m > 0 &&
                         attraction_n(contact, {radius, radius, radius}, 0) > 0;
@@ -228,7 +231,9 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   std::string law = "gap_m,card_n,liggghts_n\n";
   if (attracts)
     for (int i = 0; i <= 400; ++i) {
-      const double gap = 1.2 * std::max(fit.bridge.rupture_gap_m(), -contact.bridge.d_c_m) * i / 400;
+      const double gap =
+          1.2 * std::max(fit.bridge.rupture_gap_m(), bridge_gaps(contact, {radius, radius, radius}).rupture_m) * i /
+          400;
       law += format("%.17g,%.17g,%.17g\n", gap, attraction_n(contact, {radius, radius, radius}, -gap),
                     fit.bridge.force_n(gap));
     }

@@ -1,4 +1,5 @@
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/parameter_table.h"
 
 namespace pastefit {
@@ -10,9 +11,9 @@ How to use this in MercuryDPM
 1. Species: HertzianViscoelasticMindlinRollingTorsionSpecies carries repulsion, damping, friction and rolling. Set the
    effective elastic modulus E* and shear modulus G* by hand (its setters take effective values), friction and rolling
    friction from the table above, torsion 0.
-2. The attraction: none of the adhesive interactions that come with MercuryDPM has the form a d^2 + b d + c. Derive an
+2. The attraction: none of the adhesive interactions that come with MercuryDPM has the curve above. Derive an
    adhesive species from LiquidBridgeWilletSpecies, which already has formation, memory and rupture of a bridge, and
-   put the polynomial (or an interpolation of force.csv) in the place of its force; rupture distance -d_c, formation at
+   put that curve (or an interpolation of force.csv) in the place of its force; rupture distance -d_c, formation at
    formation_gap_m.
 3. Grains: grains.csv is a filled mould at rest.
 Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
@@ -21,12 +22,14 @@ Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
 }  // namespace
 
 Result<Export> export_mercurydpm(const ExportScene& scene) {
-  return Export{{{"mercurydpm.txt", laws_in_words(scene) + kInstructions},
-                 parameters_csv(scene),
-                 force_csv(scene),
-                 grains_csv(scene)},
-                {"MercuryDPM has no polynomial bridge as it comes; an adhesive species has to be derived.",
-                 "Not run in MercuryDPM."}};
+  const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
+  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
+  return Export{
+      {{"mercurydpm.txt", laws_in_words(scene) + kInstructions},
+       parameters_csv(scene),
+       force_csv(scene),
+       grains_csv(scene)},
+      {"MercuryDPM has no such bridge as it comes; an adhesive species has to be derived.", "Not run in MercuryDPM."}};
 }
 
 }  // namespace pastefit

@@ -17,11 +17,43 @@ void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const Wa
   rows.push_back({name + ".cohesion_factor", wall.cohesion_factor, "share of the grains' attraction that acts here"});
 }
 
+void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, double radius) {
+  const Bridge& bridge = contact.bridge;
+  const GrainPair pair{radius, radius, radius};
+  const BridgeGaps gaps = bridge_gaps(contact, pair);
+  rows.push_back({"cohesion_n", attraction_n(contact, pair, 1e-12), "constant attraction of overlapping grains"});
+  if (bridge.shape == BridgeShape::polynomial)
+    rows.insert(rows.end(), {{"a_n_m2", bridge.a_n_m2, "bridge a d^2 + b d + c"},
+                             {"b_n_m", bridge.b_n_m, "bridge a d^2 + b d + c"}});
+  if (bridge.shape == BridgeShape::capillary)
+    rows.insert(rows.end(), {{"liquid_volume_m3", bridge.liquid_volume_m3, "of a bridge"},
+                             {"surface_tension_n_m", bridge.surface_tension_n_m, "of the liquid"}});
+  rows.insert(rows.end(), {{"c_n", attraction_at_touch(bridge, radius), "attraction of two grains that just touch"},
+                           {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
+                           {"offset_m", bridge.offset_m, "thickness of the liquid shell"},
+                           {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"}});
+}
+
+std::string bridge_formula(BridgeShape shape) {
+  switch (shape) {
+    case BridgeShape::polynomial:
+      return "a d^2 + s b d + s^2 c";
+    case BridgeShape::linear:
+      return "s^2 c (1 + d/(s |d_c|))";
+    case BridgeShape::exponential:
+      return "s^2 c exp(3 d/(s |d_c|))";
+    case BridgeShape::capillary:
+      return "s^2 c/(1 + 1.05 S + 2.5 S^2), S = -d/s sqrt(R/liquid volume)";
+    default:
+      return "s^2 F(d/s), F as in force.csv";
+  }
+}
+
 }  // namespace
 
-std::string bridge_in_words(const ContactModel& contact) {
-  return "bridge " + word_of(contact.bridge.shape, bridge_shapes) + ", formed by " +
-         word_of(contact.bridge.formation, bridge_formations) + ", rolling " +
+std::string laws_chosen(const ContactModel& contact) {
+  return "normal " + word_of(contact.normal, normal_laws) + ", bridge " + word_of(contact.bridge.shape, bridge_shapes) +
+         ", formed by " + word_of(contact.bridge.formation, bridge_formations) + ", rolling " +
          word_of(contact.rolling, rolling_models) + ", friction of the " +
          word_of(contact.friction_basis, friction_bases) + " normal force";
 }
@@ -29,29 +61,22 @@ std::string bridge_in_words(const ContactModel& contact) {
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
-  const double radius = test.grains.radius_m;
-  const auto gaps = bridge_gaps(contact, {radius, radius, radius});
   std::vector<ParameterRow> rows{
-      {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
+      {"grain_radius_m", test.grains.radius_m, "mean radius, to which the bridge's numbers belong"},
       {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains, such that the mould holds the bulk density"},
       {"bulk_density_kg_m3", test.bulk_density_kg_m3, "of the fresh material"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
       {"restitution", contact.restitution, "grain on grain, without attraction"},
       {"friction", contact.friction, "grain on grain"},
-      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"},
-      {"cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12),
-       "constant attraction of overlapping grains"},
-      {"a_n_m2", contact.bridge.a_n_m2, "bridge a d^2 + b d + c"},
-      {"b_n_m", contact.bridge.b_n_m, "bridge a d^2 + b d + c"},
-      {"c_n", attraction_at_touch(contact.bridge, radius), "attraction of two grains that just touch"},
-      {"d_c_m", -gaps.rupture_m, "overlap at which the bridge ruptures (negative: a gap)"},
-      {"offset_m", contact.bridge.offset_m, "thickness of the liquid shell"},
-      {"formation_gap_m", gaps.formation_m, "gap at which a bridge forms"},
-      {"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
-      {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
-      {"mould_height_m", test.mould.height_m, "apparatus"},
-      {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}};
+      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"}};
+  if (contact.normal == NormalLaw::jkr)
+    rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
+  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, test.grains.radius_m);
+  rows.insert(rows.end(), {{"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
+                           {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
+                           {"mould_height_m", test.mould.height_m, "apparatus"},
+                           {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}});
   add_wall(rows, "mould", test.mould_wall);
   add_wall(rows, "table", test.table_wall);
   return rows;
@@ -83,19 +108,34 @@ ExportFile grains_csv(const ExportScene& scene) {
 }
 
 std::string laws_in_words(const ExportScene& scene) {
+  const ContactModel& contact = scene.test.contact;
   std::string out =
       R"(The contact law of two grains. d is the overlap: positive when they overlap, negative across a gap.
 R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 - nu)(1 + nu)/E, s = 2 R*/R.
 
-  d > 0, normal      4/3 E* sqrt(R*) d^1.5 + 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n
+)";
+  out +=
+      contact.normal == NormalLaw::jkr
+          ? R"(  contact, normal      4 E* a^3/(3 R*) - 4 sqrt(pi gamma E*) a^1.5, d = a^2/R* - sqrt(4 pi gamma a/E*), once the
+                       grains have touched, until d < -3 a_t^2/R*, a_t^3 = pi gamma R*^2/(4 E*); gamma the surface
+                       energy; besides 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n (the latter for d > 0)
+                       S_n = 2 E* a, beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
+  contact, tangential  spring S_t = 8 G* a on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu N
+)"
+          : R"(  d > 0, normal      4/3 E* sqrt(R*) d^1.5 + 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n
                      S_n = 2 E* sqrt(R* d), beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
   d > 0, tangential  spring S_t = 8 G* sqrt(R* d) on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu N
-  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)
-  d <= 0, bridge     a d^2 + s b d + s^2 c, attraction, from touch to rupture at d = s d_c;
-                     it forms when the gap falls to s formation_gap_m, and lives until the gap exceeds s |d_c|
-
 )";
-  out += "Here: " + bridge_in_words(scene.test.contact) + ".\n\n";
+  if (contact.rolling == RollingModel::spring_dashpot)
+    out += "  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)\n";
+  if (contact.rolling == RollingModel::constant_torque)
+    out += "  d > 0, rolling     torque mu_r N R* against the relative spin\n";
+  if (contact.bridge.shape != BridgeShape::none)
+    out += "  d <= 0, bridge     " + bridge_formula(contact.bridge.shape) + R"(, attraction,
+                     from touch to rupture at d = s d_c; it forms when the gap falls to s formation_gap_m, and lives
+                     until the gap exceeds s |d_c|
+)";
+  out += "\nHere: " + laws_chosen(contact) + ".\n\n";
   for (const auto& row : parameter_rows(scene))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
   return out;

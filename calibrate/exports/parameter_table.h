@@ -8,14 +8,6 @@
 
 namespace pastefit {
 
-/// The word of all files for a choice of a test.
-template <class T, std::size_t N>
-std::string word_of(T value, const std::array<Named<T>, N>& words) {
-  for (const auto& word : words)
-    if (word.value == value) return std::string(word.name);
-  return "?";
-}
-
 /// One number of a card, for tables in any form.
 struct ParameterRow {
   std::string name;  ///< with its unit
@@ -39,7 +31,7 @@ ExportFile grains_csv(const ExportScene& scene);
 /// The laws in words and formulas, for people who type them into another program.
 std::string laws_in_words(const ExportScene& scene);
 
-/// Shape and formation of the bridge in one line.
-std::string bridge_in_words(const ContactModel& contact);
+/// The names of the laws in one line.
+std::string laws_chosen(const ContactModel& contact);
 
 }  // namespace pastefit

@@ -2,6 +2,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/parameter_table.h"
 #include "calibrate/store/program.h"
@@ -206,7 +207,6 @@ std::string module_of(const ExportScene& scene) {
   const PairConstants constants = grain_pair(contact, radius);
   const bool rolls = contact.rolling == RollingModel::spring_dashpot;
   const double lever = contact.rolling_friction * pair.effective_radius_m();
-  constexpr const char* kShapes[] = {"none", "polynomial", "linear", "exponential", "capillary"};
 
   std::string out =
       "\"\"\"" + scene.card.title + "\n\nWritten by " + program_identity() + " for Yade. SI units.\n\"\"\"\n";
@@ -214,7 +214,7 @@ std::string module_of(const ExportScene& scene) {
       "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
   out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";
   const auto number = [&](const char* name, double value) { out += format("%s = %.17g\n", name, value); };
-  out += format("SHAPE = '%s'\n", kShapes[static_cast<int>(bridge.shape)]);
+  out += "SHAPE = '" + word_of(bridge.shape, bridge_shapes) + "'\n";
   number("RADIUS", radius);
   number("A", bridge.a_n_m2);
   number("B", bridge.b_n_m);
@@ -250,10 +250,7 @@ std::string module_of(const ExportScene& scene) {
 Result<Export> export_yade(const ExportScene& scene) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
-  Faults faults;
-  if (contact.rolling == RollingModel::constant_torque)
-    faults.push_back({"test.contact.rolling", "is a constant torque, which Yade's Mindlin law lacks",
-                      "calibrate with rolling_model \"spring_dashpot\" or \"none\""});
+  Faults faults = unknown_laws(contact, {.target = "Yade's Mindlin law", .attraction = kAllAttractions});
   for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
     if (wall.cohesion_factor > 0)
       faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",

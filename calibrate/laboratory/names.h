@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <type_traits>
 
 #include "calibrate/base/json_reader.h"
@@ -32,5 +33,13 @@ inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
 
 inline constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
+
+/// The word for a choice of a test.
+template <class T, std::size_t N>
+std::string word_of(T value, const std::array<Named<T>, N>& words) {
+  for (const auto& word : words)
+    if (word.value == value) return std::string(word.name);
+  return "?";
+}
 
 }  // namespace pastefit

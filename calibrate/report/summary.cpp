@@ -1,24 +1,40 @@
 #include "calibrate/report/summary.h"
 
-#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "calibrate/base/format.h"
+#include "calibrate/laboratory/names.h"
+#include "calibrate/study/parameters.h"
+#include "core/laws/constants.h"
 
 namespace pastefit {
 
 namespace {
 
-std::string bridge_lines(const Specimen& test) {
-  const auto& bridge = test.contact.bridge;
-  const std::array<std::pair<const char*, double>, 6> lines{
-      {{"a_n_m2", bridge.a_n_m2},
-       {"b_n_m", bridge.b_n_m},
-       {"c_n", bridge.c_n},
-       {"d_c_m", bridge.d_c_m},
-       {"offset_m", bridge.offset_m},
-       {"cohesion_n", test.contact.cohesion_n.value_or(bridge.c_n)}}};
-  std::string out = format("Contact law in SI, for grains of %g mm radius\n", 1e3 * test.grains.radius_m);
+/// The numbers of the law of the overlap, where it is not Hertz, and of the attraction across gaps.
+std::string law_lines(const Specimen& test) {
+  const ContactModel& contact = test.contact;
+  const Bridge& bridge = contact.bridge;
+  const double radius = test.grains.radius_m;
+  std::vector<std::pair<const char*, double>> lines;
+  if (contact.normal != NormalLaw::hertz) lines = {{"surface_energy_j_m2", contact.surface_energy_j_m2}};
+  if (bridge.shape == BridgeShape::polynomial)
+    lines.insert(lines.end(), {{"a_n_m2", bridge.a_n_m2}, {"b_n_m", bridge.b_n_m}});
+  if (bridge.shape == BridgeShape::capillary)
+    lines.insert(lines.end(), {{"liquid_volume_m3", bridge.liquid_volume_m3},
+                               {"surface_tension_n_m", bridge.surface_tension_n_m},
+                               {"contact_angle_rad", bridge.contact_angle_rad}});
+  if (bridge.shape != BridgeShape::none)
+    lines.insert(lines.end(), {{"c_n", attraction_at_touch(bridge, radius)},
+                               {"d_c_m", -rupture_gap(bridge, radius)},
+                               {"offset_m", bridge.offset_m},
+                               {"cohesion_n", contact.cohesion_n.value_or(attraction_at_touch(bridge, radius))}});
+  std::string out = format("Contact law in SI, for grains of %g mm radius\n", 1e3 * radius);
+  if (contact.normal != NormalLaw::hertz || bridge.shape != BridgeShape::polynomial)
+    out += "  normal " + word_of(contact.normal, normal_laws) + ", attraction " + word_of(bridge.shape, bridge_shapes) +
+           "\n";
   for (const auto& [name, value] : lines) out += format("  %-24s %14.6g\n", name, value);
   return out;
 }
@@ -26,6 +42,7 @@ std::string bridge_lines(const Specimen& test) {
 std::string parameter_lines(const Card& card) {
   std::string out = "Scale-free, the same law for every grain size\n";
   for (const auto& parameter : card.parameters) {
+    if (!has_parameter(specimen_of(card.test).contact, parameter.name)) continue;
     out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
     out += parameter.free ? format("   fitted, %g to %g", parameter.lower, parameter.upper) : "   fixed";
     if (const auto& prior = parameter.prior)
@@ -106,7 +123,7 @@ std::string verdict_of(const Card& card) {
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {
-  std::string out = card.title + "\n\n" + bridge_lines(specimen_of(card.test)) + "\n" + parameter_lines(card) + "\n" +
+  std::string out = card.title + "\n\n" + law_lines(specimen_of(card.test)) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);

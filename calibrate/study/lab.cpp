@@ -25,7 +25,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     preset = read_apparatus(reader, lab.test, folder);
     read_material(reader, lab.test);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
-    lab.test = with_contact_of(lab.test, usual_values());
+    lab.test = with_usual_contact(lab.test);
     // A test with a faulty section would only be judged by values nobody gave.
     if (values_are_good(faults, before))
       for (Fault& fault : validate_in_file_words(lab.test)) faults.push_back(std::move(fault));

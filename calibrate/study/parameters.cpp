@@ -4,6 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "core/laws/table.h"
 
 namespace pastefit {
 namespace {
@@ -12,7 +15,7 @@ constexpr Scale linear = Scale::linear;
 constexpr Scale logarithmic = Scale::logarithmic;
 
 // Files and stored evaluations know a parameter by its name; the order is that of tables for people.
-constexpr std::array<ParameterKind, 15> kinds{{
+constexpr std::array<ParameterKind, 16> kinds{{
     {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
     {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
@@ -28,6 +31,7 @@ constexpr std::array<ParameterKind, 15> kinds{{
     {"table_friction", 0, 2, 0.5, linear, "sliding friction between grains and table"},
     {"table_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the table"},
     {"mould_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the mould"},
+    {"adhesion_pa", 1, 1e6, 1000, logarithmic, "surface energy of the grains over the mean grain radius, gamma/R"},
 }};
 
 /// The place of a parameter in a list of values. A name that there is not does not compile.
@@ -85,47 +89,94 @@ std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_po
 
 namespace {
 
-/// The place of a surface's parameter; every surface of every kind of test has its own.
-std::size_t place_of(std::string_view surface, std::string_view parameter) {
-  const std::string name = std::string(surface) + std::string(parameter);
-  const auto kind = std::ranges::find(kinds, std::string_view(name), &ParameterKind::name);
+/// The place of a parameter whose name is put together in the program: a surface's, or a law's.
+std::size_t parameter_at(std::string_view name) {
+  const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);
   assert(kind != kinds.end());
   return static_cast<std::size_t>(kind - kinds.begin());
 }
 
+/// Of a surface's parameter a law names what follows the surface's name.
+template <class Law>
+bool names(Law, std::string_view parameter) {
+  return std::ranges::any_of(Law::parameters, [&](std::string_view own) { return parameter.ends_with(own); });
+}
+
+/// A choice of a study, the laws it is made from, and which of them have a parameter.
+struct Choice {
+  std::string_view key;     ///< in "contact"
+  std::string_view chosen;  ///< its word
+  std::vector<std::string_view> having;
+  bool had() const { return std::ranges::count(having, chosen) > 0; }
+};
+
+template <class... Laws, class Name>
+Choice choice_of(std::string_view key, TypeList<Laws...> laws, Name chosen, std::string_view parameter) {
+  Choice choice{key, with_law(laws, chosen, [](auto law) { return law.word; }), {}};
+  const auto look = [&](auto law) {
+    if (names(law, parameter)) choice.having.push_back(law.word);
+  };
+  (look(Laws{}), ...);
+  return choice;
+}
+
+std::array<Choice, 3> choices_of(const ContactModel& laws, std::string_view parameter) {
+  return {choice_of("attraction", Attractions{}, laws.bridge.shape, parameter),
+          choice_of("normal", NormalLaws{}, laws.normal, parameter),
+          choice_of("rolling_model", RollingLaws{}, laws.rolling, parameter)};
+}
+
 }  // namespace
+
+bool has_parameter(const ContactModel& laws, std::string_view name) {
+  const auto choices = choices_of(laws, name);
+  return std::ranges::any_of(choices, &Choice::had) ||
+         std::ranges::all_of(choices, [](const Choice& choice) { return choice.having.empty(); });
+}
+
+Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name) {
+  std::string owners, chosen, remedy;
+  for (const Choice& choice : choices_of(laws, name)) {
+    if (choice.having.empty()) continue;
+    std::string words;
+    for (const std::string_view word : choice.having) words += (words.empty() ? "" : ", ") + in_quotes(word);
+    owners += (owners.empty() ? "" : ", or to ") + std::string(choice.key) + " " + words;
+    chosen += (chosen.empty() ? "" : ", ") + std::string(choice.key) + " " + in_quotes(choice.chosen);
+    if (remedy.empty())
+      remedy =
+          "leave it out, or choose \"contact\": {" + in_quotes(choice.key) + ": " + in_quotes(choice.having[0]) + "}";
+  }
+  return {std::move(place), "belongs to " + owners + "; chosen is " + chosen, std::move(remedy)};
+}
 
 Test with_contact_of(Test test, std::span<const double> values) {
   assert(values.size() == kinds.size());
   ContactModel& contact = specimen_of(test).contact;
-  const double radius = specimen_of(test).grains.radius_m;
-
-  Bridge& bridge = contact.bridge;
-  const double c = values[at("strength_pa")] * radius * radius;
-  const double k = values[at("curvature")];
-  // Share of the attraction that is gone when the bridge ruptures.
-  const double lost = 1 - values[at("rupture_force_ratio")];
-  double gap = values[at("rupture_gap_ratio")];
-  if (bridge.formation == BridgeFormation::touch) gap = std::min(gap, 2 * values[at("offset_ratio")]);
-  const double d_c = -gap * radius;
-  bridge.shape = BridgeShape::polynomial;
-  bridge.a_n_m2 = k * lost * c / (d_c * d_c);
-  bridge.b_n_m = lost * (1 + k) * c / -d_c;
-  bridge.c_n = c;
-  bridge.d_c_m = d_c;
-  bridge.offset_m = values[at("offset_ratio")] * radius;
-
+  const auto make = [&, radius = specimen_of(test).grains.radius_m](auto law) {
+    law.make(contact, radius, [&](std::string_view name) {
+      assert(names(law, name));
+      return values[parameter_at(name)];
+    });
+  };
+  with_law(NormalLaws{}, contact.normal, make);
+  with_law(Attractions{}, contact.bridge.shape, make);
+  with_law(RollingLaws{}, contact.rolling, make);
   contact.friction = values[at("friction")];
-  contact.rolling_friction = values[at("rolling_friction")];
   contact.restitution = values[at("restitution")];
   contact.youngs_modulus_pa = values[at("youngs_modulus_pa")];
   contact.poissons_ratio = values[at("poissons_ratio")];
-  contact.cohesion_n = values[at("cohesion_ratio")] * c;
   for (const Surface& surface : surfaces_of(test)) {
-    surface.contact.friction = values[place_of(surface.name, "_friction")];
-    surface.contact.cohesion_factor = values[place_of(surface.name, "_cohesion_factor")];
+    surface.contact.friction = values[parameter_at(std::string(surface.name) + "_friction")];
+    surface.contact.cohesion_factor = values[parameter_at(std::string(surface.name) + "_cohesion_factor")];
   }
   return test;
+}
+
+Test with_usual_contact(Test test) {
+  ContactModel& contact = specimen_of(test).contact;
+  contact.normal = NormalLaw::hertz;
+  contact.bridge.shape = BridgeShape::polynomial;
+  return with_contact_of(std::move(test), usual_values());
 }
 
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed) {

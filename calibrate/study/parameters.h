@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,21 +12,18 @@
 
 namespace pastefit {
 
-/// The parameters a study may free or fix. The first five span the polynomial bridge in coordinates that are
-/// scale-free and admissible everywhere in their range:
+/// The parameters a study may free or fix: scale-free, and admissible everywhere in their range. R is the mean grain
+/// radius, c the attraction at touch, d_c the overlap at rupture, gamma the surface energy.
 ///
-///   strength_pa           c / R^2, attraction at touch over the squared mean grain radius, > 0      [Pa]
-///   rupture_force_ratio   f = F(d_c)/c, force left when the bridge ruptures, 0 .. 1
-///   curvature             k, shape of the decay, -1 (flat at touch) .. 0 (straight) .. 1 (flat at rupture)
-///   rupture_gap_ratio     g = -d_c/R, 0 < g <= 1
-///   offset_ratio          offset/R, 0 .. 1
+/// Each law of core/laws names those it is made of and makes its numbers in SI from them; a study has those of the laws
+/// it chose, and those that no law names, which every test has. Of the present laws:
 ///
-/// With s = d/d_c: F/c = 1 - (1 - f)[(1 + k) s - k s^2], hence
-///   a = k (1 - f) c / d_c^2,   b = (1 - f)(1 + k) c / |d_c|.
-/// Source of the law: Platzer & Fimbinger, BHM 167 (2022) 61-65; the coordinates are ours.
-///
-/// Others: friction, rolling_friction, restitution, youngs_modulus_pa, poissons_ratio, cohesion_ratio (F_coh/c),
-/// mould_friction, table_friction, table_cohesion_factor, mould_cohesion_factor.
+///   every attraction   strength_pa c/R^2 [Pa], rupture_gap_ratio -d_c/R, offset_ratio offset/R, cohesion_ratio F_coh/c
+///   polynomial         besides, rupture_force_ratio F(d_c)/c and curvature (core/laws/attraction.h)
+///   jkr                adhesion_pa gamma/R [Pa]
+///   rolling            rolling_friction
+///   whatever attracts  table_cohesion_factor, mould_cohesion_factor
+///   every test         friction, restitution, youngs_modulus_pa, poissons_ratio, mould_friction, table_friction
 struct ParameterKind {
   std::string_view name;
   double smallest, largest;  ///< admissible range
@@ -36,6 +34,12 @@ struct ParameterKind {
 
 /// Every known parameter, in their fixed order.
 std::span<const ParameterKind> parameter_kinds();
+
+/// Whether the laws of this contact have the parameter. The others keep their usual value, which acts on nothing.
+bool has_parameter(const ContactModel& laws, std::string_view name);
+
+/// What to say where a parameter is given that no law of the contact has. Requirement: `has_parameter` is false.
+Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name);
 
 /// Number of free parameters of a study.
 int free_count(const Study& study);
@@ -59,11 +63,14 @@ std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_po
 /// The usual value of every parameter, in their fixed order.
 std::vector<double> usual_values();
 
-/// The test with these parameter values in its contact laws: a, b, c, d_c and offset in SI from the scale-free
-/// coordinates, with R the mean radius of its grains, and each surface's own. Shape: one value for each of
-/// `parameter_kinds()`.
-/// In touch formation the offset only bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
+/// The test with these parameter values in the contact laws that it names (normal, attraction and its formation,
+/// rolling): their numbers in SI, with R the mean radius of its grains, and each surface's own. Shape: one value for
+/// each of `parameter_kinds()`.
 Test with_contact_of(Test test, std::span<const double> values);
+
+/// The test with the laws of a study that chooses none, Hertz and a polynomial bridge, and usual values of their
+/// parameters. Formation, rolling and the basis of friction stay.
+Test with_usual_contact(Test test);
 
 /// The test with these parameter values, and this packing.
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed);

@@ -53,7 +53,21 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   });
 }
 
-std::vector<Parameter> read_parameters(ObjectReader& document) {
+/// The choice of laws.
+ContactModel read_contact(ObjectReader& document) {
+  ContactModel laws;
+  laws.bridge.shape = BridgeShape::polynomial;
+  document.object("contact", Need::optional, [&](ObjectReader& reader) {
+    reader.choice("normal", laws.normal, normal_laws, Need::optional);
+    reader.choice("attraction", laws.bridge.shape, bridge_shapes, Need::optional);
+    reader.choice("formation", laws.bridge.formation, bridge_formations, Need::optional);
+    reader.choice("rolling_model", laws.rolling, rolling_models, Need::optional);
+    reader.choice("friction_basis", laws.friction_basis, friction_bases, Need::optional);
+  });
+  return laws;
+}
+
+std::vector<Parameter> read_parameters(ObjectReader& document, const ContactModel& laws) {
   std::vector<Parameter> parameters;
   for (const ParameterKind& kind : parameter_kinds())
     parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
@@ -62,29 +76,15 @@ std::vector<Parameter> read_parameters(ObjectReader& document) {
     for (Parameter& parameter : parameters) {
       const ParameterKind& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
       reader.object(kind.name, Need::optional, [&](ObjectReader& one) { read_parameter(one, kind, parameter); });
+      if (reader.has(kind.name) && !has_parameter(laws, kind.name))
+        reader.faults().push_back(foreign_parameter(laws, reader.place(kind.name), kind.name));
       any_free = any_free || parameter.free;
     }
     if (!any_free)
       document.fault("parameters", "none is free, so there is nothing to calibrate",
-                     "free at least one, e.g. \"strength_pa\": {\"free\": [200, 60000]}");
+                     "free at least one, e.g. \"friction\": {\"free\": [0.05, 0.6]}");
   });
   return parameters;
-}
-
-/// The choice of laws, for every test.
-void read_contact(ObjectReader& document, std::vector<StudyTest>& tests) {
-  ContactModel chosen;
-  document.object("contact", Need::optional, [&](ObjectReader& reader) {
-    reader.choice("formation", chosen.bridge.formation, bridge_formations, Need::optional);
-    reader.choice("rolling_model", chosen.rolling, rolling_models, Need::optional);
-    reader.choice("friction_basis", chosen.friction_basis, friction_bases, Need::optional);
-  });
-  for (StudyTest& test : tests) {
-    ContactModel& contact = specimen_of(test.lab.test).contact;
-    contact.bridge.formation = chosen.bridge.formation;
-    contact.rolling = chosen.rolling;
-    contact.friction_basis = chosen.friction_basis;
-  }
 }
 
 void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search) {
@@ -112,10 +112,18 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
   });
 }
 
+void choose(const ContactModel& laws, Test& test) {
+  ContactModel& contact = specimen_of(test).contact;
+  contact.normal = laws.normal;
+  contact.bridge.shape = laws.bridge.shape;
+  contact.bridge.formation = laws.bridge.formation;
+  contact.rolling = laws.rolling;
+  contact.friction_basis = laws.friction_basis;
+}
+
 /// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
-void check_touch(ObjectReader& document, const Study& study) {
-  if (study.tests.empty() || specimen_of(study.tests[0].lab.test).contact.bridge.formation != BridgeFormation::touch)
-    return;
+void check_touch(ObjectReader& document, const Study& study, const ContactModel& laws) {
+  if (laws.bridge.formation != BridgeFormation::touch || !has_parameter(laws, "offset_ratio")) return;
   const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
   if ((offset->free ? offset->lower : offset->value) > 0) return;
   document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",
@@ -162,10 +170,11 @@ Result<Study> read_study(const std::filesystem::path& file) {
     reader.known("format");
     reader.text("title", study.title, Need::required);
     study.tests = read_tests(reader, *document, file.parent_path(), in_labs);
-    study.parameters = read_parameters(reader);
-    read_contact(reader, study.tests);
+    const ContactModel laws = read_contact(reader);
+    for (StudyTest& test : study.tests) choose(laws, test.lab.test);
+    study.parameters = read_parameters(reader, laws);
     read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
-    check_touch(reader, study);
+    check_touch(reader, study, laws);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);
   for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));

@@ -61,10 +61,12 @@ constexpr std::string_view study_text =
   // "tests": [{"name": "slow", "lab": "slow.json", "weights": {"step1.spread_mm": 0}},
   //           {"name": "fast", "lab": "fast.json", "hold_out": true}],
 
+  // normal: hertz, or jkr (grains that stick where they touch). attraction across a gap: polynomial, linear, exponential,
+  // capillary or none. A law has parameters of its own: what no chosen law has is refused.
   // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (the offset then bounds the gap).
   // rolling_model: spring_dashpot, constant_torque or none.
   // friction_basis: elastic (cohesion strengthens friction) or total (of the whole normal force).
-  "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
+  "contact": {"normal": "hertz", "attraction": "polynomial", "formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
 
   // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.
   // Known, but not for sure: {"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0.05}}.
@@ -77,6 +79,7 @@ constexpr std::string_view study_text =
     "offset_ratio": {"free": [0.1, 0.5]},        // liquid shell over R
     "friction": {"value": 0.15},
     "rolling_friction": {"value": 0.02}
+    // "adhesion_pa": {"free": [100, 10000]}  // of jkr: surface energy over R
   },
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -11,6 +13,8 @@ namespace pastefit {
 
 /// Attraction laws: how hard two grains pull on each other across a gap. Each is a type with
 ///     choice, word   its name in the program and in files;
+///     parameters     names of the scale-free numbers it is made of; `cohesion_factor` is one of each surface;
+///     make(contact, radius, value)   its numbers for grains of that mean radius, from `value(name)` of its parameters;
 ///     present        false: there is none, and the rest is not needed but for the ends;
 ///     at_touch, rupture_gap(bridge, radius)   the ends of its range for reference grains: force at d = 0 [N], gap [m];
 ///     set(pair, bridge, radius, share)   its own constants (those of the ends are there), `share` of its force;
@@ -27,24 +31,74 @@ struct Pull {
 struct NoAttraction {
   static constexpr BridgeShape choice = BridgeShape::none;
   static constexpr std::string_view word = "none";
+  static constexpr std::array<std::string_view, 0> parameters{};
   static constexpr bool present = false;
+  template <class Value>
+  static void make(ContactModel& contact, double, const Value&) {
+    contact.bridge = {.shape = choice, .formation = contact.bridge.formation};
+    contact.cohesion_n = 0;
+  }
   static double at_touch(const Bridge&, double) { return 0; }
   static double rupture_gap(const Bridge&, double) { return 0; }
   static void set(PairConstants&, const Bridge&, double, double) {}
 };
 
-/// What laws have in common whose ends are given: c and d_c.
-struct GivenEnds {
+/// What all attractions are made of: c/R^2, -d_c/R, offset/R and the cohesion over c. In touch formation the offset
+/// bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
+struct AcrossGap {
+  static constexpr std::array<std::string_view, 5> parameters{"strength_pa", "rupture_gap_ratio", "offset_ratio",
+                                                              "cohesion_ratio", "cohesion_factor"};
   static constexpr bool present = true;
-  static double at_touch(const Bridge& bridge, double) { return bridge.c_n; }
-  static double rupture_gap(const Bridge& bridge, double) { return -bridge.d_c_m; }
+
+ protected:
+  struct Ends {
+    double at_touch_n, rupture_gap_m;
+  };
+  /// Begins the bridge anew, with formation and offset as they were and as they are to be.
+  template <class Value>
+  static Ends begin(ContactModel& contact, BridgeShape shape, double radius, const Value& value) {
+    const BridgeFormation formation = contact.bridge.formation;
+    const double c = value("strength_pa") * radius * radius;
+    double gap = value("rupture_gap_ratio");
+    if (formation == BridgeFormation::touch) gap = std::min(gap, 2 * value("offset_ratio"));
+    contact.bridge = {.shape = shape, .formation = formation, .offset_m = value("offset_ratio") * radius};
+    contact.cohesion_n = value("cohesion_ratio") * c;
+    return {c, gap * radius};
+  }
 };
 
-/// F = a d^2 + b d + c (Platzer & Fimbinger 2022).
+/// What laws have in common whose ends are given: c and d_c.
+struct GivenEnds : AcrossGap {
+  static double at_touch(const Bridge& bridge, double) { return bridge.c_n; }
+  static double rupture_gap(const Bridge& bridge, double) { return -bridge.d_c_m; }
+
+ protected:
+  template <class Value>
+  static void begin(ContactModel& contact, BridgeShape shape, double radius, const Value& value) {
+    const Ends ends = AcrossGap::begin(contact, shape, radius, value);
+    contact.bridge.c_n = ends.at_touch_n;
+    contact.bridge.d_c_m = -ends.rupture_gap_m;
+  }
+};
+
+/// F = a d^2 + b d + c (Platzer & Fimbinger 2022). Scale-free, with s = d/d_c, f = F(d_c)/c the rupture_force_ratio and
+/// k the curvature, -1 (flat at touch) .. 0 (straight) .. 1 (flat at rupture): F/c = 1 - (1 - f)[(1 + k) s - k s^2].
 struct PolynomialAttraction : GivenEnds {
   static constexpr BridgeShape choice = BridgeShape::polynomial;
   static constexpr std::string_view word = "polynomial";
+  static constexpr std::array<std::string_view, 7> parameters{
+      "strength_pa",     "rupture_gap_ratio",   "offset_ratio", "cohesion_ratio",
+      "cohesion_factor", "rupture_force_ratio", "curvature"};
 
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    begin(contact, choice, radius, value);
+    Bridge& bridge = contact.bridge;
+    const double k = value("curvature"), c = bridge.c_n, d_c = bridge.d_c_m;
+    const double lost = 1 - value("rupture_force_ratio");  // share of the attraction that is gone at rupture
+    bridge.a_n_m2 = k * lost * c / (d_c * d_c);
+    bridge.b_n_m = lost * (1 + k) * c / -d_c;
+  }
   static void set(PairConstants& pair, const Bridge& bridge, double, double share) {
     pair.bridge_a = share * bridge.a_n_m2;
     pair.bridge_b = share * bridge.b_n_m;
@@ -71,7 +125,12 @@ struct PolynomialAttraction : GivenEnds {
 struct LinearAttraction : PolynomialAttraction {
   static constexpr BridgeShape choice = BridgeShape::linear;
   static constexpr std::string_view word = "linear";
+  static constexpr auto parameters = AcrossGap::parameters;
 
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    begin(contact, choice, radius, value);
+  }
   static void set(PairConstants& pair, const Bridge&, double, double) {
     pair.bridge_b = pair.bridge_c / pair.rupture_gap;
   }
@@ -83,6 +142,10 @@ struct ExponentialAttraction : GivenEnds {
   static constexpr BridgeShape choice = BridgeShape::exponential;
   static constexpr std::string_view word = "exponential";
 
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    begin(contact, choice, radius, value);
+  }
   static void set(PairConstants& pair, const Bridge&, double, double) { pair.bridge_b = 3 / pair.rupture_gap; }
   template <class Real>
   PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
@@ -100,12 +163,18 @@ struct ExponentialAttraction : GivenEnds {
 };
 
 /// F = c/(1 + 1.05 S + 2.5 S^2), S = gap sqrt(R/V): liquid bridge between equal spheres (Willett et al. 2000, Langmuir
-/// 16:9396).
-struct CapillaryAttraction {
+/// 16:9396). Scale-free: the liquid wets the grains, and its tension and volume are those of the wanted ends.
+struct CapillaryAttraction : AcrossGap {
   static constexpr BridgeShape choice = BridgeShape::capillary;
   static constexpr std::string_view word = "capillary";
-  static constexpr bool present = true;
 
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    const auto [c, gap] = begin(contact, choice, radius, value);
+    contact.bridge.surface_tension_n_m = c / (2 * std::numbers::pi * radius);
+    const double root = 2 * gap / (1 + std::sqrt(1 + 0.4 * gap / radius));  // of gap = root + 0.1 root^2/R
+    contact.bridge.liquid_volume_m3 = root * root * root;
+  }
   static double at_touch(const Bridge& bridge, double radius) {
     return 2 * std::numbers::pi * radius * bridge.surface_tension_n_m * std::cos(bridge.contact_angle_rad);
   }

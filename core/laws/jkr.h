@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -20,12 +21,18 @@ namespace pastefit {
 /// d take (y - 1) sqrt(y^2 + 2 y + 3) = w, w^2 = 3 + d R*/a_t^2, which has no double root: three of Newton's steps from
 /// sqrt(1 + w), the root's upper bound, are right to 2e-14.
 ///
-/// Friction feels the elastic part f y^6/3, or of the total force F + 6 f, as in LAMMPS.
+/// Friction feels the elastic part f y^6/3, or of the total force F + 6 f, as in LAMMPS. Scale-free: gamma over the
+/// mean radius, so that forces go with its square.
 struct Jkr {
   static constexpr NormalLaw choice = NormalLaw::jkr;
   static constexpr std::string_view word = "jkr";
+  static constexpr std::array<std::string_view, 2> parameters{"adhesion_pa", "cohesion_factor"};
   static constexpr bool adheres = true, reaches = true;
 
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    contact.surface_energy_j_m2 = value("adhesion_pa") * radius;
+  }
   static void set(PairConstants& pair, const ContactModel& grains, double share) {
     const double radius = 1 / pair.size_per_radius, modulus = 0.5 * pair.normal_stiffness;
     pair.adhesion = std::numbers::pi * share * grains.surface_energy_j_m2;
@@ -56,7 +63,11 @@ struct Jkr {
     const Real mean = Real(0.4) * press.load - Real(2.0 / 3) * (press.load - press.force) + Real(2.0) * unit;
     return select(press.touching, (mean * a * a - Real(0.8) * unit * patch * patch) / radius, Real(0.0));
   }
-  /// The same at d = 0, where y^3 = 4.
+  /// Work of adhesion times the area, 2 gamma pi a^2.
+  static double surface(const PairConstants& k, double contact_radius) {
+    return 2 * k.adhesion * contact_radius * contact_radius;
+  }
+  /// `energy` at d = 0 but for its sign, where y^3 = 4.
   template <class Real>
   PASTEFIT_INLINE static Real spent(const PairConstants& k, Real radius) {
     const Real patch = tear_patch(k, radius);

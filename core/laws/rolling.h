@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "core/laws/constants.h"
@@ -27,17 +28,32 @@ struct RollingContact {
 
 /// Laws of rolling resistance. Each is a type with
 ///     choice, word   its name in the program and in files;
+///     parameters, make(contact, radius, value)   scale-free numbers that it is made of, and how: as those of an
+///                    attraction (laws/attraction.h);
 ///     remembers      whether it uses `Memory::roll`;
 ///     turns          whether that is a vector of the contact plane, which turns with the contact;
 ///     act(k, contact, dt, counted, roll, action)   its moment on body i, its heat and what it stores if energies are
 ///                    `counted`, its part in damping and stiffness of `action`; and what it will remember.
 /// To add one: core/README.md.
 
+/// What both that resist have in common: the coefficient mu_r.
+struct RollingFriction {
+  static constexpr std::array<std::string_view, 1> parameters{"rolling_friction"};
+
+  template <class Value>
+  static void make(ContactModel& contact, double, const Value& value) {
+    contact.rolling_friction = value("rolling_friction");
+  }
+};
+
 struct NoRolling {
   static constexpr RollingModel choice = RollingModel::none;
   static constexpr std::string_view word = "none";
+  static constexpr std::array<std::string_view, 0> parameters{};
   static constexpr bool remembers = false, turns = false;
 
+  template <class Value>
+  static void make(ContactModel&, double, const Value&) {}
   template <class Real>
   PASTEFIT_INLINE static void act(const PairConstants&, const RollingContact<Real>&, Real, bool, BasicVec3<Real>&,
                                   Action<Real>&) {}
@@ -50,7 +66,7 @@ struct NoRolling {
 ///
 /// The spring, whose moment has no potential of its own, is shortened when the contact stiffens (`softened`):
 /// stiffening adds no energy, and unloading releases the moment with the area.
-struct SpringDashpotRolling {
+struct SpringDashpotRolling : RollingFriction {
   static constexpr RollingModel choice = RollingModel::spring_dashpot;
   static constexpr std::string_view word = "spring_dashpot";
   static constexpr bool remembers = true, turns = true;
@@ -86,7 +102,7 @@ struct SpringDashpotRolling {
 /// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot: without that the torque's
 /// sign would alternate and heat the heap. In one step a dashpot takes at most a fifth of a grain's spin, a tenth among
 /// equal grains, so that all the contacts of a grain together stay below twice of it. It remembers its last torque.
-struct ConstantTorqueRolling {
+struct ConstantTorqueRolling : RollingFriction {
   static constexpr RollingModel choice = RollingModel::constant_torque;
   static constexpr std::string_view word = "constant_torque";
   static constexpr bool remembers = true, turns = false;

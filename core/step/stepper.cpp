@@ -41,8 +41,10 @@ double stiffest_grain(const Particles& particles) {
 double elastic_energy(const World& world) {
   const auto held = [&](const PairConstants& pair, double root_radius, double overlap) {
     return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
-      return law.energy(pair, root_radius * root_radius, law.at(pair, root_radius, std::max(overlap, 0.0), 0.0),
-                        overlap);
+      const Press<double> press = law.at(pair, root_radius, std::max(overlap, 0.0), 0.0);
+      double energy = law.energy(pair, root_radius * root_radius, press, overlap);
+      if constexpr (law.adheres) energy += law.surface(pair, press.contact_radius);
+      return energy;
     });
   };
   double sum = 0;

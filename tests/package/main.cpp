@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
 
   pastefit::Test test = study.tests.at(0).lab.test;
   pastefit::specimen_of(test).grains.radius_m = 0.018;
-  test = pastefit::with_contact_of(test, pastefit::usual_values());
+  test = pastefit::with_usual_contact(test);
   const pastefit::Outcome outcome = pastefit::simulate(test);
   const auto height = outcome.observables.find("step1.height_mm");
   if (outcome.failure || !height) return 1;

@@ -47,9 +47,9 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
   if (bridge.shape == BridgeShape::none) return;
   check.range("contact.bridge.offset_m", bridge.offset_m, 0, 2 * radius, "m");
   if (bridge.shape == BridgeShape::capillary) {
-    check.range("contact.bridge.liquid_volume_m3", bridge.liquid_volume_m3, 1e-9 * std::pow(radius, 3),
+    check.range("contact.bridge.liquid_volume_m3", bridge.liquid_volume_m3, 1e-10 * std::pow(radius, 3),
                 std::pow(radius, 3), "m^3");
-    check.range("contact.bridge.surface_tension_n_m", bridge.surface_tension_n_m, 0, 1e4, "N/m");
+    check.range("contact.bridge.surface_tension_n_m", bridge.surface_tension_n_m, 0, 1e7, "N/m");
     check.range("contact.bridge.contact_angle_rad", bridge.contact_angle_rad, 0, 0.5 * std::numbers::pi, "rad");
     return;
   }

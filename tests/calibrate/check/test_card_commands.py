@@ -92,7 +92,7 @@ class CardCommands(unittest.TestCase):
         card["test"]["contact"]["rolling"] = "constant_torque"
         file = self.folder / "card.json"
         file.write_text(json.dumps(card))
-        self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant torque", "spring_dashpot")
+        self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant_torque", "spring_dashpot")
         self.assertFalse((self.folder / "x").exists())
 
     def test_rescale_measures_its_bias_and_the_new_card_is_a_card(self):

@@ -105,6 +105,23 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(result.stdout, "")
         self.assertFalse(self.out.exists())
 
+    def test_parameters_of_laws_that_were_not_chosen_are_bad_input(self):
+        study = self.study(contact={"normal": "jkr", "attraction": "exponential"},
+                           parameters={"strength_pa": {"free": [300, 40000]}, "curvature": {"free": [-0.5, 1]},
+                                       "rupture_force_ratio": {"value": 0}, "adhesion_pa": {"free": [100, 10000]}})
+        for verb in (["calibrate", study, "--out", self.out], ["simulate", study]):
+            result = run(*verb)
+            self.fails(result, 2, "study.json: parameters.curvature: belongs to attraction \"polynomial\"",
+                       "study.json: parameters.rupture_force_ratio: belongs to attraction \"polynomial\"",
+                       "chosen is attraction \"exponential\"", "\"contact\": {\"attraction\": \"polynomial\"}")
+            self.assertNotIn("strength_pa", result.stderr)
+            self.assertNotIn("adhesion_pa", result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.assertFalse(self.out.exists())
+        for file in (CARD, LAB, RIG):
+            self.fails(run("simulate", file, "--set", "parameters.adhesion_pa=500"), 2,
+                       "--set parameters.adhesion_pa", "belongs to normal \"jkr\"")
+
     def test_a_missing_file_and_a_file_that_is_no_json_are_bad_input(self):
         broken = self.folder / "broken.json"
         broken.write_text("{,}")

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/parameter_table.h"
 #include "calibrate/exports/soulie.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/verify/force_curve.h"
@@ -24,7 +25,7 @@ Card paste() {
   for (std::size_t i = 0; i < values.size(); ++i)
     out.parameters.push_back({std::string(parameter_kinds()[i].name), false, values[i], 0, 0, Scale::linear});
   specimen_of(out.test).grains.radius_m = kRadius;
-  out.test = with_contact_of(out.test, values);
+  out.test = with_contact_of(with_usual_contact(out.test), values);
   return out;
 }
 
@@ -146,6 +147,71 @@ TEST_CASE("a law the target lacks is refused, with a remedy") {
     CHECK(written.faults().size() == 2);
   }
   CHECK(export_liggghts(scene(material)).ok());
+}
+
+TEST_CASE("a law of the overlap that a target lacks is refused by each, with one fault") {
+  Card material = paste();
+  specimen_of(material.test).contact.normal = NormalLaw::jkr;
+  specimen_of(material.test).contact.surface_energy_j_m2 = 5;
+  for (const auto& exporter : exporters()) {
+    INFO(exporter.name);
+    const auto written = exporter.write(scene(material));
+    REQUIRE_FALSE(written.ok());
+    REQUIRE(written.faults().size() == 1);
+    const bool edem = exporter.name == "edem-notes";  // has JKR, but not beside a bridge
+    CHECK(written.faults()[0].where == (edem ? "test.contact.bridge.shape" : "test.contact.normal"));
+    CHECK_THAT(written.faults()[0].what, Catch::Contains(edem ? "\"polynomial\"" : "\"jkr\""));
+    CHECK_THAT(written.faults()[0].remedy, Catch::Contains(edem ? "attraction \"none\"" : "normal \"hertz\""));
+  }
+}
+
+TEST_CASE("JKR without a bridge goes to EDEM, which has it, with its surface energy") {
+  Card material = paste();
+  specimen_of(material.test).contact.normal = NormalLaw::jkr;
+  specimen_of(material.test).contact.bridge.shape = BridgeShape::none;
+  std::vector<double> values = usual_values();
+  material.test = with_contact_of(material.test, values);
+  const auto written = export_edem_notes(scene(material));
+  REQUIRE(written.ok());
+  const auto text = text_of(written.value());
+  CHECK_THAT(text, Catch::Contains("surface_energy_j_m2,8,") && Catch::Contains("Hertz-Mindlin with JKR"));
+  CHECK_THAT(text, !Catch::Contains("force.csv"));
+}
+
+TEST_CASE("an attraction of every law is written by every exporter, and its curve is the card's") {
+  for (const auto& [word, shape] : bridge_shapes) {
+    Card material = paste();
+    specimen_of(material.test).contact.bridge.shape = shape;
+    material.test = with_contact_of(material.test, usual_values());
+    for (const auto& exporter : exporters()) {
+      INFO(exporter.name << ", " << word);
+      const auto written = exporter.write(scene(material));
+      REQUIRE(written.ok());
+      CHECK_THAT(text_of(written.value()), !Catch::Contains("nan") && !Catch::Contains("-inf"));
+    }
+    const ContactModel& contact = specimen_of(material.test).contact;
+    const auto force = force_csv(scene(material)).content;
+    const double half = -0.5 * rupture_gap(contact.bridge, kRadius);
+    const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);
+    const auto near =
+        std::ranges::min_element(table, {}, [&](const ForcePoint& point) { return std::abs(point.overlap_m - half); });
+    CHECK(near->attraction_n == Approx(bridge_force(contact.bridge, kRadius, near->overlap_m)).epsilon(1e-9));
+    std::ostringstream row;
+    row.precision(17);
+    row << near->overlap_m << "," << near->attraction_n;
+    CHECK_THAT(force, Catch::Contains(row.str()));
+  }
+}
+
+TEST_CASE("a law that an exporter was not told of is refused, not misread") {
+  const auto unheard = static_cast<BridgeShape>(static_cast<int>(BridgeShape::last) + 1);
+  for (const auto write : {&export_lammps, &export_yade}) {
+    ExportScene one = scene(paste());
+    one.test.contact.bridge.shape = unheard;
+    const auto written = write(one);
+    REQUIRE_FALSE(written.ok());
+    CHECK(written.faults()[0].where == "test.contact.bridge.shape");
+  }
 }
 
 TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table") {

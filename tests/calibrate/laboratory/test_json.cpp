@@ -3,14 +3,14 @@
 
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
-#include "tests/calibrate/study/files.h"
+#include "tests/calibrate/files.h"
 
 namespace pastefit {
 namespace {
 
 /// A test whose numbers have no short decimal form.
 SlumpTest awkward() {
-  auto test = std::get<SlumpTest>(with_contact_of(SlumpTest{}, usual_values()));
+  auto test = std::get<SlumpTest>(with_usual_contact(SlumpTest{}));
   test.bulk_density_kg_m3 = 2300.0 / 7 * 7.0000000001;
   test.contact.friction = 1.0 / 3;
   test.contact.bridge.offset_m = 0.0008000000000000001;
@@ -45,6 +45,32 @@ TEST_CASE("tests that differ in one bit differ in their text") {
   const std::string text = to_json(test).dump();
   test.contact.friction = std::nextafter(test.contact.friction, 1.0);
   CHECK(to_json(test).dump() != text);
+}
+
+TEST_CASE("another law of the overlap survives JSON, and is not in that of the usual one") {
+  SlumpTest test = awkward();
+  const nlohmann::json usual = to_json(test);
+  CHECK_FALSE(usual.at("contact").contains("normal"));
+  CHECK_FALSE(usual.at("contact").contains("surface_energy_j_m2"));
+  test.contact.normal = NormalLaw::jkr;
+  test.contact.surface_energy_j_m2 = 8.0 / 7;
+  const nlohmann::json document = to_json(test);
+  CHECK(document.at("contact").at("normal") == "jkr");
+  const Result<Test> back = test_from_json(document);
+  REQUIRE(back.ok());
+  CHECK(specimen_of(back.value()).contact.normal == NormalLaw::jkr);
+  CHECK(specimen_of(back.value()).contact.surface_energy_j_m2 == test.contact.surface_energy_j_m2);
+  CHECK(to_json(std::get<SlumpTest>(back.value())).dump() == document.dump());
+}
+
+TEST_CASE("tests that differ in the law of the overlap alone, or in its energy, are different tests") {
+  SlumpTest hertz = awkward();
+  SlumpTest jkr = hertz;
+  jkr.contact.normal = NormalLaw::jkr;
+  CHECK(identity_of(jkr) != identity_of(hertz));
+  SlumpTest stickier = jkr;
+  stickier.contact.surface_energy_j_m2 = 1;
+  CHECK(identity_of(stickier) != identity_of(jkr));
 }
 
 TEST_CASE("no cohesion of its own is written as null and read back as none") {

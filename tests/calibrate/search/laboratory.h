@@ -32,6 +32,7 @@ struct Laboratory {
       if (parameter.name == "friction") parameter = {"friction", true, 0, 0, 1, Scale::linear};
     }
     study.tests.emplace_back();
+    study.tests[0].lab.test = with_usual_contact(SlumpTest{});
     study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
     study.tests[0].targets = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};

@@ -8,7 +8,7 @@
 #include "calibrate/study/rig.h"
 #include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
-#include "tests/calibrate/study/files.h"
+#include "tests/calibrate/files.h"
 
 namespace pastefit {
 namespace {

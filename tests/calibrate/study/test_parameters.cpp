@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
+#include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
+#include "core/laws/constants.h"
+#include "core/laws/table.h"
 
 namespace pastefit {
 namespace {
@@ -24,8 +28,8 @@ double force(const Bridge& bridge, double d) {
 TEST_CASE("every point of the unit cube is an admissible bridge that is fit to run") {
   for (const BridgeFormation formation : {BridgeFormation::film, BridgeFormation::touch}) {
     Study study = bridge_study();
-    SlumpTest own;
-    own.contact.bridge.formation = formation;
+    Test own = with_usual_contact(SlumpTest{});
+    specimen_of(own).contact.bridge.formation = formation;
     std::ranges::find(study.parameters, "youngs_modulus_pa", &Parameter::name)->value = 1e9;  // carries the strongest
     if (formation == BridgeFormation::touch) study.parameters[4].lower = 0.01;
     Eigen::VectorXd point(5);
@@ -54,8 +58,8 @@ TEST_CASE("strength, rupture force, curvature, gap and offset are what their nam
   values[2] = 1;
   values[3] = 0.3;
   values[4] = 0.1;
-  SlumpTest test;
-  test.grains.radius_m = radius;
+  Test test = with_usual_contact(SlumpTest{});
+  specimen_of(test).grains.radius_m = radius;
   const Bridge bridge = specimen_of(with_contact_of(test, values)).contact.bridge;
   CHECK(bridge.c_n == Approx(0.32));
   CHECK(bridge.d_c_m == Approx(-0.0024));
@@ -72,17 +76,17 @@ TEST_CASE("with formation by touch the offset bounds the rupture gap, and only t
   std::vector<double> values = usual_values();
   values[3] = 0.5;
   values[4] = 0.1;
-  SlumpTest test;
-  test.contact.bridge.formation = BridgeFormation::touch;
+  Test test = with_usual_contact(SlumpTest{});
+  specimen_of(test).contact.bridge.formation = BridgeFormation::touch;
   CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.d_c_m == Approx(-0.2 * 0.008));
-  test.contact.bridge.formation = BridgeFormation::film;
+  specimen_of(test).contact.bridge.formation = BridgeFormation::film;
   CHECK(specimen_of(with_contact_of(test, values)).contact.bridge.d_c_m == Approx(-0.5 * 0.008));
 }
 
 TEST_CASE("each parameter reaches its own place in the test") {
   std::vector<double> values = usual_values();
-  for (std::size_t i = 5; i < values.size(); ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
-  const auto test = std::get<SlumpTest>(with_contact_of(SlumpTest{}, values));
+  for (std::size_t i = 5; i < 15; ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
+  const auto test = std::get<SlumpTest>(with_contact_of(with_usual_contact(SlumpTest{}), values));
   CHECK(test.contact.friction == values[5]);
   CHECK(test.contact.rolling_friction == values[6]);
   CHECK(test.contact.restitution == values[7]);
@@ -117,6 +121,130 @@ TEST_CASE("usual values lie in their admissible range, and names are unique") {
     const auto same = [&](const ParameterKind& other) { return other.name == kind.name; };
     CHECK(std::count_if(parameter_kinds().begin(), parameter_kinds().end(), same) == 1);
   }
+}
+
+/// Calls `look(law)` with every law of a list.
+template <class... Laws, class Look>
+void each(TypeList<Laws...>, const Look& look) {
+  (look(Laws{}), ...);
+}
+
+template <class Look>
+void each_law(const Look& look) {
+  each(NormalLaws{}, look);
+  each(Attractions{}, look);
+  each(RollingLaws{}, look);
+}
+
+TEST_CASE("a law asks for the parameters that it names and for no others, and every one is a parameter") {
+  each_law([](auto law) {
+    INFO(law.word);
+    std::set<std::string_view> asked, named(law.parameters.begin(), law.parameters.end());
+    ContactModel contact;
+    contact.bridge.formation = BridgeFormation::touch;
+    law.make(contact, 0.008, [&](std::string_view name) {
+      asked.insert(name);
+      return 0.5;
+    });
+    for (const std::string_view name : named) {
+      const auto is_it = [&](const ParameterKind& kind) { return kind.name.ends_with(name); };
+      CHECK(std::ranges::any_of(parameter_kinds(), is_it));
+    }
+    named.erase("cohesion_factor");  // the surfaces'
+    CHECK(asked == named);
+  });
+}
+
+TEST_CASE("an attraction of any law has the strength and the gap that were asked for, and is fit to run") {
+  for (const auto& [word, shape] : bridge_shapes) {
+    if (shape == BridgeShape::none) continue;
+    INFO(word);
+    for (const double strength : {1.0, 5000.0, 1e7})
+      for (const double gap : {1e-3, 0.3, 1.0}) {
+        std::vector<double> values = usual_values();
+        values[0] = strength;
+        values[3] = gap;
+        values[8] = 1e11;  // carries the strongest
+        Test test = SlumpTest{};
+        specimen_of(test).contact.bridge.shape = shape;
+        test = with_contact_of(test, values);
+        const ContactModel& contact = specimen_of(test).contact;
+        const double radius = specimen_of(test).grains.radius_m;
+        CHECK(attraction_at_touch(contact.bridge, radius) == Approx(strength * radius * radius));
+        CHECK(rupture_gap(contact.bridge, radius) == Approx(gap * radius));
+        CHECK(contact.bridge.offset_m == Approx(values[4] * radius));
+        CHECK(contact.cohesion_n == Approx(values[10] * strength * radius * radius));
+        CHECK(validate(test).empty());
+      }
+  }
+}
+
+TEST_CASE("without an attraction nothing of one is left, and no cohesion") {
+  Test test = with_usual_contact(SlumpTest{});
+  specimen_of(test).contact.bridge.shape = BridgeShape::none;
+  const ContactModel contact = specimen_of(with_contact_of(test, usual_values())).contact;
+  CHECK(contact.cohesion_n == 0.0);
+  CHECK(contact.bridge.c_n == 0);
+  CHECK(contact.bridge.d_c_m == 0);
+  CHECK(contact.bridge.offset_m == 0);
+}
+
+TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has none") {
+  std::vector<double> values = usual_values();
+  values[15] = 2000;
+  Test test = with_usual_contact(SlumpTest{});
+  CHECK(specimen_of(with_contact_of(test, values)).contact.surface_energy_j_m2 == 0);
+  specimen_of(test).contact.normal = NormalLaw::jkr;
+  test = with_contact_of(test, values);
+  CHECK(specimen_of(test).contact.surface_energy_j_m2 == 2000 * specimen_of(test).grains.radius_m);
+  specimen_of(test).contact.normal = NormalLaw::hertz;
+  CHECK(specimen_of(with_contact_of(test, values)).contact.surface_energy_j_m2 == 0);
+}
+
+TEST_CASE("the same parameters for larger grains are the enlarged material, whatever its laws") {
+  const std::vector<double> values = usual_values();
+  for (const auto& normal : normal_laws)
+    for (const auto& shape : bridge_shapes) {
+      INFO(normal.name << ", " << shape.name);
+      Test small = SlumpTest{};
+      specimen_of(small).contact.normal = normal.value;
+      specimen_of(small).contact.bridge.shape = shape.value;
+      Test large = small;
+      specimen_of(large).grains = enlarged(specimen_of(small).grains, 1.5);
+      const ContactModel made = specimen_of(with_contact_of(large, values)).contact;
+      const ContactModel grown = enlarged(specimen_of(with_contact_of(small, values)).contact, 1.5);
+      CHECK(made.surface_energy_j_m2 == Approx(grown.surface_energy_j_m2));
+      CHECK(*made.cohesion_n == Approx(*grown.cohesion_n));
+      using Number = double Bridge::*;
+      for (const Number number : {&Bridge::a_n_m2, &Bridge::b_n_m, &Bridge::c_n, &Bridge::d_c_m, &Bridge::offset_m,
+                                  &Bridge::liquid_volume_m3, &Bridge::surface_tension_n_m, &Bridge::contact_angle_rad})
+        CHECK(made.bridge.*number == Approx(grown.bridge.*number));
+    }
+}
+
+TEST_CASE("a parameter belongs to the laws that name it, and to every test if none does") {
+  ContactModel laws;
+  laws.bridge.shape = BridgeShape::polynomial;
+  const auto missing = [&] {
+    std::set<std::string_view> names;
+    for (const ParameterKind& kind : parameter_kinds())
+      if (!has_parameter(laws, kind.name)) names.insert(kind.name);
+    return names;
+  };
+  using Names = std::set<std::string_view>;
+  CHECK(missing() == Names{"adhesion_pa"});
+  laws.bridge.shape = BridgeShape::exponential;
+  CHECK(missing() == Names{"adhesion_pa", "rupture_force_ratio", "curvature"});
+  laws.bridge.shape = BridgeShape::none;
+  const Names of_attractions{"strength_pa",  "rupture_force_ratio", "curvature",
+                             "offset_ratio", "rupture_gap_ratio",   "cohesion_ratio"};
+  laws.normal = NormalLaw::jkr;
+  CHECK(missing() == of_attractions);
+  laws.normal = NormalLaw::hertz;
+  laws.rolling = RollingModel::none;
+  Names dry = of_attractions;
+  dry.insert({"adhesion_pa", "rolling_friction", "table_cohesion_factor", "mould_cohesion_factor"});
+  CHECK(missing() == dry);
 }
 
 TEST_CASE("the packing seed is the one that was asked for") {

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "tests/core/scene.h"
 
@@ -74,6 +76,29 @@ TEST_CASE("what overlaps hold at the start counts as put in") {
   const Ledger& ledger = scene.ledger();
   const double hertz = 8.0 / 15 * (2e6 / (2 * (1 - 0.09))) * std::sqrt(0.005) * std::pow(0.0005, 2.5);
   CHECK(ledger.put_in() == Approx(hertz).epsilon(0.01));
+  CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
+}
+
+TEST_CASE(
+    "what overlaps of grains that stick hold at the start is that of their strain, and their bridges are put in") {
+  ContactModel model = soft(0.3, 0.5, RollingModel::none);
+  model.normal = NormalLaw::jkr;
+  model.surface_energy_j_m2 = 20;
+  Scene scene(model);
+  const double radius = 0.005, modulus = 2e6 / (2 * (1 - 0.09)), unit = std::numbers::pi * 20 * radius;
+  const double torn = std::cbrt(unit * radius / (4 * modulus)), y = 1.7;  // sqrt(a/a_t)
+  const double overlap = torn * torn / radius * (std::pow(y, 4) - 4 * y);
+  scene.grain({0, 0, 0}).grain({0.02 - overlap, 0, 0});
+  scene.run(0.02, 1e-5);
+  const double scale = unit * torn * torn / radius;
+  const double held = scale * (2.0 / 15 * std::pow(y, 10) - 4.0 / 3 * std::pow(y, 7) + 2 * std::pow(y, 4) - 0.8);
+  const double strain = held + 2 * std::numbers::pi * 20 * std::pow(torn * y * y, 2);
+  const double touch = std::cbrt(4.0);
+  const double bound =
+      -scale * (2.0 / 15 * std::pow(touch, 10) - 4.0 / 3 * std::pow(touch, 7) + 2 * std::pow(touch, 4) - 0.8);
+  const Ledger& ledger = scene.ledger();
+  CHECK(strain > 0);
+  CHECK(ledger.put_in() == Approx(strain + bound).epsilon(0.01));
   CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
 }
 

@@ -40,6 +40,15 @@ std::uint64_t hash_of(const Particles& grains) {
   return hash;
 }
 
+/// The same grains, which stick where they touch instead.
+SlumpTest jkr_test() {
+  SlumpTest test = sticky_test();
+  test.contact.bridge = {};
+  test.contact.normal = NormalLaw::jkr;
+  test.contact.surface_energy_j_m2 = 400 * test.grains.radius_m;
+  return test;
+}
+
 /// At the last moment watched; 0 if the run failed.
 std::uint64_t hash_of_run(const SlumpTest& test, RunOptions options = {}) {
   std::uint64_t hash = 0;
@@ -52,8 +61,7 @@ std::uint64_t hash_of_run(const SlumpTest& test, RunOptions options = {}) {
 
 /// A heap of sticky grains, large enough for several blocks, that falls onto a floor and against two walls; 0 if it
 /// failed.
-std::uint64_t hash_of_large_heap(int threads) {
-  const SlumpTest material = sticky_test();
+std::uint64_t hash_of_large_heap(const SlumpTest& material, int threads) {
   const double radius = material.grains.radius_m;
   const RandomStream jitter(1, "large-heap");
   std::vector<Vec3> centres;
@@ -121,10 +129,23 @@ TEST_CASE("1, 2, 3 and 8 threads running side by side give the same bits") {
 }
 
 TEST_CASE("1, 2 and 3 threads inside one simulation give the same bits") {
-  const std::uint64_t alone = hash_of_large_heap(1);
+  for (const SlumpTest& material : {sticky_test(), jkr_test()}) {
+    const std::uint64_t alone = hash_of_large_heap(material, 1);
+    REQUIRE(alone != 0);
+    CHECK(hash_of_large_heap(material, 2) == alone);
+    CHECK(hash_of_large_heap(material, 3) == alone);
+  }
+}
+
+TEST_CASE("a slump of grains that stick gives the same bits on 1, 2 and 3 threads") {
+  RunOptions options;
+  options.steps.threads = 1;
+  const std::uint64_t alone = hash_of_run(jkr_test(), options);
   REQUIRE(alone != 0);
-  CHECK(hash_of_large_heap(2) == alone);
-  CHECK(hash_of_large_heap(3) == alone);
+  for (const int threads : {2, 3}) {
+    options.steps.threads = threads;
+    CHECK(hash_of_run(jkr_test(), options) == alone);
+  }
 }
 
 TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {

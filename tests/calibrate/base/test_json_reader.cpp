@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "calibrate/base/json_reader.h"
-#include "tests/calibrate/study/files.h"
+#include "tests/calibrate/files.h"
 
 namespace pastefit {
 namespace {

@@ -1,0 +1,86 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "calibrate/card/card.h"
+#include "calibrate/card/rescale.h"
+#include "calibrate/laboratory/names.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/study/parameters.h"
+
+using namespace pastefit;
+
+namespace {
+
+Card card_with(NormalLaw normal, BridgeShape attraction, RollingModel rolling = RollingModel::spring_dashpot) {
+  Card card;
+  card.title = "of other laws";
+  for (const ParameterKind& kind : parameter_kinds())
+    card.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+  ContactModel& contact = specimen_of(card.test).contact;
+  contact.normal = normal;
+  contact.bridge.shape = attraction;
+  contact.rolling = rolling;
+  card.test = with_contact_of(card.test, usual_values());
+  return card;
+}
+
+nlohmann::json text_and_back(const Card& card) {
+  return nlohmann::json::parse(to_json(card).dump());
+}
+
+}  // namespace
+
+TEST_CASE("a card of every law reads back as it was written, and names the parameters of its laws only") {
+  for (const auto& normal : normal_laws)
+    for (const auto& attraction : bridge_shapes)
+      for (const auto& rolling : rolling_models) {
+        INFO(normal.name << ", " << attraction.name << ", " << rolling.name);
+        const Card card = card_with(normal.value, attraction.value, rolling.value);
+        const auto document = text_and_back(card);
+        const auto read = card_from_json(document);
+        INFO((read.ok() ? "" : read.faults()[0].where + ": " + read.faults()[0].what));
+        REQUIRE(read.ok());
+        CHECK(to_json(read.value()).dump() == to_json(card).dump());
+        for (const ParameterKind& kind : parameter_kinds()) {
+          const bool has = has_parameter(specimen_of(card.test).contact, kind.name);
+          CHECK(document["parameters"].contains(kind.name) == has);
+          CHECK((summary_of(card).find("  " + std::string(kind.name) + " ") != std::string::npos) == has);
+        }
+      }
+}
+
+TEST_CASE("a card whose surface energy or liquid was edited in one place says where") {
+  auto document = text_and_back(card_with(NormalLaw::jkr, BridgeShape::capillary));
+  for (const auto* place : {"/test/contact/surface_energy_j_m2", "/test/contact/bridge/liquid_volume_m3",
+                            "/test/contact/bridge/surface_tension_n_m"}) {
+    auto& number = document[nlohmann::json::json_pointer(place)];
+    number = 1.001 * number.get<double>();
+  }
+  const auto read = card_from_json(document);
+  REQUIRE_FALSE(read.ok());
+  std::string places;
+  for (const auto& fault : read.faults()) places += fault.where + " ";
+  CHECK(places ==
+        "test.contact.bridge.liquid_volume_m3 test.contact.bridge.surface_tension_n_m "
+        "test.contact.surface_energy_j_m2 ");
+}
+
+TEST_CASE("an older card that names the coefficient of a rolling law it has not is read") {
+  auto document = text_and_back(card_with(NormalLaw::hertz, BridgeShape::polynomial, RollingModel::none));
+  document["parameters"]["rolling_friction"] = 0.02;
+  document["test"]["contact"]["rolling_friction"] = 0.02;
+  const auto read = card_from_json(document);
+  REQUIRE(read.ok());
+  CHECK(card_from_json(text_and_back(read.value())).ok());
+}
+
+TEST_CASE("a card of any law is carried to another grain size") {
+  for (const auto& normal : normal_laws)
+    for (const auto& attraction : bridge_shapes) {
+      INFO(normal.name << ", " << attraction.name);
+      const auto carried = rescaled(card_with(normal.value, attraction.value), 0.006);
+      REQUIRE(carried.ok());
+      CHECK(card_from_json(text_and_back(carried.value())).ok());
+    }
+}
