@@ -208,8 +208,7 @@ std::string module_of(const ExportScene& scene) {
   const double lever = contact.rolling_friction * pair.effective_radius_m();
   constexpr const char* kShapes[] = {"none", "polynomial", "linear", "exponential", "capillary"};
 
-  std::string out =
-      "\"\"\"" + scene.card.title + "\n\nWritten by " + program_identity() + " for Yade. SI units.\n\"\"\"\n";
+  std::string out = "\"\"\"" + scene.title + "\n\nWritten by " + program_identity() + " for Yade. SI units.\n\"\"\"\n";
   out +=
       "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
   out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";
