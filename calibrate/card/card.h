@@ -57,8 +57,7 @@ struct CardTest {
   bool hold_out = false;  ///< predicted, not fitted
   std::string lab_file, lab_hash;
   Provenance lab;
-  Test test;  ///< apparatus, grains and contact laws, in SI; its grains and bulk density may be other than the
-              ///< material's
+  Test test;  ///< apparatus, grains and contact laws, in SI; the grains may be of other sizes than the material's
   std::vector<CardObservable> observables;  ///< none: it was not simulated
   std::optional<bool> within_noise;         ///< of a hold-out: every reading that counts lies within its band
   Baseline baseline;                        ///< no runs: older than baselines; `observables` stand in

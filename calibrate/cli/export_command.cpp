@@ -98,7 +98,7 @@ Command add_export(CLI::App& verb) {
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
       ->type_name("NAME");
-  verb.add_option("--packing", options->packing, "seed of the random packing; without it the card's own");
+  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own");
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_card(*options); };
 }

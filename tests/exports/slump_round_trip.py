@@ -127,7 +127,7 @@ def main():
                 changed = variant(card, factor, options.representable, options.both_steps)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
-                title = f"{source.stem}, {changed['test']['contact']['bridge']['c_n']:.3g}"
+                title = f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"
                 worst = max(worst, compare(options, file, title, folder))
     allowed = BAND[options.packings]
     print(f"\nlargest difference: {worst:.1f} standard errors; noise alone stays below {allowed} in 999 of 1000 comparisons")
