@@ -90,8 +90,8 @@ Baseline baseline_of(const std::vector<Observables>& runs, const std::vector<std
   return out;
 }
 
-CardTest further_of(const Study& study, std::size_t index, const std::vector<double>& values,
-                    const std::vector<std::uint64_t>& packings, const Store& store) {
+CardTest card_test_of(const Study& study, std::size_t index, const std::vector<double>& values,
+                      const std::vector<std::uint64_t>& packings, const Store& store) {
   const auto& test = study.tests[index];
   CardTest out;
   out.name = test.name;
@@ -108,6 +108,17 @@ CardTest further_of(const Study& study, std::size_t index, const std::vector<dou
   return out;
 }
 
+/// The study's first test is fitted; the material is stated for its grains.
+Material material_of(const Study& study, const std::vector<double>& values, const CardTest& first) {
+  const Specimen& specimen = specimen_of(first.test);
+  Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
+  for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
+  for (const auto& observable : first.observables)
+    if (observable.name == "fill.solid_fraction")
+      material.grain_density_kg_m3 = specimen.bulk_density_kg_m3 / observable.simulated;
+  return material;
+}
+
 }  // namespace
 
 Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,
@@ -115,23 +126,12 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
   const auto& shown = fresh ? calibration.confirmation : calibration.best;
   const auto values = values_at(study, shown.point);
-  const auto& first = study.tests.at(0);
 
   Card card;
   card.title = study.title;
-  card.test = test_with(first.lab.test, values, shown.packings.at(0));
-  card.test_name = first.name;
-  card.parameters = study.parameters;
-  for (std::size_t i = 0; i < values.size(); ++i) card.parameters[i].value = values[i];
-
-  const auto runs = runs_of(study, 0, values, shown.packings, store);
-  card.baseline = baseline_of(runs, shown.packings, store);
-  card.observables = observables_of(study, 0, runs);
-  for (const auto& observable : card.observables)
-    if (observable.name == "fill.solid_fraction")
-      card.grain_density_kg_m3 = specimen_of(card.test).bulk_density_kg_m3 / observable.simulated;
-  for (std::size_t i = 1; i < study.tests.size(); ++i)
-    card.further.push_back(further_of(study, i, values, shown.packings, store));
+  for (std::size_t i = 0; i < study.tests.size(); ++i)
+    card.tests.push_back(card_test_of(study, i, values, shown.packings, store));
+  card.material = material_of(study, values, card.tests.front());
 
   card.confirmation = {shown.packings, fresh, shown.miss, fresh && verdict_on(shown) == Verdict::holds};
   card.search = {options.strategy,
@@ -144,8 +144,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  {},
                  calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
-  card.provenance = {study_file,     study.hash,           first.lab_file,
-                     first.lab.hash, first.lab.provenance, store.identity().program};
+  card.provenance = {study_file, study.hash, store.identity().program};
   return card;
 }
 

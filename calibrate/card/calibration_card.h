@@ -16,8 +16,8 @@ void predict_hold_outs(const Study& study, const Calibration& calibration, Simul
 int hold_out_simulations(const Study& study, const SearchOptions& options);
 
 /// The card of a finished calibration. Readings that the laboratory did not take, and hold-outs, come from the store.
-/// The card's own test is the study's first; the others stand beside it (`Card::further`). A hold-out is judged by the
-/// noise of both sides (Welch, `base/statistics.h`), with a probability of 0.05 to call a right prediction wrong.
+/// Its material is stated for the grains of the study's first test. A hold-out is judged by the noise of both sides
+/// (Welch, `base/statistics.h`), with a probability of 0.05 to call a right prediction wrong.
 /// `options`: what the search ran with. `study_file`: name for the provenance.
 /// Requirement: the best candidate did not fail.
 Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,

@@ -1,10 +1,11 @@
 #include "calibrate/card/card.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/object_writer.h"
 #include "calibrate/card/card_versions.h"
+#include "calibrate/card/material_json.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
@@ -35,18 +36,6 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
   return out;
 }
 
-/// What the fit was made for; a use far from it is an extrapolation.
-ordered_json conditions_to_json(const Card& card) {
-  const auto& grains = specimen_of(card.test).grains;
-  const bool mono = grains.distribution == SizeDistribution::mono;
-  ordered_json out;
-  out["grain_radius_m"] = {mono ? grains.radius_m : grains.smallest_m, mono ? grains.radius_m : grains.largest_m};
-  out.update(conditions_of(card.test));
-  for (const auto& observable : card.observables)
-    if (observable.measured && observable.weight > 0) out["fitted"][observable.name] = *observable.measured;
-  return out;
-}
-
 ordered_json observables_to_json(const std::vector<CardObservable>& observables, std::size_t packings) {
   auto out = ordered_json::object();
   for (const auto& observable : observables) out[observable.name] = observable_to_json(observable, packings);
@@ -69,14 +58,47 @@ ordered_json baseline_to_json(const Baseline& baseline) {
   return out;
 }
 
-ordered_json further_to_json(const CardTest& test, std::size_t packings) {
-  ordered_json out{{"name", test.name},
-                   {"hold_out", test.hold_out},
-                   {"lab_file", test.lab_file},
-                   {"lab_hash", test.lab_hash},
-                   {"lab", provenance_to_json(test.lab)},
-                   {"test", to_json(test.test)},
-                   {"observables", observables_to_json(test.observables, packings)}};
+json shared_part(const Material& material) {
+  json out;
+  ObjectWriter writer(out);
+  describe_material(writer, material);
+  return out;
+}
+
+ordered_json material_to_json(const Material& material) {
+  ordered_json out{{"bulk_density_kg_m3", material.bulk_density_kg_m3}, {"grain_density_kg_m3", nullptr}};
+  if (material.grain_density_kg_m3) out["grain_density_kg_m3"] = *material.grain_density_kg_m3;
+  const json shared = shared_part(material);
+  for (const char* key : of_material) out[key] = shared.at(key);
+  out["parameters"] = ordered_json::object();
+  out["free"] = ordered_json::object();
+  for (const auto& parameter : material.parameters) {
+    if (!has_parameter(material.contact, parameter.name)) continue;
+    out["parameters"][parameter.name] = parameter.value;
+    if (!parameter.free) continue;
+    auto& bounds = out["free"][parameter.name] = {{"lower", parameter.lower}, {"upper", parameter.upper}};
+    for (const auto& scale : scales)
+      if (scale.value == parameter.scale) bounds["scale"] = scale.name;
+    if (const auto& prior = parameter.prior)
+      bounds["prior"] = {{"value", prior->value}, {"standard_deviation", prior->standard_deviation}};
+  }
+  return out;
+}
+
+ordered_json test_to_json(const CardTest& test, const Material& material, std::size_t packings) {
+  ordered_json out;
+  if (!test.name.empty()) out["name"] = test.name;
+  if (test.hold_out) out["hold_out"] = true;
+  out["lab_file"] = test.lab_file;
+  out["lab_hash"] = test.lab_hash;
+  out["lab"] = provenance_to_json(test.lab);
+  out["conditions"] = conditions_of(test.test);
+  json of_test = to_json(test.test);
+  const json shared = shared_part(material);
+  for (const char* key : of_material)
+    if (of_test.at(key) == shared.at(key)) of_test.erase(key);
+  out["test"] = std::move(of_test);
+  out["observables"] = observables_to_json(test.observables, packings);
   if (test.within_noise) out["within_noise"] = *test.within_noise;
   if (!test.baseline.runs.empty()) out["baseline"] = baseline_to_json(test.baseline);
   return out;
@@ -112,22 +134,27 @@ ordered_json rescaling_to_json(const Rescaling& step) {
 
 }  // namespace
 
-std::vector<TestOfCard> tests_of(Card& card) {
-  std::vector<TestOfCard> tests{{"", true, card.test, card.observables, card.baseline}};
-  for (auto& test : card.further)
-    tests.push_back({test.name + ": ", !test.hold_out, test.test, test.observables, test.baseline});
-  return tests;
+std::vector<double> values_of(const Material& material) {
+  std::vector<double> values;
+  for (const auto& parameter : material.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+std::string reading_name(const CardTest& test, std::string_view observable) {
+  return (test.name.empty() ? "" : test.name + "/") + std::string(observable);
+}
+
+std::string heading_of(const CardTest& test) {
+  return test.name.empty() ? "" : "Test " + test.name + ": ";
 }
 
 MisfitUnit misfit_unit_of(const Card& card) {
   std::vector<std::pair<std::string_view, double>> fitted;
-  const auto add = [&](const std::vector<CardObservable>& observables) {
-    for (const auto& one : observables)
+  for (const auto& test : card.tests) {
+    if (test.hold_out) continue;
+    for (const auto& one : test.observables)
       if (one.measured && one.weight > 0) fitted.emplace_back(one.name, one.tolerance);
-  };
-  add(card.observables);
-  for (const auto& test : card.further)
-    if (!test.hold_out) add(test.observables);
+  }
   return misfit_unit_of(fitted);
 }
 
@@ -135,27 +162,10 @@ ordered_json to_json(const Card& card) {
   ordered_json out;
   out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
   out["title"] = card.title;
-  out["material"] = {{"bulk_density_kg_m3", specimen_of(card.test).bulk_density_kg_m3},
-                     {"grain_density_kg_m3", nullptr}};
-  if (card.grain_density_kg_m3) out["material"]["grain_density_kg_m3"] = *card.grain_density_kg_m3;
-  out["conditions"] = conditions_to_json(card);
-  out["test"] = to_json(card.test);
-  out["parameters"] = ordered_json::object();
-  out["free"] = ordered_json::object();
-  for (const auto& parameter : card.parameters) {
-    if (!has_parameter(specimen_of(card.test).contact, parameter.name)) continue;
-    out["parameters"][parameter.name] = parameter.value;
-    if (!parameter.free) continue;
-    auto& bounds = out["free"][parameter.name] = {{"lower", parameter.lower}, {"upper", parameter.upper}};
-    for (const auto& scale : scales)
-      if (scale.value == parameter.scale) bounds["scale"] = scale.name;
-    if (const auto& prior = parameter.prior)
-      bounds["prior"] = {{"value", prior->value}, {"standard_deviation", prior->standard_deviation}};
-  }
-  const auto packings = card.confirmation.packings.size();
-  out["observables"] = observables_to_json(card.observables, packings);
-  if (!card.test_name.empty()) out["test_name"] = card.test_name;
-  for (const auto& test : card.further) out["further_tests"].push_back(further_to_json(test, packings));
+  out["material"] = material_to_json(card.material);
+  out["tests"] = ordered_json::array();
+  for (const auto& test : card.tests)
+    out["tests"].push_back(test_to_json(test, card.material, card.confirmation.packings.size()));
   out["confirmation"] = {{"packings", card.confirmation.packings},
                          {"fresh", card.confirmation.fresh},
                          {"misfit", card.confirmation.misfit},
@@ -169,11 +179,9 @@ ordered_json to_json(const Card& card) {
   for (const auto& [reason, count] : search.failures) out["search"]["failures"][reason] = count;
   if (search.coarse_simulations > 0) out["search"]["coarse_simulations"] = search.coarse_simulations;
   const auto& provenance = card.provenance;
-  out["provenance"] = {{"study_file", provenance.study_file},       {"study_hash", provenance.study_hash},
-                       {"lab_file", provenance.lab_file},           {"lab_hash", provenance.lab_hash},
-                       {"lab", provenance_to_json(provenance.lab)}, {"program", provenance.program}};
+  out["provenance"] = {
+      {"study_file", provenance.study_file}, {"study_hash", provenance.study_hash}, {"program", provenance.program}};
   add_inference(out, card.inference);
-  out["baseline"] = baseline_to_json(card.baseline);
   for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));
   for (const auto& step : card.rescaled) out["rescaled"].push_back(rescaling_to_json(step));
   return out;

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/study/study.h"
@@ -38,17 +39,35 @@ struct Baseline {
   std::vector<Run> runs;
 };
 
-/// A further test of the same material, beside the card's own.
+/// The material apart from any test of it: its contact laws, in SI for grains of one size, and scale-free.
+struct Material {
+  double bulk_density_kg_m3 = 0;
+  std::optional<double> grain_density_kg_m3;  ///< of the grains, such that they fill a mould with the bulk density
+  GrainSizes grains;
+  ContactModel contact;               ///< in SI, between these grains
+  std::vector<Parameter> parameters;  ///< scale-free, every known one, in the order of `parameter_kinds`
+};
+
+/// The values of its parameters, in their fixed order.
+std::vector<double> values_of(const Material& material);
+
+/// A test of the material: what was asked of it, and how it answered.
 struct CardTest {
-  std::string name;
+  std::string name;       ///< unique; empty if it is the card's only one
   bool hold_out = false;  ///< predicted, not fitted
   std::string lab_file, lab_hash;
   Provenance lab;
-  Test test;  ///< with the same material in its own grains
-  std::vector<CardObservable> observables;
-  std::optional<bool> within_noise;  ///< of a hold-out: every reading that counts lies within its band
-  Baseline baseline;                 ///< no runs: `observables` stand in
+  Test test;  ///< apparatus, grains and contact laws, in SI; the grains may be of other sizes than the material's
+  std::vector<CardObservable> observables;  ///< none: it was not simulated
+  std::optional<bool> within_noise;         ///< of a hold-out: every reading that counts lies within its band
+  Baseline baseline;                        ///< no runs: older than baselines; `observables` stand in
 };
+
+/// "slow/step1.height_mm", as in a study of several tests; the reading's own name if the test has none.
+std::string reading_name(const CardTest& test, std::string_view observable);
+
+/// "Test slow: ", for people; nothing if the test has no name.
+std::string heading_of(const CardTest& test);
 
 /// How well the calibrated material was confirmed.
 struct Confirmation {
@@ -71,11 +90,9 @@ struct SearchRecord {
   int coarse_simulations = 0;           ///< with coarse grains, besides
 };
 
-/// From what and with what the card was made.
+/// From what and with what the card was made, besides the laboratory files of its tests.
 struct CardProvenance {
   std::string study_file, study_hash;
-  std::string lab_file, lab_hash;
-  Provenance lab;
   std::string program;  ///< version and engine fingerprint
 };
 
@@ -127,44 +144,28 @@ struct Rescaling {
 };
 
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
-/// comes from. File format "pastefit-card-3", `data/schema/card.schema.json`.
+/// comes from. File format "pastefit-card-4", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
-  Test test;                                  ///< apparatus, grains and contact laws, in SI
-  std::optional<double> grain_density_kg_m3;  ///< of the grains, such that the mould holds the bulk density
-  std::vector<Parameter> parameters;          ///< scale-free, every known one, in the order of `parameter_kinds`
-  std::vector<CardObservable> observables;
-  std::string test_name;          ///< of `test`, where a study had several; empty: it had one
-  std::vector<CardTest> further;  ///< the other tests of such a study, on the same packings
+  Material material;
+  std::vector<CardTest> tests;  ///< at least one, on the same packings; those held out last
   Confirmation confirmation;
   SearchRecord search;
   CardProvenance provenance;
   CardInference inference;
-  Baseline baseline;                    ///< no runs: the card is older than baselines; `observables` stand in
   std::vector<Rebaseline> rebaselined;  ///< oldest first
   std::vector<Rescaling> rescaled;      ///< oldest first
 };
 
-/// One of the card's tests, its own or a further one.
-struct TestOfCard {
-  std::string prefix;  ///< of its readings where there are several tests, e.g. "tall mould: "; empty for the card's own
-  bool fitted = true;
-  Test& test;
-  std::vector<CardObservable>& observables;
-  Baseline& baseline;
-};
-
-/// The card's own test, then the further ones. They belong to the card.
-std::vector<TestOfCard> tests_of(Card& card);
-
 /// In which people are told the card's misfit.
 MisfitUnit misfit_unit_of(const Card& card);
 
-/// The card as JSON. `test` rules; `parameters` is the scale-free form of the same contact laws, those that they have.
-/// Derived on writing and not read back: material.bulk_density_kg_m3 = test.bulk_density_kg_m3, difference = simulated
-/// - measured, standard_error = simulated_standard_deviation/sqrt(packings), `conditions` (what the fit was made for).
-/// `intervals`, `correlation`, `not_identified`, `test_name`, `further_tests`, `rebaselined` and `rescaled` are written
-/// when there is something in them.
+/// The card as JSON. The numbers in SI rule; `material.parameters` is the scale-free form of the same contact laws,
+/// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
+/// Derived on writing and not read back: difference = simulated - measured, standard_error =
+/// simulated_standard_deviation/sqrt(packings), `conditions` of each test (what a fit to it holds for).
+/// `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`, `correlation`, `not_identified`,
+/// `rebaselined` and `rescaled` are written when there is something in them.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
+#include "calibrate/card/material_json.h"
 #include "calibrate/card/two_forms.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/test.h"
@@ -60,13 +62,33 @@ void read_observables(ObjectReader& card, const json& document, const Test* test
   });
 }
 
-/// A test with a reader of its own, which knows its fields; whether it could be read.
-bool read_test(const json& document, const std::string& place, Test& target, Faults& faults) {
-  const auto test = test_from_json(document.is_object() ? document.value("test", json()) : json());
+/// The part of an object; null if the object or the part is none.
+json object_in(const json& object, const char* key) {
+  const auto part = object.is_object() ? object.find(key) : object.end();
+  return part != object.end() && part->is_object() ? *part : json();
+}
+
+/// A test with a reader of its own, which knows its fields; whether it could be read. What it does not say is the
+/// material's, and so are the faults of that.
+bool read_test(json document, const json& material, const std::string& place, Test& target, Faults& faults) {
+  std::set<std::string> taken;
+  for (const std::string key : of_material)
+    if (document.is_object() && !document.contains(key)) {
+      taken.insert(key);
+      if (material.contains(key)) document[key] = material[key];
+    }
+  const auto test = test_from_json(document);
   if (test.ok()) target = test.value();
   if (test.ok()) return true;
-  for (const auto& fault : test.faults())
-    faults.push_back({fault.where.empty() ? place : joined(place, fault.where), fault.what, fault.remedy});
+  for (const auto& fault : test.faults()) {
+    if (!taken.contains(fault.where.substr(0, fault.where.find('.')))) {
+      faults.push_back({fault.where.empty() ? place : joined(place, fault.where), fault.what, fault.remedy});
+      continue;
+    }
+    const std::string where = joined("material", fault.where);
+    if (material.is_object() && std::ranges::find(faults, where, &Fault::where) == faults.end())
+      faults.push_back({where, fault.what, fault.remedy});
+  }
   return false;
 }
 
@@ -96,14 +118,16 @@ void read_baseline(ObjectReader& reader, const json& document, const Test* test,
   });
 }
 
-void read_further(ObjectReader& reader, const json& document, CardTest& test) {
-  reader.text("name", test.name, kRequired);
-  reader.flag("hold_out", test.hold_out, kRequired);
+void read_card_test(ObjectReader& reader, const json& document, const json& material, CardTest& test) {
+  reader.text("name", test.name, kOptional);
+  reader.flag("hold_out", test.hold_out, kOptional);
   reader.text("lab_file", test.lab_file, kRequired);
   reader.text("lab_hash", test.lab_hash, kRequired);
   read_lab_provenance(reader, test.lab);
+  reader.known("conditions");
   reader.known("test");
-  const bool has_test = read_test(document, reader.place("test"), test.test, reader.faults());
+  const bool has_test =
+      read_test(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());
   const Test* ranges = has_test ? &test.test : nullptr;
   read_observables(reader, document, ranges, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
@@ -111,7 +135,7 @@ void read_further(ObjectReader& reader, const json& document, CardTest& test) {
                 [&](ObjectReader& baseline) { read_baseline(baseline, document["baseline"], ranges, test.baseline); });
 }
 
-void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
+void read_parameters(ObjectReader& material, std::vector<Parameter>& parameters) {
   for (const auto& kind : parameter_kinds()) {
     Parameter parameter;
     parameter.name = kind.name;
@@ -119,13 +143,13 @@ void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
     parameter.scale = kind.scale;
     parameters.push_back(parameter);
   }
-  card.object("parameters", kRequired, [&](ObjectReader& reader) {
+  material.object("parameters", kRequired, [&](ObjectReader& reader) {
     for (auto& parameter : parameters) {
       const auto& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
       reader.number(parameter.name, parameter.value, {kind.smallest, kind.largest}, kOptional);
     }
   });
-  card.object("free", kRequired, [&](ObjectReader& reader) {
+  material.object("free", kRequired, [&](ObjectReader& reader) {
     for (auto& parameter : parameters)
       parameter.free = reader.object(parameter.name, Need::optional, [&](ObjectReader& bounds) {
         bounds.number("lower", parameter.lower, kAny, kRequired);
@@ -138,6 +162,12 @@ void read_parameters(ObjectReader& card, std::vector<Parameter>& parameters) {
         });
       });
   });
+}
+
+void read_material(ObjectReader& reader, Material& material) {
+  describe_material(reader, material);
+  reader.nullable_number("grain_density_kg_m3", material.grain_density_kg_m3, kNotNegative, kRequired);
+  read_parameters(reader, material.parameters);
 }
 
 void read_search(ObjectReader& reader, SearchRecord& search) {
@@ -162,9 +192,6 @@ void read_search(ObjectReader& reader, SearchRecord& search) {
 void read_provenance(ObjectReader& reader, CardProvenance& provenance) {
   reader.text("study_file", provenance.study_file, kRequired);
   reader.text("study_hash", provenance.study_hash, kRequired);
-  reader.text("lab_file", provenance.lab_file, kRequired);
-  reader.text("lab_hash", provenance.lab_hash, kRequired);
-  read_lab_provenance(reader, provenance.lab);
   reader.text("program", provenance.program, kRequired);
 }
 
@@ -226,6 +253,18 @@ void read_list(ObjectReader& card, const json& document, const char* key, std::v
   }
 }
 
+/// A card has a test; of several each has a name of its own.
+void check_names(ObjectReader& card, const json& document, const std::vector<CardTest>& tests) {
+  const auto list = document.find("tests");
+  if (list == document.end() || (list->is_array() && list->empty()))
+    card.fault("tests", "there are none", "at least one: [ {\"test\": { ... }, ... } ]");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < tests.size() && tests.size() > 1; ++i)
+    if (tests[i].name.empty() || !names.insert(tests[i].name).second)
+      card.fault("tests[" + std::to_string(i) + "].name", "is " + in_quotes(tests[i].name),
+                 "of several tests each has a name of its own");
+}
+
 void read_rebaseline(ObjectReader& reader, const json& document, Rebaseline& change) {
   reader.text("why", change.why, kRequired);
   reader.text("program_before", change.program_before, kRequired);
@@ -261,22 +300,16 @@ Result<Card> card_from_json(const json& document) {
   Card card;
   Faults faults;
   const json& rest = upgraded.value();
-  const Test* ranges = read_test(rest, "test", card.test, faults) ? &card.test : nullptr;
   {
     ObjectReader reader(rest, "", faults);
     reader.known("format");
-    reader.known("test");
-    reader.known("conditions");
     reader.text("title", card.title, kRequired);
-    double derived = 0;
-    reader.object("material", kRequired, [&](ObjectReader& material) {
-      material.number("bulk_density_kg_m3", derived, kNotNegative, Need::optional);
-      material.nullable_number("grain_density_kg_m3", card.grain_density_kg_m3, kNotNegative, kRequired);
-    });
-    read_parameters(reader, card.parameters);
-    read_observables(reader, rest, ranges, card.observables);
-    reader.text("test_name", card.test_name, kOptional);
-    read_list(reader, rest, "further_tests", card.further, read_further);
+    reader.object("material", kRequired, [&](ObjectReader& material) { read_material(material, card.material); });
+    read_list(reader, rest, "tests", card.tests,
+              [material = object_in(rest, "material")](ObjectReader& test, const json& entry, CardTest& target) {
+                read_card_test(test, entry, material, target);
+              });
+    check_names(reader, rest, card.tests);
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);
@@ -287,8 +320,6 @@ Result<Card> card_from_json(const json& document) {
     reader.object("provenance", kRequired,
                   [&](ObjectReader& provenance) { read_provenance(provenance, card.provenance); });
     read_inference(reader, rest, card.inference);
-    reader.object("baseline", kRequired,
-                  [&](ObjectReader& baseline) { read_baseline(baseline, rest["baseline"], ranges, card.baseline); });
     read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "calibrate/base/json_document.h"
 #include "calibrate/card/card.h"
@@ -57,8 +58,42 @@ void from_2(json& card) {
     for (json& test : *further) give_tolerances(test, *tolerance_mm);
 }
 
+/// Moves a member to another object, if it is there.
+void move(json& from, const char* key, json& to, const char* as) {
+  const auto found = from.find(key);
+  if (found == from.end()) return;
+  to[as] = std::move(*found);
+  from.erase(found);
+}
+
+void from_3(json& card) {
+  json material = json::object(), first = json::object();
+  if (const auto given = card.find("material"); given != card.end() && given->is_object()) material = std::move(*given);
+  for (const char* key : {"parameters", "free"}) move(card, key, material, key);
+  move(card, "test_name", first, "name");
+  for (const char* key : {"test", "observables", "baseline"}) move(card, key, first, key);
+  if (const auto provenance = card.find("provenance"); provenance != card.end() && provenance->is_object())
+    for (const char* key : {"lab_file", "lab_hash", "lab"}) move(*provenance, key, first, key);
+
+  json tests = json::array({std::move(first)});
+  if (const auto further = card.find("further_tests"); further != card.end() && further->is_array())
+    for (json& test : *further) tests.push_back(std::move(test));
+  for (json& entry : tests) {
+    const auto test = entry.is_object() ? entry.find("test") : entry.end();
+    if (test == entry.end() || !test->is_object()) continue;
+    for (const char* key : {"bulk_density_kg_m3", "grains", "contact"}) {
+      if (&entry == &tests[0]) material[key] = test->value(key, json());
+      if (test->value(key, json()) == material[key]) test->erase(key);
+    }
+  }
+  card["material"] = std::move(material);
+  card["tests"] = std::move(tests);
+  card.erase("further_tests");
+  card.erase("conditions");
+}
+
 /// The n-th step leads from version n + 1 to the next one.
-constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1, from_2};
+constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1, from_2, from_3};
 
 /// The number after the prefix; 0 if it is none.
 int version_of(const std::string& format) {

@@ -7,7 +7,7 @@
 namespace pastefit {
 
 /// The version of the card format that this program writes.
-inline constexpr int kCardVersion = 3;
+inline constexpr int kCardVersion = 4;
 
 /// The document in the form of `kCardVersion`, whatever version it was written in: one step for each version, so that
 /// every card ever written stays readable.
@@ -15,6 +15,8 @@ inline constexpr int kCardVersion = 3;
 /// 1 -> 2: a baseline without runs is added. Version 1 kept no readings packing by packing.
 /// 2 -> 3: the misfit in mm becomes one without a unit, and each reading gets a tolerance: the `tolerance_mm` of the
 /// confirmation for lengths, the laboratory's standard deviation for others.
+/// 3 -> 4: one test with further ones beside it becomes a material and a list of tests. What is the same in all tests
+/// is said once, of the material.
 /// To add a version: raise `kCardVersion`, one row in the table of steps, a card of the old version in
 /// `tests/calibrate/card/versions`.
 /// Errors: it is no card, or of a version this program does not know.

@@ -3,23 +3,28 @@
 namespace pastefit {
 
 Result<Card> rescaled(Card card, double radius) {
-  const double s = radius / specimen_of(card.test).grains.radius_m;
-  card.rescaled.push_back({specimen_of(card.test).grains.radius_m, {}});
+  const double old_radius = card.material.grains.radius_m, s = radius / old_radius;
+  const auto carry = [&](GrainSizes& grains, ContactModel& contact) {
+    const bool of_material = grains.radius_m == old_radius;
+    grains = enlarged(grains, s);
+    if (of_material) grains.radius_m = radius;  // s rounds
+    contact = enlarged(contact, s);
+  };
+  carry(card.material.grains, card.material.contact);
+  card.rescaled.push_back({old_radius, {}});
   Faults all;
-  for (const auto& [prefix, fitted, test, observables, baseline] : tests_of(card)) {
-    Specimen& specimen = specimen_of(test);
-    specimen.grains = enlarged(specimen.grains, s);
-    specimen.contact = enlarged(specimen.contact, s);
-    observables.clear();
-    baseline = {};
-    for (Fault fault : validate(test)) {
-      fault.where = prefix + fault.where;
+  for (CardTest& test : card.tests) {
+    Specimen& specimen = specimen_of(test.test);
+    carry(specimen.grains, specimen.contact);
+    test.observables.clear();
+    test.within_noise.reset();
+    test.baseline = {};
+    for (Fault fault : validate(test.test)) {
+      fault.where = heading_of(test) + fault.where;
       all.push_back(std::move(fault));
     }
   }
   if (!all.empty()) return all;
-  specimen_of(card.test).grains.radius_m = radius;  // s rounds
-  for (auto& test : card.further) test.within_noise.reset();
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = false;
   card.confirmation.misfit = 0;

@@ -33,7 +33,7 @@ struct Promise {
   Sample sample;
 };
 
-std::vector<Promise> promises_of(const Card& card, const TestOfCard& test) {
+std::vector<Promise> promises_of(const Card& card, const CardTest& test) {
   std::vector<Promise> out;
   if (test.baseline.runs.empty()) {
     for (const auto& observable : test.observables)
@@ -48,11 +48,26 @@ std::vector<Promise> promises_of(const Card& card, const TestOfCard& test) {
   return out;
 }
 
-std::vector<std::uint64_t> packings_of(const Card& card, const Baseline& baseline) {
-  if (baseline.runs.empty()) return card.confirmation.packings;
+std::vector<std::uint64_t> packings_of(const Card& card, const CardTest& test) {
+  if (test.baseline.runs.empty()) return card.confirmation.packings;
   std::vector<std::uint64_t> out;
-  for (const auto& run : baseline.runs) out.push_back(run.packing);
+  for (const auto& run : test.baseline.runs) out.push_back(run.packing);
   return out;
+}
+
+/// Of the test that has most.
+std::vector<std::uint64_t> packings_of(const Card& card) {
+  std::vector<std::uint64_t> most;
+  for (const auto& test : card.tests)
+    if (auto packings = packings_of(card, test); packings.size() > most.size()) most = std::move(packings);
+  return most;
+}
+
+/// The program whose readings the card promises.
+std::string program_of(const Card& card) {
+  for (const auto& test : card.tests)
+    if (!test.baseline.runs.empty()) return test.baseline.program;
+  return card.provenance.program;
 }
 
 void keep_quick(std::vector<std::uint64_t>& packings) {
@@ -89,31 +104,34 @@ SameBits all_of(const std::vector<SameBits>& bits) {
 }
 
 /// Simulates a test of the card in these packings; the first failure instead, if there is one.
-std::optional<std::string> run_test(const TestOfCard& test, const std::vector<std::uint64_t>& packings,
+std::optional<std::string> run_test(const CardTest& test, const std::vector<std::uint64_t>& packings,
                                     const CheckOptions& options, const CheckEngine& engine, int& simulations,
                                     Baseline& now) {
   const auto outcomes = run_packings(test.test, packings, engine, options.threads);
   simulations += static_cast<int>(outcomes.size());
   auto failure = keep_runs(packings, outcomes, now);
-  if (failure) *failure = test.prefix + *failure;
+  if (failure) *failure = heading_of(test) + *failure;
   return failure;
+}
+
+/// The surface of this name in a test of the card; nothing if none has it.
+std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
+  for (const CardTest& of_card : card.tests) {
+    Test test = of_card.test;
+    for (const Surface& surface : surfaces_of(test))
+      if (surface.name == name) return surface.contact;
+  }
+  return std::nullopt;
 }
 
 /// The laboratory's test with the card's grains and contact laws; its surfaces are the card's, where that has them, or
 /// else as the card's parameters say.
 Test with_material_of(const Card& card, Test test) {
-  std::vector<double> values;
-  for (const Parameter& parameter : card.parameters) values.push_back(parameter.value);
-  Specimen& specimen = specimen_of(test);
-  const Specimen& material = specimen_of(card.test);
-  specimen.grains = material.grains;
-  test = with_contact_of(std::move(test), values);
-  specimen.contact = material.contact;
-  specimen.packing_seed = material.packing_seed;
-  Test of_card = card.test;
+  specimen_of(test).grains = card.material.grains;
+  test = with_contact_of(std::move(test), values_of(card.material));
+  specimen_of(test).contact = card.material.contact;
   for (const Surface& surface : surfaces_of(test))
-    for (const Surface& known : surfaces_of(of_card))
-      if (known.name == surface.name) surface.contact = known.contact;
+    surface.contact = surface_of(card, surface.name).value_or(surface.contact);
   return test;
 }
 
@@ -154,17 +172,18 @@ bool CheckedReading::agrees() const {
   return std::abs(got - expected) <= band;
 }
 
-CardCheck check(const Card& given, const CheckOptions& options, const CheckEngine& engine) {
-  Card card = given;
+CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
   CardCheck out;
   out.card = card.title;
   out.false_alarm = options.false_alarm;
-  out.same_program = card.baseline.program == engine.program && card.baseline.machine == engine.machine;
+  out.same_program = std::ranges::all_of(card.tests, [&](const CardTest& test) {
+    return test.baseline.program == engine.program && test.baseline.machine == engine.machine;
+  });
   std::size_t promised = 0;
-  for (const auto& test : tests_of(card)) {
+  for (const auto& test : card.tests) {
     const auto promises = promises_of(card, test);
-    if (packings_of(card, test.baseline).size() < 2 || promises.empty()) {
-      out.reason = test.prefix +
+    if (packings_of(card, test).size() < 2 || promises.empty()) {
+      out.reason = heading_of(test) +
                    "The card keeps the readings of fewer than two packings, so that their noise is not known; give it "
                    "a baseline with --rebaseline.";
       return out;
@@ -173,8 +192,8 @@ CardCheck check(const Card& given, const CheckOptions& options, const CheckEngin
   }
   const double share = options.false_alarm / static_cast<double>(promised);
   std::vector<SameBits> bits;
-  for (const auto& test : tests_of(card)) {
-    auto packings = packings_of(card, test.baseline);
+  for (const auto& test : card.tests) {
+    auto packings = packings_of(card, test);
     if (options.quick) keep_quick(packings);
     Baseline now;
     if (auto failure = run_test(test, packings, options, engine, out.simulations, now)) {
@@ -185,16 +204,16 @@ CardCheck check(const Card& given, const CheckOptions& options, const CheckEngin
     for (const auto& [name, before] : promises_of(card, test)) {
       const auto again = sample_of(column_of(now.runs, name));
       if (again.count == 0) {
-        out.reason = "The engine does not give the reading " + test.prefix + name + ".";
+        out.reason = "The engine does not give the reading " + reading_name(test, name) + ".";
         out.verdict = CheckVerdict::disagrees;
         return out;
       }
-      out.readings.push_back(
-          {test.prefix + name, before.mean, again.mean, band_of(before, again, share), before.count, again.count});
+      out.readings.push_back({reading_name(test, name), before.mean, again.mean, band_of(before, again, share),
+                              before.count, again.count});
     }
     bits.push_back(compare_bits(test.baseline, now));
   }
-  for (auto& reading : check_law(specimen_of(card.test), engine)) out.readings.push_back(std::move(reading));
+  for (auto& reading : check_law(card.material, engine)) out.readings.push_back(std::move(reading));
   out.bits = all_of(bits);
   judge(out, options);
   return out;
@@ -209,7 +228,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
     out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
     return out;
   }
-  auto packings = packings_of(card, card.baseline);
+  auto packings = packings_of(card);
   if (packings.size() < 2) packings = {specimen_of(test).packing_seed, specimen_of(test).packing_seed + 1};
   if (options.quick) keep_quick(packings);
   const auto outcomes = run_packings(test, packings, engine, options.threads);
@@ -234,7 +253,7 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
 
 Result<Card> rebaselined(Card card, const std::string& why, int count, const CheckOptions& options,
                          const CheckEngine& engine) {
-  auto packings = packings_of(card, card.baseline);
+  auto packings = packings_of(card);
   std::uint64_t fresh = 1;
   const auto taken = [&](std::uint64_t seed) {
     return std::ranges::count(packings, seed) + std::ranges::count(card.search.packings, seed) > 0;
@@ -243,15 +262,14 @@ Result<Card> rebaselined(Card card, const std::string& why, int count, const Che
     while (taken(fresh)) ++fresh;
     packings.push_back(fresh);
   }
-  Rebaseline change{
-      why, card.baseline.runs.empty() ? card.provenance.program : card.baseline.program, engine.program, {}};
-  for (const auto& test : tests_of(card)) {
+  Rebaseline change{why, program_of(card), engine.program, {}};
+  for (CardTest& test : card.tests) {
     Baseline now{engine.program, engine.machine, {}};
     int simulations = 0;
     if (auto failure = run_test(test, packings, options, engine, simulations, now))
       return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
     for (const auto& [name, before] : promises_of(card, test))
-      change.moved.push_back({test.prefix + name, before.mean, sample_of(column_of(now.runs, name)).mean});
+      change.moved.push_back({reading_name(test, name), before.mean, sample_of(column_of(now.runs, name)).mean});
     test.baseline = std::move(now);
   }
   card.rebaselined.push_back(std::move(change));

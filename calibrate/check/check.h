@@ -46,7 +46,7 @@ std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
 
 /// One comparison.
 struct CheckedReading {
-  std::string name;              ///< a reading, of a further test with its name, or "law.attraction_n" at some gap
+  std::string name;  ///< a reading, with the name of its test if it has one, or "law.attraction_n" at some gap
   double expected = 0, got = 0;  ///< means
   double band = 0;               ///< |got - expected| must not exceed it
   int expected_count = 0, got_count = 0;

@@ -12,17 +12,17 @@ Outcome simulate_impact(const Impact& test) {
   return simulate(test);
 }
 
-std::vector<CheckedReading> check_law(const Specimen& test, const CheckEngine& engine) {
-  const double radius = test.grains.radius_m;
+std::vector<CheckedReading> check_law(const Material& material, const CheckEngine& engine) {
+  const double radius = material.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
-  const double reach = bridge_gaps(test.contact, pair).rupture_m;
-  const double at_touch = attraction_n(test.contact, pair, 0);
+  const double reach = bridge_gaps(material.contact, pair).rupture_m;
+  const double at_touch = attraction_n(material.contact, pair, 0);
   if (!(reach > 0) || !(at_touch > 0)) return {};
 
   constexpr int kSteps = 20'000;
   Impact pull;
-  pull.contact = test.contact;
-  pull.density_kg_m3 = test.bulk_density_kg_m3;
+  pull.contact = material.contact;
+  pull.density_kg_m3 = material.bulk_density_kg_m3;
   pull.reference_radius_m = radius;
   pull.grains.resize(2);
   for (auto& grain : pull.grains) {
@@ -44,7 +44,7 @@ std::vector<CheckedReading> check_law(const Specimen& test, const CheckEngine& e
     const auto name = "pull" + std::to_string(i) + "_n";
     const auto got = outcome.observables.find(name);
     readings.push_back({format("law.attraction_n at %.2f of the reach", shares[i]),
-                        attraction_n(test.contact, pair, -pull.pull_gaps_m[i]),
+                        attraction_n(material.contact, pair, -pull.pull_gaps_m[i]),
                         got && !outcome.failure ? *got : std::numeric_limits<double>::infinity(), 1e-6 * at_touch, 1,
                         1});
   }

@@ -11,13 +11,13 @@ namespace pastefit {
 
 namespace {
 
-Result<std::vector<Baseline::Run>> runs_of(const TestOfCard& test, const std::vector<std::uint64_t>& packings,
+Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vector<std::uint64_t>& packings,
                                            const CheckEngine& engine, int threads) {
   const auto outcomes = run_packings(test.test, packings, engine, threads);
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (const auto& failure = outcomes[i].failure)
-      return Fault{test.prefix + "packing " + std::to_string(packings[i]),
+      return Fault{heading_of(test) + "packing " + std::to_string(packings[i]),
                    "failed: " + std::string(name_of(failure->reason)), failure->message};
     runs.push_back({packings[i], outcomes[i].observables});
   }
@@ -30,11 +30,11 @@ struct Misfit {
   double difference = 0, noise = 0;
 };
 
-Misfit misfit_of(Card& card, double packings) {
+Misfit misfit_of(const Card& card, double packings) {
   Misfit squares;
   int fitted = 0;
-  for (const auto& test : tests_of(card)) {
-    if (!test.fitted) continue;
+  for (const auto& test : card.tests) {
+    if (test.hold_out) continue;
     for (const auto& observable : test.observables) {
       if (!observable.measured || observable.weight <= 0) continue;
       squares.difference += std::pow((observable.simulated - *observable.measured) / observable.tolerance, 2);
@@ -48,36 +48,36 @@ Misfit misfit_of(Card& card, double packings) {
 
 }  // namespace
 
-Result<Card> with_measured_bias(const Card& given, Card after, int count, const CheckOptions& options,
+Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
-  // Fillings that no search has seen: seeds of a search are small or derived from its own seed.
+  // Packings that no search has seen: seeds of a search are small or derived from its own seed.
   std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
   std::iota(packings.begin(), packings.end(), 70'001);
-  Card before = given;
-  const auto old_tests = tests_of(before), new_tests = tests_of(after);
-  for (std::size_t t = 0; t < new_tests.size(); ++t) {
-    auto old_runs = runs_of(old_tests[t], packings, engine, options.threads);
+  for (std::size_t t = 0; t < after.tests.size(); ++t) {
+    const CardTest& old_test = before.tests[t];
+    CardTest& test = after.tests[t];
+    auto old_runs = runs_of(old_test, packings, engine, options.threads);
     if (!old_runs.ok()) return old_runs.faults();
-    auto new_runs = runs_of(new_tests[t], packings, engine, options.threads);
-    if (!new_runs.ok()) return new_runs.faults();
+    auto runs = runs_of(test, packings, engine, options.threads);
+    if (!runs.ok()) return runs.faults();
 
-    new_tests[t].observables.clear();
-    for (const auto& [name, value] : new_runs.value()[0].observables.all()) {
+    test.observables.clear();
+    for (const auto& [name, value] : runs.value()[0].observables.all()) {
       const auto old_sample = sample_of(column_of(old_runs.value(), name));
-      const auto sample = sample_of(column_of(new_runs.value(), name));
+      const auto sample = sample_of(column_of(runs.value(), name));
       CardObservable observable;
-      for (const auto& known : old_tests[t].observables)
+      for (const auto& known : old_test.observables)
         if (known.name == name) observable = known;
       observable.name = name;
       observable.simulated = sample.mean;
       observable.simulated_standard_deviation = sample.standard_deviation;
       observable.band.reset();
-      new_tests[t].observables.push_back(observable);
+      test.observables.push_back(observable);
       after.rescaled.back().bias.push_back(
-          {new_tests[t].prefix + name, old_sample.mean, sample.mean,
+          {reading_name(test, name), old_sample.mean, sample.mean,
            std::hypot(old_sample.standard_deviation, sample.standard_deviation) / std::sqrt(count)});
     }
-    new_tests[t].baseline = {engine.program, engine.machine, std::move(new_runs).value()};
+    test.baseline = {engine.program, engine.machine, std::move(runs).value()};
   }
   auto& confirmation = after.confirmation;
   confirmation.packings = packings;

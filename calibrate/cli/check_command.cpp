@@ -44,7 +44,8 @@ int rebaseline_all(const CheckCommand& options) {
   for (std::size_t i = 0; i < cards.size(); ++i) {
     if (const auto unwritten = write_atomically(options.cards[i], to_json(cards[i]).dump(2) + "\n"); !unwritten.empty())
       return report(unwritten, kFailed);
-    std::printf("%s: new baseline of %zu packings\n", options.cards[i].c_str(), cards[i].baseline.runs.size());
+    const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
+    std::printf("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
     for (const auto& moved : cards[i].rebaselined.back().moved)
       std::printf("  %-26s %12.6g -> %.6g\n", moved.observable.c_str(), moved.before, moved.after);
   }
@@ -91,7 +92,7 @@ int check_all(const CheckCommand& options) {
 Command add_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckCommand>();
   verb.add_option("CARD", options->cards, "card files")->required();
-  verb.add_flag("--quick", options->check.quick, "two simulations a card");
+  verb.add_flag("--quick", options->check.quick, "two simulations of each test of a card");
   verb.add_flag("--bits", options->check.bits, "other bits are a disagreement, whatever program made the card");
   verb.add_option("--false-alarm", options->check.false_alarm,
                   "probability to call a card wrong although nothing changed")

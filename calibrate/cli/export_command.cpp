@@ -15,15 +15,26 @@ namespace pastefit {
 namespace {
 
 struct ExportOptions {
-  std::string card, out, target;
+  std::string card, out, target, test;
   std::optional<std::uint64_t> packing;
   bool force = false;
 };
 
 const std::string kNotes = "NOTES.txt";
 
-std::string notes_text(const Exporter& exporter, const ExportScene& scene, const Export& written) {
-  std::string out = scene.card.title + "\n" + std::string(exporter.meaning) + "\n\n";
+/// Which of the card's tests was written, where there are several.
+std::string choice_text(const Card& card, const CardTest& chosen) {
+  std::string others;
+  for (const auto& test : card.tests)
+    if (test.name != chosen.name) others += (others.empty() ? "" : ", ") + test.name;
+  if (others.empty()) return {};
+  return "This is the card's test " + chosen.name + ". The card has others: " + others +
+         " (pastefit export --test NAME).\n\n";
+}
+
+std::string notes_text(const Exporter& exporter, const ExportScene& scene, const std::string& choice,
+                       const Export& written) {
+  std::string out = scene.title + "\n" + std::string(exporter.meaning) + "\n\n" + choice;
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
@@ -49,7 +60,9 @@ int export_card(const ExportOptions& options) {
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   if (!faults.empty()) return report(faults);
 
-  const auto scene = export_scene(card.value(), options.packing.value_or(specimen_of(card.value().test).packing_seed));
+  const auto test = test_to_export(card.value(), options.test);
+  if (!test.ok()) return report(test.faults());
+  const auto scene = export_scene(card.value(), test.value(), options.packing);
   if (!scene.ok()) return report(scene.faults(), kFailed);
   const auto written = exporter->write(scene.value());
   if (!written.ok()) return report(written.faults());
@@ -60,7 +73,8 @@ int export_card(const ExportOptions& options) {
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
   if (!folder.ok()) return report(folder.faults());
   auto files = written.value().files;
-  files.push_back({kNotes, notes_text(*exporter, scene.value(), written.value())});
+  files.push_back(
+      {kNotes, notes_text(*exporter, scene.value(), choice_text(card.value(), test.value()), written.value())});
   for (const auto& file : files) {
     std::error_code ignored;  // what cannot be made cannot be written into
     std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
@@ -82,7 +96,9 @@ Command add_export(CLI::App& verb) {
       ->required()
       ->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
-  verb.add_option("--packing", options->packing, "seed of the random filling; without it the card's own");
+  verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
+      ->type_name("NAME");
+  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own");
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_card(*options); };
 }

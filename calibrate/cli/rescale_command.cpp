@@ -30,14 +30,14 @@ double work_ratio(double from_m, double to_m) {
 int rescale(const RescaleOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
-  const double radius = options.radius_mm / 1e3, old_radius = specimen_of(card.value().test).grains.radius_m;
+  const double radius = options.radius_mm / 1e3, old_radius = card.value().material.grains.radius_m;
   auto result = rescaled(card.value(), radius);
   if (!result.ok()) return report(result.faults());
   if (options.packings > 0) {
-    if (const auto faults = validate_memory(result.value().test, options.check.threads); !faults.empty())
-      return report(faults);
+    for (const auto& test : result.value().tests)
+      if (const auto faults = validate_memory(test.test, options.check.threads); !faults.empty()) return report(faults);
     std::fprintf(stderr, "measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
-                 options.packings, work_ratio(old_radius, radius));
+                 options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
     result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
     if (!result.ok()) return report(result.faults(), kFailed);
   }

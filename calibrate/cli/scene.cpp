@@ -1,16 +1,19 @@
 #include "calibrate/cli/scene.h"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/card_versions.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit {
 
@@ -69,6 +72,19 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
   return settings;
 }
 
+/// The place that one step of a path leads to, "key" of an object or "key[1]" of a list in it; null if there is none.
+json* step_into(json& place, const std::string& step) {
+  if (!place.is_object() || step.empty()) return nullptr;
+  const auto bracket = step.find('[');
+  if (bracket == std::string::npos) return &place[step];
+  std::size_t index = 0;
+  const char *const first = step.data() + bracket + 1, *const last = step.data() + step.size();
+  const auto [end, error] = std::from_chars(first, last, index);
+  const auto list = place.find(step.substr(0, bracket));
+  const bool is_index = error == std::errc() && std::string_view(end, last) == "]";
+  return is_index && list != place.end() && list->is_array() && index < list->size() ? &(*list)[index] : nullptr;
+}
+
 /// Puts the value at its path; a key that the file's reader does not know is that reader's fault to report.
 void apply(const Setting& setting, json& document, Faults& faults) {
   json* place = &document;
@@ -77,13 +93,12 @@ void apply(const Setting& setting, json& document, Faults& faults) {
     const auto dot = rest.find('.');
     // Readings carry a dot in their name, "step1.height_mm": a key that is there as a whole wins.
     const bool whole = dot == std::string_view::npos || (place->is_object() && place->contains(rest));
-    const std::string key(whole ? rest : rest.substr(0, dot));
-    if (!place->is_object() || key.empty()) {
-      faults.push_back(
-          {"--set " + setting.path, "does not lead to a place in the file", "a path of keys, as in the file"});
+    place = step_into(*place, std::string(whole ? rest : rest.substr(0, dot)));
+    if (!place) {
+      faults.push_back({"--set " + setting.path, "does not lead to a place in the file",
+                        "a path of keys, as in the file, e.g. tests[0].test.lift_velocity_m_s of a card"});
       return;
     }
-    place = &(*place)[key];
     if (whole) break;
     if (place->is_null()) *place = json::object();
     rest.remove_prefix(dot + 1);
@@ -113,16 +128,29 @@ Test with_parameters(const Test& test, std::vector<double> values, const Setting
   return with_contact_of(test, values);
 }
 
-std::optional<Test> study_scene(const json&, const Settings& settings, const std::filesystem::path& file,
+/// The place of the test with this name, the first one's if that is empty; nothing, and a fault, if there is none.
+template <class Tests>
+std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, Faults& faults) {
+  if (name.empty()) return 0;
+  const auto place = place_of_test(tests, name);
+  if (place.ok()) return place.value();
+  faults.insert(faults.end(), place.faults().begin(), place.faults().end());
+  return std::nullopt;
+}
+
+std::optional<Test> study_scene(const Settings& settings, const std::string& name, const std::filesystem::path& file,
                                 Faults& faults) {
   const auto study = read_study(file);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
     return std::nullopt;
   }
-  auto test = study.value().tests.at(0).lab.test;
+  const auto place = chosen(study.value().tests, name, faults);
+  if (!place) return std::nullopt;
+  const StudyTest& of_study = study.value().tests[*place];
+  auto test = of_study.lab.test;
   if (!settings.others.empty()) {
-    const auto lab_file = (file.parent_path() / study.value().tests[0].lab_file).lexically_normal();
+    const auto lab_file = (file.parent_path() / of_study.lab_file).lexically_normal();
     const auto lab = read_json(lab_file, faults);
     if (!lab) return std::nullopt;
     const auto changed = read_with(*lab, settings, lab_file, faults,
@@ -136,21 +164,29 @@ std::optional<Test> study_scene(const json&, const Settings& settings, const std
   return with_parameters(test, values_at(study.value(), middle), settings, faults);
 }
 
-std::optional<Test> card_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
-                               Faults& faults) {
-  const auto card = read_with(document, settings, file, faults, card_from_json);
+std::optional<Test> card_scene(const json& document, const Settings& settings, const std::string& name,
+                               const std::filesystem::path& file, Faults& faults) {
+  // Settings are of the form that this program writes, whatever version the card is of.
+  const auto upgraded = upgraded_card(document);
+  if (!upgraded.ok()) {
+    for (auto& fault : in_file(upgraded.faults(), file)) faults.push_back(std::move(fault));
+    return std::nullopt;
+  }
+  const auto card = read_with(upgraded.value(), settings, file, faults, card_from_json);
   if (!card.ok()) return std::nullopt;
-  if (settings.parameters.empty()) return card.value().test;
-  std::vector<double> values;
-  for (const auto& parameter : card.value().parameters) values.push_back(parameter.value);
-  return with_parameters(card.value().test, std::move(values), settings, faults);
+  const auto place = chosen(card.value().tests, name, faults);
+  if (!place) return std::nullopt;
+  const Test& test = card.value().tests[*place].test;
+  if (settings.parameters.empty()) return test;
+  return with_parameters(test, values_of(card.value().material), settings, faults);
 }
 
-std::optional<Test> test_scene(const json& document, const Settings& settings, const std::filesystem::path& file,
-                               Faults& faults) {
+std::optional<Test> test_scene(const json& document, const Settings& settings, const std::string& name,
+                               const std::filesystem::path& file, Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
-  if (format == "pastefit-study-1") return study_scene(document, settings, file, faults);
-  if (is_card(document)) return card_scene(document, settings, file, faults);
+  if (format == "pastefit-study-1") return study_scene(settings, name, file, faults);
+  if (is_card(document)) return card_scene(document, settings, name, file, faults);
+  if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
   if (format == "pastefit-lab-1") {
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
@@ -170,7 +206,8 @@ std::optional<Test> test_scene(const json& document, const Settings& settings, c
 
 }  // namespace
 
-Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts) {
+Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
+                         const std::string& name) {
   Faults faults;
   const auto settings = read_settings(texts, faults);
   const auto document = read_json(file, faults);
@@ -178,11 +215,12 @@ Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<st
   if (document->is_object() && document->value("format", json()) == "pastefit-impact-1") {
     if (!settings.parameters.empty())
       faults.push_back({"--set parameters.*", "an impact has none", "set its keys, e.g. contact.friction=0.3"});
+    if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
     const auto impact = read_with(*document, settings, file, faults, impact_from_json);
     if (!faults.empty()) return faults;
     return Scene(impact.value());
   }
-  const auto test = test_scene(*document, settings, file, faults);
+  const auto test = test_scene(*document, settings, name, file, faults);
   if (test && faults.empty()) faults = in_file(validate_in_file_words(*test), file);
   if (!faults.empty()) return faults;
   return Scene(*test);

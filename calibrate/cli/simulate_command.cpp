@@ -27,6 +27,7 @@ namespace {
 struct SimulateOptions {
   std::string file;
   std::vector<std::string> settings;
+  std::string test;
   std::optional<std::uint64_t> seed;
   std::string out;
   bool force = false;
@@ -156,7 +157,7 @@ void judge_step(double given_s, double advised_s) {
 }
 
 int simulate_file(const SimulateOptions& options) {
-  auto scene = read_scene(options.file, options.settings);
+  auto scene = read_scene(options.file, options.settings, options.test);
   if (!scene.ok()) return report(scene.faults());
   auto test = std::move(scene).value();
   if (options.seed) {
@@ -238,6 +239,8 @@ Command add_simulate(CLI::App& verb) {
                   "grains.radius_mm=6; may be given again")
       ->type_name("PATH=VALUE")
       ->take_all();
+  verb.add_option("--test", options->test, "which test of a study or card that has several; without it the first")
+      ->type_name("NAME");
   verb.add_option("--seed", options->seed, "seed of the random packing");
   verb.add_option("--out", options->out, "folder for " + kResult + " and the ParaView series")->type_name("DIR");
   verb.add_flag("--force", options->force, "replace an earlier result in DIR");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,18 +13,21 @@
 
 namespace pastefit {
 
-/// What an exporter writes down: the card, its slump test, and the mould filled by pastefit.
+/// What an exporter writes down: a slump test of a card, and the mould filled by pastefit.
 struct ExportScene {
-  Card card;
+  std::string title;  ///< of the card, with the test's name if it has one
   SlumpTest test;
   Packing packing;
   double grain_density_kg_m3 = 0;  ///< such that the mould holds the bulk density
   SizeClasses sizes;
 };
 
-/// The scene of a card with the given packing. Errors: it is no slump test; the mould cannot be
-/// filled.
-Result<ExportScene> export_scene(const Card& card, std::uint64_t packing);
+/// The card's test to export: the one with this name, or, if that is empty, the first that targets have a deck of, a
+/// slump test. Errors: there is no such test; it is, or all are, of another kind.
+Result<CardTest> test_to_export(const Card& card, const std::string& name);
+
+/// The scene of such a test in this packing, or in the test's own. Errors: the mould cannot be filled.
+Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);
 
 struct ExportFile {
   std::string name;  ///< in the folder of the export, with / where it has folders of its own

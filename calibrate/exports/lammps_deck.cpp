@@ -28,7 +28,7 @@ unfix        over
 const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
-  std::string out = "# " + scene.card.title + "\n# written by " + program_identity() + " from a material card\n";
+  std::string out = "# " + scene.title + "\n# written by " + program_identity() + " from a material card\n";
   if (!notes.empty()) out += "#\n# What is lost or changed:\n";
   for (const auto& note : notes) out += "# - " + note + "\n";
   return out;

@@ -68,7 +68,7 @@ std::string properties(const ExportScene& scene, const SoulieFit* fit) {
 }
 
 std::string begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
-  std::string out = "# " + scene.card.title + "\n# " + what + "; written by " + program_identity() + "\n";
+  std::string out = "# " + scene.title + "\n# " + what + "; written by " + program_identity() + "\n";
   out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
   out += "# takes grains softer than 5 MPa.\n";
   for (const auto& note : notes) out += "# - " + note + "\n";

@@ -25,31 +25,41 @@ std::string inference_lines(const CardInference& inference) {
 }
 
 std::string conditions_lines(const Card& card) {
-  const auto& grains = specimen_of(card.test).grains;
-  const bool mono = grains.distribution == SizeDistribution::mono;
-  std::string out = "Fitted in\n" + conditions_in_words(card.test);
-  out +=
-      mono ? format("  grains                   radius %g mm\n", 1e3 * grains.radius_m)
-           : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m, 1e3 * grains.largest_m);
+  std::string out;
+  for (const auto& test : card.tests) {
+    const auto& grains = specimen_of(test.test).grains;
+    const bool mono = grains.distribution == SizeDistribution::mono;
+    out += (test.hold_out ? "Predicted in" : "Fitted in") + (test.name.empty() ? "" : " test " + test.name) + "\n" +
+           conditions_in_words(test.test);
+    out += mono ? format("  grains                   radius %g mm\n", 1e3 * grains.radius_m)
+                : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m,
+                         1e3 * grains.largest_m);
+  }
   return out + "  elsewhere the material is an extrapolation\n";
 }
 
 std::string origin_lines(const Card& card) {
   const auto& from = card.provenance;
   std::string out = "From\n";
-  out += "  laboratory               " + from.lab_file + " (" + from.lab_hash + ")\n";
-  if (!from.lab.source.empty()) out += "  its source               " + from.lab.source + "\n";
+  for (const auto& test : card.tests) {
+    const std::string laboratory = test.name.empty() ? "laboratory" : "laboratory of " + test.name;
+    out += format("  %-24s ", laboratory.c_str()) + test.lab_file + " (" + test.lab_hash + ")\n";
+    if (!test.lab.source.empty()) out += "  its source               " + test.lab.source + "\n";
+  }
   out += "  study                    " + from.study_file + " (" + from.study_hash + ")\n";
   return out + "  program                  " + from.program + "\n";
 }
 
 std::string baseline_lines(const Card& card) {
-  const auto& baseline = card.baseline;
   std::string out = "Baseline of checks\n";
-  if (baseline.runs.empty())
-    out += "  none: checks use means and deviations of the readings above\n";
-  else
-    out += format("  %zu packings, ", baseline.runs.size()) + baseline.program + ", " + baseline.machine + "\n";
+  for (const auto& test : card.tests) {
+    const auto& baseline = test.baseline;
+    out += "  " + (test.name.empty() ? "" : test.name + ": ");
+    if (baseline.runs.empty())
+      out += "none: checks use means and deviations of the readings above\n";
+    else
+      out += format("%zu packings, ", baseline.runs.size()) + baseline.program + ", " + baseline.machine + "\n";
+  }
   for (const auto& change : card.rebaselined) {
     out += "  changed: " + change.why + "\n";
     for (const auto& moved : change.moved)

@@ -14,10 +14,10 @@ namespace pastefit {
 namespace {
 
 /// The numbers of the law of the overlap, where it is not Hertz, and of the attraction across gaps.
-std::string law_lines(const Specimen& test) {
-  const ContactModel& contact = test.contact;
+std::string law_lines(const Material& material) {
+  const ContactModel& contact = material.contact;
   const Bridge& bridge = contact.bridge;
-  const double radius = test.grains.radius_m;
+  const double radius = material.grains.radius_m;
   std::vector<std::pair<const char*, double>> lines;
   if (contact.normal != NormalLaw::hertz) lines = {{"surface_energy_j_m2", contact.surface_energy_j_m2}};
   if (bridge.shape == BridgeShape::polynomial)
@@ -39,10 +39,10 @@ std::string law_lines(const Specimen& test) {
   return out;
 }
 
-std::string parameter_lines(const Card& card) {
+std::string parameter_lines(const Material& material) {
   std::string out = "Scale-free, the same law for every grain size\n";
-  for (const auto& parameter : card.parameters) {
-    if (!has_parameter(specimen_of(card.test).contact, parameter.name)) continue;
+  for (const auto& parameter : material.parameters) {
+    if (!has_parameter(material.contact, parameter.name)) continue;
     out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
     out += parameter.free ? format("   fitted, %g to %g", parameter.lower, parameter.upper) : "   fixed";
     if (const auto& prior = parameter.prior)
@@ -73,10 +73,8 @@ std::string reading_lines(const Card& card) {
   const auto packings = card.confirmation.packings.size();
   std::string out =
       format("%-26s %10s %10s %22s %12s\n", "Reading", "measured", "+- sd", "simulated +- std error", "difference");
-  if (!card.test_name.empty()) out += "Test " + card.test_name + ", the one that is exported and checked\n";
-  out += observable_lines(card.observables, packings);
-  for (const auto& test : card.further) {
-    out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
+  for (const auto& test : card.tests) {
+    if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
     out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);
   }
   return out;
@@ -84,7 +82,7 @@ std::string reading_lines(const Card& card) {
 
 std::string hold_out_lines(const Card& card) {
   std::string out;
-  for (const auto& test : card.further)
+  for (const auto& test : card.tests)
     if (test.within_noise)
       out += "Hold-out " + test.name +
              (*test.within_noise ? ": predicted within the noise of both.\n"
@@ -92,17 +90,16 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
-/// What a person should know of the runs of each test besides their readings.
+/// What a person should know of each test besides its readings.
 std::string remark_lines(const Card& card) {
   std::string out;
-  const auto add = [&](const Test& test, const Baseline& baseline, const std::string& name) {
+  for (const auto& test : card.tests) {
+    if (test.lab.twin) out += heading_of(test) + "The laboratory's data were made by a simulation (a twin).\n";
     std::vector<Observables> runs;
-    for (const auto& run : baseline.runs) runs.push_back(run.observables);
-    const std::string remarks = remarks_on(test, runs);
-    if (!remarks.empty()) out += (name.empty() ? "" : "Test " + name + ": ") + remarks + ".\n";
-  };
-  add(card.test, card.baseline, card.test_name);
-  for (const auto& test : card.further) add(test.test, test.baseline, test.name);
+    for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
+    const std::string remarks = remarks_on(test.test, runs);
+    if (!remarks.empty()) out += heading_of(test) + remarks + ".\n";
+  }
   return out;
 }
 
@@ -123,14 +120,13 @@ std::string verdict_of(const Card& card) {
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {
-  std::string out = card.title + "\n\n" + law_lines(specimen_of(card.test)) + "\n" + parameter_lines(card) + "\n" +
+  std::string out = card.title + "\n\n" + law_lines(card.material) + "\n" + parameter_lines(card.material) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
-  if (card.provenance.lab.twin) out += "The laboratory's data were made by a simulation (a twin).\n";
   return out + remark_lines(card) + hold_out_lines(card) + verdict_of(card) + "\n";
 }
 

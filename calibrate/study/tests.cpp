@@ -100,6 +100,13 @@ std::vector<StudyReading> readings_of(const Study& study) {
   return out;
 }
 
+Fault no_such_test(const std::string& name, const std::vector<std::string>& names) {
+  std::string known;
+  for (const auto& one : names) known += (known.empty() ? "" : ", ") + one;
+  return {"--test " + printable(name), "there is no such test",
+          known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
+}
+
 std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, const std::filesystem::path& folder,
                                   Faults& in_labs) {
   std::vector<StudyTest> tests;

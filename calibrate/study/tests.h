@@ -29,12 +29,28 @@ std::vector<StudyReading> readings_of(const Study& study);
 /// The tests that are fitted, or those held out, as indices.
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 
+/// The fault of a name that no test has.
+Fault no_such_test(const std::string& name, const std::vector<std::string>& names);
+
 /// Reads "lab", "weights" and "tolerances" of a study of one test, or "tests", a list of {"name", "lab", "weights",
 /// "tolerances", "hold_out"}.
-/// The first fitted test is moved to the front: it is the one a card is exported and checked with.
+/// The tests that are held out are moved behind the others: the first one, whose grains a card states its material for,
+/// is fitted.
 /// Faults of the laboratory files go to `in_labs`, their places beginning with the file.
 std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study,
                                   const std::filesystem::path& folder, Faults& in_labs);
+
+/// The place among these tests, of a study or of a card, of the one with this name.
+/// Error: none has it; the fault says which there are.
+template <class Tests>
+Result<std::size_t> place_of_test(const Tests& tests, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& test : tests) {
+    if (test.name == name) return names.size();
+    names.push_back(test.name);
+  }
+  return no_such_test(name, names);
+}
 
 /// All that decides the way of a study's search, as JSON text: the study without its title and budget, and the content
 /// of its laboratory files.

@@ -13,6 +13,7 @@
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/card/card.h"
+#include "calibrate/exports/export.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/ruler.h"
 
@@ -75,7 +76,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", message_of(card.faults()).c_str());
     return 2;
   }
-  auto test = std::get<SlumpTest>(card.value().test);
+  const auto exported = test_to_export(card.value(), "");
+  if (!exported.ok()) {
+    std::fprintf(stderr, "%s\n", message_of(exported.faults()).c_str());
+    return 2;
+  }
+  auto test = std::get<SlumpTest>(exported.value().test);
   test.packing_seed = std::stoull(argv[2]);
   const Particles filled = read_dump(argv[3]);
   const Ruler ruler(test, fill_mould(test)->roughness_m, filled);

@@ -32,19 +32,19 @@ BAND = {2: 31.6, 3: 8.61, 4: 5.96, 5: 5.04, 6: 4.59, 8: 4.14, 10: 3.92, 12: 3.79
 
 def variant(card, factor, representable, both_steps):
     card = json.loads(json.dumps(card))
-    contact = card["test"]["contact"]
+    material, test = card["material"], card["tests"][0]["test"]  # the test that an export takes
+    contact = material["contact"]
     bridge = contact["bridge"]
     for key in ("a_n_m2", "b_n_m", "c_n"):
         bridge[key] *= factor
     if contact["cohesion_n"] is not None:
         contact["cohesion_n"] *= factor
-    card["parameters"]["strength_pa"] *= factor
+    material["parameters"]["strength_pa"] *= factor
     if representable:
         bridge["offset_m"] = -0.5 * bridge["d_c_m"] * 1.001
-        card["parameters"]["offset_ratio"] = bridge["offset_m"] / card["test"]["grains"]["radius_m"]
+        material["parameters"]["offset_ratio"] = bridge["offset_m"] / material["grains"]["radius_m"]
         bridge["formation"] = "film"
         contact["friction_basis"] = "elastic"
-    test = card["test"]
     if not both_steps:
         test["drop"] = None
     elif test["drop"] is None:
@@ -127,7 +127,7 @@ def main():
                 changed = variant(card, factor, options.representable, options.both_steps)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
-                title = f"{source.stem}, {changed['test']['contact']['bridge']['c_n']:.3g}"
+                title = f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"
                 worst = max(worst, compare(options, file, title, folder))
     allowed = BAND[options.packings]
     print(f"\nlargest difference: {worst:.1f} standard errors; noise alone stays below {allowed} in 999 of 1000 comparisons")

@@ -91,7 +91,7 @@ def largest_error(points, expected, peak):
 
 
 def main(program, card_file, target):
-    test = json.loads(pathlib.Path(card_file).read_text())["test"]
+    test = json.loads(pathlib.Path(card_file).read_text())["material"]  # its grains, and the law between them
     with tempfile.TemporaryDirectory() as name:
         deck = pathlib.Path(name) / "deck"
         engines.export(program, card_file, target, deck)

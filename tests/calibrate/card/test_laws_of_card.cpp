@@ -16,12 +16,17 @@ Card card_with(NormalLaw normal, BridgeShape attraction, RollingModel rolling = 
   Card card;
   card.title = "of other laws";
   for (const ParameterKind& kind : parameter_kinds())
-    card.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
-  ContactModel& contact = specimen_of(card.test).contact;
+    card.material.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+  CardTest& test = card.tests.emplace_back();
+  ContactModel& contact = specimen_of(test.test).contact;
   contact.normal = normal;
   contact.bridge.shape = attraction;
   contact.rolling = rolling;
-  card.test = with_contact_of(card.test, usual_values());
+  test.test = with_contact_of(test.test, usual_values());
+  const Specimen& specimen = specimen_of(test.test);
+  card.material.bulk_density_kg_m3 = specimen.bulk_density_kg_m3;
+  card.material.grains = specimen.grains;
+  card.material.contact = specimen.contact;
   return card;
 }
 
@@ -43,8 +48,8 @@ TEST_CASE("a card of every law reads back as it was written, and names the param
         REQUIRE(read.ok());
         CHECK(to_json(read.value()).dump() == to_json(card).dump());
         for (const ParameterKind& kind : parameter_kinds()) {
-          const bool has = has_parameter(specimen_of(card.test).contact, kind.name);
-          CHECK(document["parameters"].contains(kind.name) == has);
+          const bool has = has_parameter(card.material.contact, kind.name);
+          CHECK(document["material"]["parameters"].contains(kind.name) == has);
           CHECK((summary_of(card).find("  " + std::string(kind.name) + " ") != std::string::npos) == has);
         }
       }
@@ -52,8 +57,8 @@ TEST_CASE("a card of every law reads back as it was written, and names the param
 
 TEST_CASE("a card whose surface energy or liquid was edited in one place says where") {
   auto document = text_and_back(card_with(NormalLaw::jkr, BridgeShape::capillary));
-  for (const auto* place : {"/test/contact/surface_energy_j_m2", "/test/contact/bridge/liquid_volume_m3",
-                            "/test/contact/bridge/surface_tension_n_m"}) {
+  for (const auto* place : {"/material/contact/surface_energy_j_m2", "/material/contact/bridge/liquid_volume_m3",
+                            "/material/contact/bridge/surface_tension_n_m"}) {
     auto& number = document[nlohmann::json::json_pointer(place)];
     number = 1.001 * number.get<double>();
   }
@@ -62,14 +67,14 @@ TEST_CASE("a card whose surface energy or liquid was edited in one place says wh
   std::string places;
   for (const auto& fault : read.faults()) places += fault.where + " ";
   CHECK(places ==
-        "test.contact.bridge.liquid_volume_m3 test.contact.bridge.surface_tension_n_m "
-        "test.contact.surface_energy_j_m2 ");
+        "material.contact.bridge.liquid_volume_m3 material.contact.bridge.surface_tension_n_m "
+        "material.contact.surface_energy_j_m2 ");
 }
 
 TEST_CASE("an older card that names the coefficient of a rolling law it has not is read") {
   auto document = text_and_back(card_with(NormalLaw::hertz, BridgeShape::polynomial, RollingModel::none));
-  document["parameters"]["rolling_friction"] = 0.02;
-  document["test"]["contact"]["rolling_friction"] = 0.02;
+  document["material"]["parameters"]["rolling_friction"] = 0.02;
+  document["material"]["contact"]["rolling_friction"] = 0.02;
   const auto read = card_from_json(document);
   REQUIRE(read.ok());
   CHECK(card_from_json(text_and_back(read.value())).ok());

@@ -10,8 +10,8 @@ namespace pastefit {
 /// called, unless said otherwise.
 inline CheckEngine engine_of(const Card& card) {
   CheckEngine engine;
-  engine.program = card.baseline.program;
-  engine.machine = card.baseline.machine;
+  engine.program = card.tests.at(0).baseline.program;
+  engine.machine = card.tests.at(0).baseline.machine;
   return engine;
 }
 

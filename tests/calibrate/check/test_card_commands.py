@@ -13,7 +13,8 @@ import unittest
 import xml.etree.ElementTree as xml
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-CARD = SOURCE / "tests/calibrate/card/versions/card-2.json"
+CARD = SOURCE / "tests/calibrate/card/versions/card-4.json"
+SEVERAL = CARD.with_name("card-3-several.json")
 TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
@@ -51,22 +52,25 @@ class CardCommands(unittest.TestCase):
                 self.assertIn(words, result.stdout)
 
     def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):
-        cut, newer, impossible, unit, edited = (
-            self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited"))
+        cut, newer, impossible, unit, edited, unknown = (
+            self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited", "unknown"))
         text = CARD.read_text()
         cut.write_text(text[: len(text) // 2])
-        newer.write_text(text.replace("pastefit-card-2", "pastefit-card-7"))
+        newer.write_text(text.replace("pastefit-card-4", "pastefit-card-7"))
         card = json.loads(text)
-        card["test"]["contact"]["bridge"]["b_n_m"] = -3
+        card["material"]["contact"]["bridge"]["b_n_m"] = -3
         impossible.write_text(json.dumps(card))
         card = json.loads(text)
-        card["test"]["grains"]["radius"] = card["test"]["grains"].pop("radius_m")
+        card["material"]["grains"]["radius"] = card["material"]["grains"].pop("radius_m")
         unit.write_text(json.dumps(card))
         card = json.loads(text)
-        card["test"]["contact"]["friction"] += 0.1
+        card["material"]["contact"]["friction"] += 0.1
         edited.write_text(json.dumps(card))
-        words = {cut: "not JSON", newer: "newer", impossible: "test.contact.bridge.b_n_m", unit: "test.grains.radius_m",
-                 edited: "test.contact.friction"}
+        card = json.loads(text)
+        card["tests"][0]["test"]["kind"] = "pellet_crush"
+        unknown.write_text(json.dumps(card))
+        words = {cut: "not JSON", newer: "newer", impossible: "material.contact.bridge.b_n_m",
+                 unit: "material.grains.radius_m", edited: "material.contact.friction", unknown: "tests[0].test.kind"}
         out = self.folder / "out"
         for file, word in words.items():
             for verb in (["show", file], ["rescale", file, "--radius", "9", "--out", out],
@@ -87,9 +91,35 @@ class CardCommands(unittest.TestCase):
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
         self.assertFalse((self.folder / "x").exists())
 
+    def test_of_several_tests_the_one_that_is_named_is_exported_and_simulated(self):
+        first, named = self.folder / "first", self.folder / "named"
+        result = run("export", SEVERAL, "--to", "csv", "--out", first)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the card's test slow. The card has others: fast, coarse", result.stdout)
+        result = run("export", SEVERAL, "--to", "csv", "--out", named, "--test", "coarse")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        radius = [float((folder / "parameters.csv").read_text().split("grain_radius_m,")[1].split(",")[0])
+                  for folder in (first, named)]
+        self.assertEqual(radius, [0.012, 0.014])
+        heights = {name: json.loads(run("simulate", SEVERAL, "--json", *choice).stdout)["observables"]["step1.height_mm"]
+                   for name, choice in {"": [], "slow": ["--test", "slow"], "fast": ["--test", "fast"]}.items()}
+        self.assertEqual(heights[""], heights["slow"])
+        self.assertNotEqual(heights["slow"], heights["fast"])
+        for verb in (["export", SEVERAL, "--to", "csv", "--out", self.folder / "x"], ["simulate", SEVERAL]):
+            self.fails(run(*verb, "--test", "quick"), 2, "--test quick", "slow, fast, coarse")
+        self.fails(run("simulate", CARD, "--test", "slow"), 2, "--test slow", "leave it out")
+        self.fails(run("simulate", SOURCE / "data/rigs/abrams.json", "--test", "slow"), 2, "--test", "leave it out")
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_settings_of_a_card_are_of_todays_form_whatever_its_version(self):
+        for card, lift in ((CARD, 0), (SEVERAL, 1)):
+            place = f"tests[{lift}].test.lift_velocity_m_s"
+            self.fails(run("simulate", card, "--set", f"{place}=-1"), 2, place, "-1")
+            self.fails(run("simulate", card, "--set", "tests[9].test.lift_velocity_m_s=1"), 2, "does not lead to a place")
+
     def test_a_law_the_target_lacks_is_bad_input(self):
         card = json.loads(CARD.read_text())
-        card["test"]["contact"]["rolling"] = "constant_torque"
+        card["material"]["contact"]["rolling"] = "constant_torque"
         file = self.folder / "card.json"
         file.write_text(json.dumps(card))
         self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant_torque", "spring_dashpot")
@@ -115,14 +145,15 @@ class CardCommands(unittest.TestCase):
         self.assertEqual(xml.parse(report).getroot().get("failures"), "0")
 
         changed = json.loads(card.read_text())
-        heights = changed["baseline"]["readings"]["step1.height_axis_mm"]
-        changed["baseline"]["readings"]["step1.height_axis_mm"] = [height + 1e-9 for height in heights]
+        baseline = changed["tests"][0]["baseline"]
+        heights = baseline["readings"]["step1.height_axis_mm"]
+        baseline["readings"]["step1.height_axis_mm"] = [height + 1e-9 for height in heights]
         card.write_text(json.dumps(changed))
         result = run("check", card, "--quick", "--junit", report)
         self.assertEqual(result.returncode, 1)
         self.assertIn("same bits", result.stdout)
         self.assertEqual(xml.parse(report).getroot().get("failures"), "1")
-        changed["baseline"]["program"] = "an older pastefit"
+        baseline["program"] = "an older pastefit"
         card.write_text(json.dumps(changed))
         self.assertEqual(run("check", card, "--quick").returncode, 0)
         self.assertEqual(run("check", card, "--quick", "--bits").returncode, 1)

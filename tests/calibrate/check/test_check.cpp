@@ -29,13 +29,18 @@ Card coarse_card() {
   set("rolling_friction", 0.02);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& kind = parameter_kinds()[i];
-    card.parameters.push_back({std::string(kind.name), false, values[i], 0, 0, kind.scale});
+    card.material.parameters.push_back({std::string(kind.name), false, values[i], 0, 0, kind.scale});
   }
-  specimen_of(card.test).grains.radius_m = 0.012;
-  specimen_of(card.test).contact.friction_basis = FrictionBasis::total;
-  std::get<SlumpTest>(card.test).drop = DropPlate{};
-  std::get<SlumpTest>(card.test).lift_velocity_m_s = 0.2;
-  card.test = with_contact_of(with_usual_contact(card.test), values);
+  SlumpTest slump;
+  slump.grains.radius_m = 0.012;
+  slump.contact.friction_basis = FrictionBasis::total;
+  slump.drop = DropPlate{};
+  slump.lift_velocity_m_s = 0.2;
+  card.tests.emplace_back().test = with_contact_of(with_usual_contact(slump), values);
+  const Specimen& specimen = specimen_of(card.tests[0].test);
+  card.material.bulk_density_kg_m3 = specimen.bulk_density_kg_m3;
+  card.material.grains = specimen.grains;
+  card.material.contact = specimen.contact;
   return card;
 }
 
@@ -62,12 +67,12 @@ bool law_agrees(const CardCheck& check) {
 /// A card that keeps two runs, and an engine whose answer is this height, at no cost.
 Card quick_card(std::vector<double> heights) {
   Card card = coarse_card();
-  card.baseline.program = "here";
+  card.tests[0].baseline.program = "here";
   std::uint64_t packing = 10;
   for (const double height : heights) {
     Observables readings;
     readings.set("step1.height_axis_mm", height);
-    card.baseline.runs.push_back({packing++, readings});
+    card.tests[0].baseline.runs.push_back({packing++, readings});
   }
   return card;
 }
@@ -86,11 +91,12 @@ CheckEngine quick_engine(const std::string& program, std::vector<double> heights
 
 }  // namespace
 
-TEST_CASE("every test of a card is checked, and a reading of a further one carries its name") {
+TEST_CASE("every test of a card is checked, and a reading carries the name of its test") {
   Card card = quick_card({100, 101});
+  card.tests[0].name = "tall";
   CardTest lower;
-  lower.name = "low mould";
-  lower.test = card.test;
+  lower.name = "low";
+  lower.test = card.tests[0].test;
   std::get<SlumpTest>(lower.test).mould.height_m *= 0.9;
   CardObservable low;
   low.name = "step1.height_axis_mm";
@@ -98,8 +104,8 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
   low.simulated_standard_deviation = 1;
   lower.observables.push_back(low);
   card.confirmation.packings = {10, 11};
-  card.further.push_back(lower);
-  const double height = std::get<SlumpTest>(card.test).mould.height_m;
+  card.tests.push_back(lower);
+  const double height = std::get<SlumpTest>(card.tests[0].test).mould.height_m;
 
   const auto engine_with = [&](double read) {
     CheckEngine engine = quick_engine("there", {100, 101});
@@ -112,40 +118,40 @@ TEST_CASE("every test of a card is checked, and a reading of a further one carri
     return engine;
   };
   CHECK(caught_by_noise(check(card, {}, engine_with(49.5))).empty());
-  CHECK(caught_by_noise(check(card, {}, engine_with(250))) ==
-        std::vector<std::string>{"low mould: step1.height_axis_mm"});
+  CHECK(caught_by_noise(check(card, {}, engine_with(250))) == std::vector<std::string>{"low/step1.height_axis_mm"});
   CHECK(check(card, {}, engine_with(49.5)).bits == SameBits::not_comparable);
 
   const auto again = rebaselined(card, "as it should be", 2, {}, engine_with(250));
   REQUIRE(again.ok());
-  CHECK(again.value().further[0].baseline.runs.size() == 2);
-  CHECK(again.value().rebaselined.back().moved.back().observable == "low mould: step1.height_axis_mm");
+  CHECK(again.value().tests[1].baseline.runs.size() == 2);
+  CHECK(again.value().rebaselined.back().moved.back().observable == "low/step1.height_axis_mm");
   CHECK(check(again.value(), {}, engine_with(250)).bits == SameBits::same);
   CHECK(check(again.value(), {}, engine_with(251)).bits == SameBits::other);
   const auto read = card_from_json(to_json(again.value()));
   REQUIRE(read.ok());
-  CHECK(read.value().further[0].baseline.runs.size() == 2);
+  CHECK(read.value().tests[1].baseline.runs.size() == 2);
 }
 
 TEST_CASE("a card of several tests is carried to other grains in all of them") {
   Card card = quick_card({100, 101});
+  card.tests[0].name = "tall";
   CardTest lower;
-  lower.name = "low mould";
-  lower.test = card.test;
+  lower.name = "low";
+  lower.test = card.tests[0].test;
   CardObservable low;
   low.name = "step1.height_axis_mm";
   low.measured = 48;
   low.weight = 1;
   low.tolerance = 5;
   lower.observables.push_back(low);
-  card.further.push_back(lower);
-  const double radius = 1.25 * specimen_of(card.test).grains.radius_m;
+  card.tests.push_back(lower);
+  const double radius = 1.25 * card.material.grains.radius_m;
   const auto carried = rescaled(card, radius);
   REQUIRE(carried.ok());
-  CHECK(specimen_of(carried.value().further[0].test).grains.radius_m == Approx(radius));
-  CHECK(specimen_of(carried.value().further[0].test).contact.bridge.c_n ==
-        Approx(1.25 * 1.25 * specimen_of(card.test).contact.bridge.c_n));
-  CHECK(carried.value().further[0].observables.empty());
+  CHECK(specimen_of(carried.value().tests[1].test).grains.radius_m == Approx(radius));
+  CHECK(specimen_of(carried.value().tests[1].test).contact.bridge.c_n ==
+        Approx(1.25 * 1.25 * card.material.contact.bridge.c_n));
+  CHECK(carried.value().tests[1].observables.empty());
 
   CheckEngine engine = quick_engine("here", {});
   engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
@@ -156,7 +162,7 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   const auto measured = with_measured_bias(card, carried.value(), 2, {}, engine);
   REQUIRE(measured.ok());
   const Rescaling::Bias bias = measured.value().rescaled.back().bias.back();
-  CHECK(bias.observable == "low mould: step1.height_axis_mm");
+  CHECK(bias.observable == "low/step1.height_axis_mm");
   CHECK(bias.after - bias.before == Approx(3));
   CHECK(measured.value().confirmation.misfit == Approx(1));
 }
@@ -218,7 +224,7 @@ TEST_CASE("another program may give other bits within the noise, unless bits are
 TEST_CASE("a card without single runs is checked by mean and deviation, one without noise not at all") {
   Card card = quick_card({});
   card.confirmation.packings = {10, 11, 12, 13};
-  card.observables = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
+  card.tests[0].observables = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
   const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
   const auto checked = check(card, {}, engine);
   CHECK(checked.verdict == CheckVerdict::agrees);
@@ -255,7 +261,7 @@ TEST_CASE("a new baseline keeps the packings, adds fresh ones, and records why a
   });
   const auto made = rebaselined(card, "the plate was mended", 4, {}, engine);
   REQUIRE(made.ok());
-  const auto& baseline = made.value().baseline;
+  const auto& baseline = made.value().tests[0].baseline;
   REQUIRE(baseline.runs.size() == 4);
   CHECK(baseline.runs[0].packing == 10);
   CHECK(baseline.runs[2].packing == 3);
@@ -271,7 +277,7 @@ TEST_CASE("an old card is judged by new laboratory data within the noise of both
   Card card = quick_card({100, 104, 98, 102});
   const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
   Lab lab;
-  lab.test = card.test;
+  lab.test = card.tests[0].test;
   lab.measurements = {{"step1.height_axis_mm", 104, 4, 3}};
   CHECK(check_against(card, lab, {}, engine).verdict == CheckVerdict::agrees);
   lab.measurements[0].value = 180;
@@ -298,7 +304,7 @@ TEST_CASE("the bias of another grain size is measured, with its error") {
   const auto& bias = measured.value().rescaled.back().bias.at(0);
   CHECK(bias.after - bias.before == Approx(-60));
   CHECK(bias.standard_error == Approx(std::sqrt(2 * (1.0 / 3) / 4)));
-  CHECK(measured.value().baseline.runs.size() == 4);
+  CHECK(measured.value().tests[0].baseline.runs.size() == 4);
 }
 
 TEST_CASE("the answers are text, JSON and JUnit, with what a card is called escaped") {

@@ -259,7 +259,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         height = json.loads(again.stdout)["observables"]["step1.height_mm"]
         self.assertEqual(len(card["confirmation"]["packings"]), 1)
-        self.assertEqual(height, card["observables"]["step1.height_mm"]["simulated"])
+        self.assertEqual(height, card["tests"][0]["observables"]["step1.height_mm"]["simulated"])
 
         self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
         kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "summary.txt")}
@@ -330,8 +330,8 @@ class CommandLine(unittest.TestCase):
         self.assertIn("measurements.step1.height_mm", result.stdout)
         self.assertRegex(result.stdout, r"[1-9][0-9]* candidates are known from before")
         card = json.loads((self.out / "card.json").read_text())
-        self.assertEqual(card["free"]["strength_pa"]["lower"], 400)
-        self.assertEqual(card["observables"]["step1.height_mm"]["repeats"], 3)
+        self.assertEqual(card["material"]["free"]["strength_pa"]["lower"], 400)
+        self.assertEqual(card["tests"][0]["observables"]["step1.height_mm"]["repeats"], 3)
         again = run("calibrate", file, "--out", self.out, "--resume")
         self.assertNotIn("Changed since", again.stdout)
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
@@ -357,9 +357,9 @@ class CommandLine(unittest.TestCase):
             self.assertIn(words, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
-        self.assertEqual([test["name"] for test in card["further_tests"]], ["fast", "later"])
-        self.assertEqual(card["test_name"], "slow")
-        fast, later = card["further_tests"]
+        self.assertEqual([test["name"] for test in card["tests"]], ["slow", "fast", "later"])
+        slow, fast, later = card["tests"]
+        self.assertNotIn("within_noise", slow)
         self.assertIn("within_noise", later)
         self.assertNotIn("within_noise", fast)
         self.assertEqual(fast["observables"]["step1.height_mm"]["simulated"],
@@ -368,6 +368,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run("check", self.out / "card.json").returncode, 0)
         self.assertEqual(run("export", self.out / "card.json", "--to", "csv", "--out", self.folder / "csv").returncode, 0)
         self.assertEqual(run("simulate", file, *COARSE).returncode, 0)
+        heights = [json.loads(run("simulate", file, "--json", "--test", name).stdout)["observables"]["step1.height_mm"]
+                   for name in ("fast", "later")]
+        self.assertEqual(heights[0], heights[1])  # the same laboratory file
 
     def test_core_seconds_end_a_run_with_the_best_so_far(self):
         result = run("calibrate", self.study(budget=500, screening=400), "--out", self.out, "--core-budget", "1.5")

@@ -18,22 +18,17 @@ namespace {
 constexpr double kRadius = 0.008;
 constexpr GrainPair kPair{kRadius, kRadius, kRadius};
 
-Card paste() {
-  Card out;
-  out.title = "Paste";
-  auto values = usual_values();
-  for (std::size_t i = 0; i < values.size(); ++i)
-    out.parameters.push_back({std::string(parameter_kinds()[i].name), false, values[i], 0, 0, Scale::linear});
-  specimen_of(out.test).grains.radius_m = kRadius;
-  out.test = with_contact_of(with_usual_contact(out.test), values);
-  return out;
+SlumpTest paste() {
+  SlumpTest out;
+  out.grains.radius_m = kRadius;
+  return std::get<SlumpTest>(with_contact_of(with_usual_contact(out), usual_values()));
 }
 
 /// A mould with three grains in it: exporters do not care how it was filled.
-ExportScene scene(const Card& material) {
+ExportScene scene(const SlumpTest& test) {
   ExportScene out;
-  out.card = material;
-  out.test = std::get<SlumpTest>(material.test);
+  out.title = "Paste";
+  out.test = test;
   out.packing.centres = {{0, 0, kRadius}, {0.05, 0, kRadius}, {0, 0.05, 0.1}};
   out.packing.radii.assign(3, kRadius);
   out.grain_density_kg_m3 = 3800;
@@ -51,7 +46,7 @@ std::string text_of(const Export& written) {
 }  // namespace
 
 TEST_CASE("the curve that is exported is the one the engine acts by, for every shape") {
-  ContactModel contact = specimen_of(paste().test).contact;
+  ContactModel contact = paste().contact;
   auto& bridge = contact.bridge;
   bridge.a_n_m2 = 2000;
   bridge.b_n_m = 40;
@@ -79,14 +74,14 @@ TEST_CASE("the curve that is exported is the one the engine acts by, for every s
 }
 
 TEST_CASE("the work of a bridge is the integral of its force") {
-  const auto contact = specimen_of(paste().test).contact;
+  const auto contact = paste().contact;
   const auto& b = contact.bridge;
   const double closed = -(b.a_n_m2 * std::pow(b.d_c_m, 3) / 3 + b.b_n_m * b.d_c_m * b.d_c_m / 2 + b.c_n * b.d_c_m);
   CHECK(bridge_work_j(contact, kPair, 0, -b.d_c_m) == Approx(closed).epsilon(1e-9));
 }
 
 TEST_CASE("a force table has a row at rupture and one at touch") {
-  const auto contact = specimen_of(paste().test).contact;
+  const auto contact = paste().contact;
   const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);
   CHECK(table.size() == 2001);
   CHECK(table[0].overlap_m == contact.bridge.d_c_m);
@@ -111,6 +106,22 @@ TEST_CASE("classes keep the volume of the grains, and one size stays as it is") 
   CHECK(classes.largest_change < 0.13);
 }
 
+TEST_CASE("the test that is exported is the one that is named, or else the first") {
+  Card card;
+  card.title = "Paste";
+  for (const char* name : {"slow", "fast"}) {
+    auto& test = card.tests.emplace_back();
+    test.name = name;
+    test.test = paste();
+  }
+  CHECK(test_to_export(card, "").value().name == "slow");
+  CHECK(test_to_export(card, "fast").value().name == "fast");
+  const auto none = test_to_export(card, "fats");
+  REQUIRE_FALSE(none.ok());
+  CHECK(none.faults()[0].where == "--test fats");
+  CHECK_THAT(none.faults()[0].remedy, Catch::Contains("slow, fast"));
+}
+
 TEST_CASE("every exporter writes files, and says what it loses") {
   for (const auto& exporter : exporters()) {
     INFO(exporter.name);
@@ -124,23 +135,23 @@ TEST_CASE("every exporter writes files, and says what it loses") {
 }
 
 TEST_CASE("what LAMMPS as it stands cannot represent is said with a number") {
-  Card material = paste();
-  specimen_of(material.test).contact.bridge.offset_m = 0.1 * -specimen_of(material.test).contact.bridge.d_c_m;
-  specimen_of(material.test).contact.friction_basis = FrictionBasis::total;
+  SlumpTest material = paste();
+  material.contact.bridge.offset_m = 0.1 * -material.contact.bridge.d_c_m;
+  material.contact.friction_basis = FrictionBasis::total;
   const auto written = export_lammps_tables(scene(material));
   REQUIRE(written.ok());
   const auto text = text_of(written.value());
   // c (1 - gap/reach): from 0.2 of the reach on, 64 % of the work
   CHECK_THAT(text, Catch::Contains("no memory") && Catch::Contains("64.0 % of the work"));
   CHECK_THAT(text, Catch::Contains("friction is of the total normal force"));
-  specimen_of(material.test).contact.bridge.offset_m = -specimen_of(material.test).contact.bridge.d_c_m;
+  material.contact.bridge.offset_m = -material.contact.bridge.d_c_m;
   CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("no memory"));
 }
 
 TEST_CASE("a law the target lacks is refused, with a remedy") {
-  Card material = paste();
-  specimen_of(material.test).contact.rolling = RollingModel::constant_torque;
-  std::get<SlumpTest>(material.test).table_wall.cohesion_factor = 0.5;
+  SlumpTest material = paste();
+  material.contact.rolling = RollingModel::constant_torque;
+  material.table_wall.cohesion_factor = 0.5;
   for (const auto write : {&export_lammps_tables, &export_yade}) {
     const auto written = write(scene(material));
     REQUIRE_FALSE(written.ok());
@@ -228,7 +239,7 @@ TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table")
 TEST_CASE("LIGGGHTS's bridge is fitted: a bridge of its own kind is found again") {
   const SoulieBridge truth{kRadius, std::pow(0.4 * kRadius, 3), 2.5};
   // Its curve as a polynomial of second degree through touch, middle and rupture.
-  ContactModel contact = specimen_of(paste().test).contact;
+  ContactModel contact = paste().contact;
   const double reach = truth.rupture_gap_m();
   const double f0 = truth.force_n(0), f1 = truth.force_n(0.5 * reach), f2 = truth.force_n(reach * (1 - 1e-9));
   contact.bridge.c_n = f0;

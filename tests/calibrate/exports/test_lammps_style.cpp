@@ -152,14 +152,11 @@ TEST_CASE("the style for LAMMPS names every fault of its words") {
 }
 
 TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
-  Card card;
-  specimen_of(card.test).contact = paste(BridgeShape::polynomial);
-  std::get<SlumpTest>(card.test).drop = DropPlate{};
   ExportScene scene;
+  scene.test.contact = paste(BridgeShape::polynomial);
+  scene.test.drop = DropPlate{};
   scene.packing.centres = {{0, 0, kGrainRadius}};
   scene.packing.radii = {kGrainRadius};
-  scene.card = card;
-  scene.test = std::get<SlumpTest>(card.test);
   scene.sizes = size_classes(scene.packing.radii);
   for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,
                            BridgeShape::capillary}) {

@@ -95,19 +95,19 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
     const auto card = [&] {
       return card_of(laboratory.study, calibration, laboratory.study.search, store, objective.counts(), "study.json");
     };
-    REQUIRE(card().further.size() == 1);
-    CHECK(card().further[0].observables.empty());  // not predicted yet
-    CHECK_FALSE(card().further[0].within_noise);
+    REQUIRE(card().tests.size() == 2);
+    CHECK(card().tests[1].observables.empty());  // not predicted yet
+    CHECK_FALSE(card().tests[1].within_noise);
     predict_hold_outs(laboratory.study, calibration, objective);
-    const CardTest test = card().further[0];
+    const CardTest test = card().tests[1];
     CHECK(test.name == "low");
     REQUIRE(test.within_noise);
     CHECK(*test.within_noise == within);
     CHECK(test.observables[0].simulated == Approx(22.5));
     CHECK(test.observables[0].band);
     CHECK_FALSE(test.observables[1].band);
-    CHECK(card().observables[0].measured == 100.0);
-    CHECK(card().baseline.runs.size() == 4);
+    CHECK(card().tests[0].observables[0].measured == 100.0);
+    CHECK(card().tests[0].baseline.runs.size() == 4);
   }
 }
 

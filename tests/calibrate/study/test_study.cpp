@@ -403,7 +403,8 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
   const json kinds_in_labs = schema("lab.schema.json").at("properties").at("test").at("enum");
   CHECK(kinds_in_labs == json(kinds_of_tests()));
   CHECK(schema("rig.schema.json").at("properties").at("test").at("enum") == kinds_in_labs);
-  CHECK(schema("card.schema.json").at("properties").at("test").at("properties").at("kind").at("enum") == kinds_in_labs);
+  CHECK(schema("card.schema.json").at("definitions").at("test").at("properties").at("kind").at("enum") ==
+        kinds_in_labs);
   const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
   const std::string lab_template(template_text("lab").value());
   std::size_t keys = 0;
