@@ -40,12 +40,9 @@ void describe_test(Fields& fields, Test& test) {
     reading.pairs("outline_step1_m", test.reading.outline_step1, any, any, Need::optional, 0);
     reading.pairs("outline_step2_m", test.reading.outline_step2, any, any, Need::optional, 0);
   });
-  fields.number("bulk_density_kg_m3", test.bulk_density_kg_m3, any, required);
-  fields.object("grains", required, [&](auto& grains) { describe_grains(grains, test.grains); });
-  fields.object("contact", required, [&](auto& contact) { describe_contact(contact, test.contact); });
+  describe_specimen(fields, test);
   fields.object("mould_wall", required, [&](auto& wall) { describe_wall(wall, test.mould_wall); });
   fields.object("table_wall", required, [&](auto& wall) { describe_wall(wall, test.table_wall); });
-  fields.integer("packing_seed", test.packing_seed, required);
 }
 
 double largest_pressure_pa(const SlumpTest& test) {
