@@ -67,6 +67,12 @@ std::vector<CardObservable> observables_of(const Study& study, std::size_t index
   return out;
 }
 
+Observables means_of(const std::vector<CardObservable>& observables) {
+  Observables means;
+  for (const auto& observable : observables) means.set(observable.name, observable.simulated);
+  return means;
+}
+
 /// Holds a prediction against the laboratory: each reading that counts within the noise of both.
 void judge(CardTest& test, std::size_t packings) {
   std::vector<CardObservable*> judged;
@@ -127,9 +133,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   const auto runs = runs_of(study, 0, values, shown.packings, store);
   card.baseline = baseline_of(runs, shown.packings, store);
   card.observables = observables_of(study, 0, runs);
-  for (const auto& observable : card.observables)
-    if (observable.name == "fill.solid_fraction")
-      card.grain_density_kg_m3 = specimen_of(card.test).bulk_density_kg_m3 / observable.simulated;
+  card.grain_density_kg_m3 = grain_density_of(card.test, means_of(card.observables));
   for (std::size_t i = 1; i < study.tests.size(); ++i)
     card.further.push_back(further_of(study, i, values, shown.packings, store));
 

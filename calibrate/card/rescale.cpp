@@ -3,13 +3,18 @@
 namespace pastefit {
 
 Result<Card> rescaled(Card card, double radius) {
+  if (const auto why = why_of_that_size(card.test); !why.empty())
+    return Fault{"test", std::string(why),
+                 "keep its grains; in a test of many grains the same material is another card"};
   const double s = radius / specimen_of(card.test).grains.radius_m;
   card.rescaled.push_back({specimen_of(card.test).grains.radius_m, {}});
   Faults all;
   for (const auto& [prefix, fitted, test, observables, baseline] : tests_of(card)) {
-    Specimen& specimen = specimen_of(test);
-    specimen.grains = enlarged(specimen.grains, s);
-    specimen.contact = enlarged(specimen.contact, s);
+    if (why_of_that_size(test).empty()) {
+      Specimen& specimen = specimen_of(test);
+      specimen.grains = enlarged(specimen.grains, s);
+      specimen.contact = enlarged(specimen.contact, s);
+    }
     observables.clear();
     baseline = {};
     for (Fault fault : validate(test)) {

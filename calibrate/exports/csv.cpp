@@ -3,8 +3,8 @@
 
 namespace pastefit {
 
-Result<Export> export_csv(const ExportScene& scene) {
-  return Export{{parameters_csv(scene), force_csv(scene), grains_csv(scene)},
+Result<Export> export_csv(const ExportLaw& law) {
+  return Export{law_files(law),
                 {"The force table has no memory: when a bridge forms is said by formation_gap_m in parameters.csv."}};
 }
 

@@ -17,15 +17,15 @@ How to use this in EDEM
    Without a plug-in, the nearest built-in model is Hertz-Mindlin with JKR. It has no attraction across a gap before
    touch. Choose its surface energy gamma for the same force at touch: gamma = 3 c/(8 pi R*), and run a slump test
    before you trust it.
-4. Grains: grains.csv is a filled mould at rest; import it as particle positions.
+4. Grains: grains.csv, if there is one, is a filled mould at rest; import it as particle positions.
 Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
 )";
 
 }  // namespace
 
-Result<Export> export_edem_notes(const ExportScene& scene) {
+Result<Export> export_edem_notes(const ExportLaw& law) {
   return Export{
-      {{"edem.txt", laws_in_words(scene) + kInstructions}, parameters_csv(scene), force_csv(scene), grains_csv(scene)},
+      law_files(law, {{"edem.txt", laws_in_words(law) + kInstructions}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
 }
 

@@ -12,13 +12,17 @@
 
 namespace pastefit {
 
-/// What an exporter writes down: the card, its slump test, and the mould filled by pastefit.
-struct ExportScene {
+/// What every target can be told: the material of a card's test, whatever test that is.
+struct ExportLaw {
   Card card;
-  SlumpTest test;
-  Packing packing;
-  double grain_density_kg_m3 = 0;  ///< such that the mould holds the bulk density
-  SizeClasses sizes;
+  double grain_density_kg_m3 = 0;
+  Packing packing = {};  ///< the filled mould of a slump test; empty for other tests
+};
+
+/// What a deck is written from: a card's slump test, and the mould filled by pastefit.
+struct ExportScene : ExportLaw {
+  SlumpTest test = {};
+  SizeClasses sizes = {};
 };
 
 /// The scene of a card with the given packing. Errors: it is no slump test; the mould cannot be
@@ -37,12 +41,20 @@ struct Export {
   std::string instructions = {};   ///< how to run it
 };
 
-/// A target. Errors of `write`: a law the target lacks and nothing can stand in for.
+/// A target, which has a deck of the test or else the law alone. Errors: a law the target lacks and nothing can stand
+/// in for.
 struct Exporter {
   std::string_view name;
   std::string_view meaning;  ///< what is written, one line
-  Result<Export> (*write)(const ExportScene& scene);
+  Result<Export> (*deck)(const ExportScene& scene);
+  Result<Export> (*law)(const ExportLaw& law) = nullptr;
+
+  Result<Export> write(const ExportScene& scene) const { return deck ? deck(scene) : law(scene); }
 };
+
+/// The card for a target: a deck with the given packing; or, for a target that only writes the law, the law, beside the
+/// filled mould if it is a slump test's. Errors: those of `export_scene` and of the target.
+Result<Export> export_card(const Card& card, const Exporter& exporter, std::uint64_t packing);
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
 std::span<const Exporter> exporters();
@@ -51,8 +63,8 @@ Result<Export> export_lammps(const ExportScene& scene);
 Result<Export> export_lammps_tables(const ExportScene& scene);
 Result<Export> export_liggghts(const ExportScene& scene);
 Result<Export> export_yade(const ExportScene& scene);
-Result<Export> export_mercurydpm(const ExportScene& scene);
-Result<Export> export_csv(const ExportScene& scene);
-Result<Export> export_edem_notes(const ExportScene& scene);
+Result<Export> export_mercurydpm(const ExportLaw& law);
+Result<Export> export_csv(const ExportLaw& law);
+Result<Export> export_edem_notes(const ExportLaw& law);
 
 }  // namespace pastefit

@@ -5,7 +5,6 @@
 
 #include "calibrate/base/json_reader.h"
 #include "core/laws/table.h"
-#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 
@@ -29,8 +28,5 @@ inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
 
 inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
     {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}}};
-
-inline constexpr std::array<Named<HeightReading>, 2> height_readings{
-    {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
 
 }  // namespace pastefit
