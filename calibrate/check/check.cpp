@@ -99,16 +99,16 @@ std::optional<std::string> run_test(const TestOfCard& test, const std::vector<st
   return failure;
 }
 
-/// The laboratory's test with the card's grains and contact laws; its surfaces are the card's, where that has them, or
-/// else as the card's parameters say.
+/// The laboratory's test with the card's contact laws and, unless the size of grains is the laboratory's in either
+/// test, its grains; its surfaces are the card's, where that has them, or else as the card's parameters say.
 Test with_material_of(const Card& card, Test test) {
   std::vector<double> values;
   for (const Parameter& parameter : card.parameters) values.push_back(parameter.value);
   Specimen& specimen = specimen_of(test);
   const Specimen& material = specimen_of(card.test);
-  specimen.grains = material.grains;
+  if (why_of_that_size(test).empty() && why_of_that_size(card.test).empty()) specimen.grains = material.grains;
   test = with_contact_of(std::move(test), values);
-  specimen.contact = material.contact;
+  specimen.contact = enlarged(material.contact, specimen.grains.radius_m / material.grains.radius_m);
   specimen.packing_seed = material.packing_seed;
   Test of_card = card.test;
   for (const Surface& surface : surfaces_of(test))

@@ -133,9 +133,9 @@ void print_table(const Outcome& outcome, double wall_s) {
   for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
   std::printf(
-      "%lld grains, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
-      static_cast<long long>(run.particles), static_cast<long long>(run.steps), run.time_step_s, run.simulated_s,
-      wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+      "%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+      static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
+      run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
       run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
 }
 
