@@ -92,6 +92,10 @@ class Readme(unittest.TestCase):
         names = list(schema["properties"]["parameters"]["properties"])
         self.assertEqual([cells[0].strip("`") for cells in rows("name")], names)
 
+    def test_tests_are_those_of_laboratory_files(self):
+        schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
+        self.assertEqual([cells[0].strip("`") for cells in rows("test")], schema["properties"]["test"]["enum"])
+
     def test_readings_are_those_of_laboratory_files(self):
         # The schema is held against the program's table by a test of its own (tests/calibrate/study/test_study.cpp).
         schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
@@ -105,6 +109,7 @@ class Readme(unittest.TestCase):
                 self.assertEqual(cells[1].startswith("step 2"), steps == ["step2"], name)
                 told |= {f"{step}.{name}" for step in steps}
         told |= set(re.findall(r"In a laboratory file: `([\w.]+)`", README))
+        told |= {key for cells in rows("test") for key in re.findall(r"`(\w+\.\w+)`", cells[-1])}
         self.assertEqual(told, keys)
 
     def test_the_example_does_what_it_says(self):

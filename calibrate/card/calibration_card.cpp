@@ -67,6 +67,12 @@ std::vector<CardObservable> observables_of(const Study& study, std::size_t index
   return out;
 }
 
+Observables means_of(const std::vector<CardObservable>& observables) {
+  Observables means;
+  for (const auto& observable : observables) means.set(observable.name, observable.simulated);
+  return means;
+}
+
 /// Holds a prediction against the laboratory: each reading that counts within the noise of both.
 void judge(CardTest& test, std::size_t packings) {
   std::vector<CardObservable*> judged;
@@ -113,9 +119,7 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
   const Specimen& specimen = specimen_of(first.test);
   Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
   for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
-  for (const auto& observable : first.observables)
-    if (observable.name == "fill.solid_fraction")
-      material.grain_density_kg_m3 = specimen.bulk_density_kg_m3 / observable.simulated;
+  material.grain_density_kg_m3 = grain_density_of(first.test, means_of(first.observables));
   return material;
 }
 

@@ -1,8 +1,17 @@
 #include "calibrate/card/rescale.h"
 
+#include <algorithm>
+
 namespace pastefit {
 
 Result<Card> rescaled(Card card, double radius) {
+  const auto has_that_size = [](const CardTest& test) { return !why_of_that_size(test.test).empty(); };
+  if (const auto of_its_size = std::ranges::find_if(card.tests, has_that_size);
+      of_its_size != card.tests.end() &&
+      specimen_of(of_its_size->test).grains.radius_m == card.material.grains.radius_m)
+    return Fault{"tests[" + std::to_string(of_its_size - card.tests.begin()) + "].test",
+                 std::string(why_of_that_size(of_its_size->test)),
+                 "keep its grains; in a test of many grains the same material is another card"};
   const double old_radius = card.material.grains.radius_m, s = radius / old_radius;
   const auto carry = [&](GrainSizes& grains, ContactModel& contact) {
     const bool of_material = grains.radius_m == old_radius;
@@ -15,7 +24,7 @@ Result<Card> rescaled(Card card, double radius) {
   Faults all;
   for (CardTest& test : card.tests) {
     Specimen& specimen = specimen_of(test.test);
-    carry(specimen.grains, specimen.contact);
+    if (!has_that_size(test)) carry(specimen.grains, specimen.contact);
     test.observables.clear();
     test.within_noise.reset();
     test.baseline = {};

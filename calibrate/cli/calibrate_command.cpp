@@ -115,11 +115,16 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto faults = validate_memory(study, options.threads); !faults.empty())
     return report(in_file(faults, options.study));
   const Study coarse_study = with_coarse_grains(study);
-  if (search_options.coarse_first)
+  if (search_options.coarse_first) {
+    const auto why = [&](std::size_t test) { return why_of_that_size(study.tests[test].lab.test); };
+    const auto fitted = tests_of(study, false);
+    if (std::ranges::none_of(fitted, [&](std::size_t test) { return why(test).empty(); }))
+      return report({{options.study + ": search.coarse_first", std::string(why(fitted.front())), "leave it out"}});
     for (const StudyTest& test : coarse_study.tests)
       if (const auto faults = validate_in_file_words(test.lab.test); !faults.empty())
         return report({{options.study + ": search.coarse_first", "with coarse grains: " + faults.front().what,
                         "leave it out, or take smaller grains"}});
+  }
 
   const auto budget = search_options.budget_simulations;
   const auto earlier = options.force    ? EarlierResult::replace

@@ -32,16 +32,15 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
          " (pastefit export --test NAME).\n\n";
 }
 
-std::string notes_text(const Exporter& exporter, const ExportScene& scene, const std::string& choice,
-                       const Export& written) {
-  std::string out = scene.title + "\n" + std::string(exporter.meaning) + "\n\n" + choice;
+std::string notes_text(const Exporter& exporter, const Card& card, const CardTest& test, const Export& written) {
+  std::string out = title_of(card, test) + "\n" + std::string(exporter.meaning) + "\n\n" + choice_text(card, test);
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
   return out;
 }
 
-int export_card(const ExportOptions& options) {
+int export_to_folder(const ExportOptions& options) {
   Faults faults;
   const auto known = exporters();
   const auto exporter = std::ranges::find(known, options.target, &Exporter::name);
@@ -60,11 +59,9 @@ int export_card(const ExportOptions& options) {
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   if (!faults.empty()) return report(faults);
 
-  const auto test = test_to_export(card.value(), options.test);
+  const auto test = test_to_export(card.value(), *exporter, options.test);
   if (!test.ok()) return report(test.faults());
-  const auto scene = export_scene(card.value(), test.value(), options.packing);
-  if (!scene.ok()) return report(scene.faults(), kFailed);
-  const auto written = exporter->write(scene.value());
+  const auto written = export_test(card.value(), test.value(), *exporter, options.packing);
   if (!written.ok()) return report(written.faults());
 
   std::vector<std::string> names{kNotes};
@@ -73,8 +70,7 @@ int export_card(const ExportOptions& options) {
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
   if (!folder.ok()) return report(folder.faults());
   auto files = written.value().files;
-  files.push_back(
-      {kNotes, notes_text(*exporter, scene.value(), choice_text(card.value(), test.value()), written.value())});
+  files.push_back({kNotes, notes_text(*exporter, card.value(), test.value(), written.value())});
   for (const auto& file : files) {
     std::error_code ignored;  // what cannot be made cannot be written into
     std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
@@ -91,16 +87,15 @@ int export_card(const ExportOptions& options) {
 Command add_export(CLI::App& verb) {
   const auto options = std::make_shared<ExportOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  verb.add_option("--to", options->target,
-                  "target: lammps, lammps-tables, liggghts, yade, mercurydpm, csv or edem-notes")
-      ->required()
-      ->type_name("TARGET");
+  std::string targets;
+  for (const auto& one : exporters()) targets += (targets.empty() ? "target: " : ", ") + std::string(one.name);
+  verb.add_option("--to", options->target, targets)->required()->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
       ->type_name("NAME");
   verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own");
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
-  return [options] { return export_card(*options); };
+  return [options] { return export_to_folder(*options); };
 }
 
 }  // namespace pastefit

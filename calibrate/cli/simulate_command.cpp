@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,7 +17,6 @@
 #include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
 #include "core/observe/outline.h"
-#include "core/rigs/slump/ruler.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -39,19 +38,30 @@ struct SimulateOptions {
 };
 
 const std::string kResult = "outcome.json";
-// ParaView series: the mould being filled, the test, and the second drop of its heap.
-const std::array<std::string, 3> kSeries{"filling", "grains", "grains-second-drop"};
 
-/// Pictures of a run, each scene in a series of its own, with one clock that starts at 0 or where the heap was dropped.
+/// The ParaView series that a scene may be shown in, and the one that a moment of it belongs to.
+std::vector<std::string> names_of_series(const Scene& scene) {
+  const auto* test = std::get_if<Test>(&scene);
+  if (!test) return {"grains"};
+  const auto names = series_of(*test);
+  return {names.begin(), names.end()};
+}
+
+std::size_t series_at(const Scene& scene, const Moment& moment) {
+  const auto* test = std::get_if<Test>(&scene);
+  return test ? series_at(*test, moment) : 0;
+}
+
+/// Pictures of a run in series, each with one clock that starts where its first moment says.
 class Pictures {
  public:
-  explicit Pictures(const std::filesystem::path& folder) {
-    for (const std::string& name : kSeries) scenes_.push_back({VtkSeries(folder, name)});
+  Pictures(const std::filesystem::path& folder, const std::vector<std::string>& series) {
+    for (const std::string& name : series) scenes_.push_back({VtkSeries(folder, name)});
   }
 
-  Faults add(const Moment& moment) {
-    Scene& scene = scenes_[moment.phase.starts_with("fill.") ? 0 : moment.drop + 1];
-    // Pouring, striking off and settling are runs of their own.
+  Faults add(const Moment& moment, std::size_t series) {
+    Shown& scene = scenes_.at(series);
+    // A stage may be several runs, one after the other.
     if (moment.time_s < scene.last_s) scene.earlier_s += scene.last_s;
     scene.last_s = moment.time_s;
     GrainFrame frame = frame_of(moment);
@@ -62,13 +72,13 @@ class Pictures {
 
   std::vector<std::filesystem::path> indices() const {
     std::vector<std::filesystem::path> files;
-    for (const Scene& scene : scenes_)
+    for (const Shown& scene : scenes_)
       if (scene.begun) files.push_back(scene.series.index());
     return files;
   }
 
  private:
-  struct Scene {
+  struct Shown {
     VtkSeries series;
     double last_s = 0, earlier_s = 0;
     bool begun = false;
@@ -87,33 +97,19 @@ class Pictures {
     return frame;
   }
 
-  std::vector<Scene> scenes_;
+  std::vector<Shown> scenes_;
 };
 
-/// The heap after each step as it is seen from the side, for a photograph beside it.
-class Silhouettes {
- public:
-  void look(const Moment& moment) {
-    if (moment.drop > 0 || (moment.phase != "step1.rest" && moment.phase != "step2.rest")) return;
-    latest_[moment.phase == "step1.rest" ? 0 : 1] = moment.world->particles;
+/// Outlines by name, as the points of a profile in a laboratory file: {"step1": [[x_mm, z_mm], ...], ...}.
+nlohmann::ordered_json to_json(const std::map<std::string_view, Outline>& outlines) {
+  auto out = nlohmann::ordered_json::object();
+  for (const auto& [name, side] : outlines) {
+    auto& points = out[std::string(name)] = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < side.height_m.size(); ++k)
+      points.push_back({1e3 * (side.first_x_m + static_cast<double>(k) * side.spacing_m), 1e3 * side.height_m[k]});
   }
-
-  /// {"step1": [[x_mm, z_mm], ...], ...}: what a laboratory file takes as the points of a profile.
-  nlohmann::ordered_json to_json(double mean_radius_m) const {
-    auto out = nlohmann::ordered_json::object();
-    for (const int step : {0, 1}) {
-      if (latest_[step].count() == 0) continue;
-      const Outline side = outline(on_table(latest_[step]), mean_radius_m);
-      auto& points = out["step" + std::to_string(step + 1)] = nlohmann::ordered_json::array();
-      for (std::size_t k = 0; k < side.height_m.size(); ++k)
-        points.push_back({1e3 * (side.first_x_m + static_cast<double>(k) * side.spacing_m), 1e3 * side.height_m[k]});
-    }
-    return out;
-  }
-
- private:
-  std::array<Particles, 2> latest_;
-};
+  return out;
+}
 
 nlohmann::ordered_json json_of(const Outcome& outcome, const nlohmann::ordered_json& outlines, double wall_s) {
   const auto& run = outcome.run;
@@ -138,10 +134,10 @@ void print_table(const Outcome& outcome, double wall_s) {
   for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
   std::printf(
-      "%lld grains, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
-      static_cast<long long>(run.particles), static_cast<long long>(run.steps), run.time_step_s, run.simulated_s,
-      wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
-      run.settled || outcome.failure ? "" : "; the heap was not quite at rest when its time was over");
+      "%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+      static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
+      run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+      run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
 }
 
 /// What the program thinks of a step the user has set.
@@ -174,12 +170,14 @@ int simulate_file(const SimulateOptions& options) {
   std::optional<OutputFolder> folder;
   std::optional<Pictures> pictures;
   if (!options.out.empty()) {
-    auto opened =
-        OutputFolder::open(options.out, {kResult, kSeries[0] + ".pvd", kSeries[1] + ".pvd", kSeries[2] + ".pvd"},
-                           options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
+    const auto series = names_of_series(test);
+    std::vector<std::string> results{kResult};
+    for (const std::string& name : series) results.push_back(name + ".pvd");
+    auto opened = OutputFolder::open(options.out, results,
+                                     options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
     if (!opened.ok()) return report(opened.faults());
     folder = std::move(opened).value();
-    if (options.vtk_interval_s) pictures.emplace(options.out);
+    if (options.vtk_interval_s) pictures.emplace(options.out, series);
   }
 
   if (options.time_step_s && !(*options.time_step_s >= 1e-9 && *options.time_step_s <= 0.01))
@@ -190,12 +188,13 @@ int simulate_file(const SimulateOptions& options) {
   run.steps.threads = options.threads;
   run.steps.sleep = options.sleep;
   Faults unwritten;
-  Silhouettes silhouettes;
+  std::map<std::string_view, Outline> outlines;
   run.watch_interval_s = options.vtk_interval_s.value_or(0.1);
   run.watch = [&](const Moment& moment) {
     if (!moment.world) return true;
-    silhouettes.look(moment);
-    if (pictures) unwritten = pictures->add(moment);
+    if (of_lab)
+      if (auto seen = outline_at(*of_lab, moment)) outlines[seen->name] = std::move(seen->outline);
+    if (pictures) unwritten = pictures->add(moment, series_at(test, moment));
     return unwritten.empty();
   };
   const auto start = std::chrono::steady_clock::now();
@@ -203,9 +202,8 @@ int simulate_file(const SimulateOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
-  const auto outlines = of_lab && !outcome.failure ? silhouettes.to_json(specimen_of(*of_lab).grains.radius_m)
-                                                   : nlohmann::ordered_json::object();
-  const auto text = json_of(outcome, outlines, wall_s).dump(2) + "\n";
+  if (outcome.failure) outlines.clear();
+  const auto text = json_of(outcome, to_json(outlines), wall_s).dump(2) + "\n";
   if (options.json)
     std::fputs(text.c_str(), stdout);
   else

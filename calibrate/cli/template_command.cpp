@@ -2,13 +2,13 @@
 #include <memory>
 
 #include "calibrate/cli/commands.h"
-#include "calibrate/study/template.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
 Command add_template(CLI::App& verb) {
   std::string names;
-  for (const auto name : template_names()) names += (names.empty() ? "" : ", ") + std::string(name);
+  for (const auto& name : template_names()) names += (names.empty() ? "" : ", ") + name;
   const auto name = std::make_shared<std::string>();
   verb.add_option("NAME", *name, "which one: " + names)->required();
   return [name, names] {

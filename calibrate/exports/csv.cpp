@@ -4,11 +4,12 @@
 
 namespace pastefit {
 
-Result<Export> export_csv(const ExportScene& scene) {
+Result<Export> export_csv(const ExportLaw& law) {
+  const ContactModel& contact = specimen_of(law.test_of_card).contact;
   const KnownLaws known{"the force table", {NormalLaw::hertz}, kAllRolling};
-  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
-  return Export{{parameters_csv(scene), force_csv(scene), grains_csv(scene)},
-                {"The laws: " + laws_chosen(scene.test.contact) + ".",
+  if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
+  return Export{law_files(law),
+                {"The laws: " + laws_chosen(contact) + ".",
                  "The force table has no memory: when a bridge forms is said by formation_gap_m in parameters.csv."}};
 }
 

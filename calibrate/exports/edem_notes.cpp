@@ -29,24 +29,25 @@ How to use this in EDEM
    Without a plug-in, the nearest built-in model is Hertz-Mindlin with JKR. It has no attraction across a gap before
    touch. Choose its surface energy gamma for the same force at touch: gamma = 3 c/(8 pi R*), and run a slump test
    before you trust it.
-4. Grains: grains.csv is a filled mould at rest; import it as particle positions.
+4. Grains: grains.csv, if there is one, is a filled mould at rest; import it as particle positions.
 Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
 )";
 
 }  // namespace
 
-Result<Export> export_edem_notes(const ExportScene& scene) {
-  const bool sticks = scene.test.contact.normal == NormalLaw::jkr;
+Result<Export> export_edem_notes(const ExportLaw& law) {
+  const ContactModel& contact = specimen_of(law.test_of_card).contact;
+  const bool sticks = contact.normal == NormalLaw::jkr;
   KnownLaws known{"EDEM", {NormalLaw::hertz, NormalLaw::jkr}, kAllRolling};
   if (sticks) known.attraction = {BridgeShape::none};  // a plug-in takes the place of EDEM's own JKR
-  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
+  if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (sticks)
-    return Export{{{"edem.txt", laws_in_words(scene) + kJkrInstructions}, parameters_csv(scene), grains_csv(scene)},
+    return Export{law_files(law, {{"edem.txt", laws_in_words(law) + kJkrInstructions}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   return Export{
-      {{"edem.txt", laws_in_words(scene) + kInstructions}, parameters_csv(scene), force_csv(scene), grains_csv(scene)},
+      law_files(law, {{"edem.txt", laws_in_words(law) + kInstructions}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
 }
 

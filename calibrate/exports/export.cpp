@@ -23,31 +23,51 @@ std::span<const Exporter> exporters() {
                export_lammps_tables},
       Exporter{"liggghts", "deck of the slump test, step 1, for LIGGGHTS, with its nearest law", export_liggghts},
       Exporter{"yade", "Python module and script of the slump test, step 1, for Yade", export_yade},
-      Exporter{"mercurydpm", "parameters, force table and instructions for MercuryDPM", export_mercurydpm},
-      Exporter{"csv", "parameters, force table and grains as CSV files", export_csv},
-      Exporter{"edem-notes", "parameters, force table and instructions for EDEM", export_edem_notes}};
+      Exporter{"mercurydpm", "parameters, force table and instructions for MercuryDPM", nullptr, export_mercurydpm},
+      Exporter{"csv", "parameters, force table and grains as CSV files", nullptr, export_csv},
+      Exporter{"edem-notes", "parameters, force table and instructions for EDEM", nullptr, export_edem_notes}};
   return kExporters;
 }
 
-Result<CardTest> test_to_export(const Card& card, const std::string& name) {
+namespace {
+
+std::string targets_of_laws() {
+  std::string names;
+  for (const Exporter& one : exporters())
+    if (one.law) names += (names.empty() ? "" : ", ") + std::string(one.name);
+  return names;
+}
+
+}  // namespace
+
+std::string title_of(const Card& card, const CardTest& test) {
+  return card.title + (test.name.empty() ? "" : ", test " + test.name);
+}
+
+Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, const std::string& name) {
+  const auto no_deck = [](std::string where, std::string what) {
+    return Fault{std::move(where), std::move(what), "take a target that writes the law alone: " + targets_of_laws()};
+  };
   if (!name.empty()) {
     const auto place = place_of_test(card.tests, name);
     if (!place.ok()) return place.faults();
     const CardTest& test = card.tests[place.value()];
-    if (has_deck(test)) return test;
-    return Fault{"--test " + name, "is a " + std::string(kind_of(test.test)) + " test, which no target has a deck of",
-                 "name a slump test"};
+    if (has_deck(test) || exporter.law) return test;
+    return no_deck("--test " + name, "is a " + std::string(kind_of(test.test)) + " test, of which there is no deck");
   }
   const auto first = std::ranges::find_if(card.tests, has_deck);
   if (first != card.tests.end()) return *first;
-  return Fault{"tests", "no target has a deck of any of them", "calibrate a slump test beside them, in one study"};
+  if (exporter.law) return card.tests.front();
+  return no_deck("tests", "there is no deck of any of them: the first is a " +
+                              std::string(kind_of(card.tests.front().test)) + " test");
 }
 
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing) {
   ExportScene scene;
-  scene.title = card.title + (test.name.empty() ? "" : ", test " + test.name);
+  scene.title = title_of(card, test);
   scene.test = std::get<SlumpTest>(test.test);
   scene.test.packing_seed = packing.value_or(scene.test.packing_seed);
+  scene.test_of_card = scene.test;
   const auto poured = fill_mould(scene.test);
   scene.packing = poured->failure ? *poured : full_mould(scene.test, *poured);
   if (const auto& failure = scene.packing.failure)
@@ -57,6 +77,18 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   scene.grain_density_kg_m3 = grain_density(scene.test, scene.packing);
   scene.sizes = size_classes(scene.packing.radii);
   return scene;
+}
+
+Result<Export> export_test(const Card& card, const CardTest& test, const Exporter& exporter,
+                           std::optional<std::uint64_t> packing) {
+  if (!has_deck(test)) {
+    const double bulk_density = specimen_of(test.test).bulk_density_kg_m3;
+    const double grain_density = card.material.grain_density_kg_m3.value_or(bulk_density);
+    return exporter.law({title_of(card, test), test.test, grain_density});
+  }
+  const auto scene = export_scene(card, test, packing);
+  if (!scene.ok()) return scene.faults();
+  return exporter.write(scene.value());
 }
 
 }  // namespace pastefit

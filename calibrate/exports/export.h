@@ -13,21 +13,19 @@
 
 namespace pastefit {
 
-/// What an exporter writes down: a slump test of a card, and the mould filled by pastefit.
-struct ExportScene {
+/// What every target can be told: the material in a card's test, of whatever kind that is.
+struct ExportLaw {
   std::string title;  ///< of the card, with the test's name if it has one
-  SlumpTest test;
-  Packing packing;
-  double grain_density_kg_m3 = 0;  ///< such that the mould holds the bulk density
-  SizeClasses sizes;
+  Test test_of_card;
+  double grain_density_kg_m3 = 0;
+  Packing packing = {};  ///< the filled mould of a slump test; empty for other tests
 };
 
-/// The card's test to export: the one with this name, or, if that is empty, the first that targets have a deck of, a
-/// slump test. Errors: there is no such test; it is, or all are, of another kind.
-Result<CardTest> test_to_export(const Card& card, const std::string& name);
-
-/// The scene of such a test in this packing, or in the test's own. Errors: the mould cannot be filled.
-Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);
+/// What a deck is written from: a slump test of a card, and the mould filled by pastefit.
+struct ExportScene : ExportLaw {
+  SlumpTest test = {};
+  SizeClasses sizes = {};
+};
 
 struct ExportFile {
   std::string name;  ///< in the folder of the export, with / where it has folders of its own
@@ -41,12 +39,33 @@ struct Export {
   std::string instructions = {};   ///< how to run it
 };
 
-/// A target. Errors of `write`: a law the target lacks and nothing can stand in for.
+/// A target, which has a deck of the test or else the law alone. Errors: a law the target lacks and nothing can stand
+/// in for.
 struct Exporter {
   std::string_view name;
   std::string_view meaning;  ///< what is written, one line
-  Result<Export> (*write)(const ExportScene& scene);
+  Result<Export> (*deck)(const ExportScene& scene);
+  Result<Export> (*law)(const ExportLaw& law) = nullptr;
+
+  Result<Export> write(const ExportScene& scene) const { return deck ? deck(scene) : law(scene); }
 };
+
+/// What a card's export is called: its title, with the test's name if it has one.
+std::string title_of(const Card& card, const CardTest& test);
+
+/// The card's test to export: the one with this name, or, if that is empty, the first one that the target has a deck of
+/// (a slump test), or else the first of all if it writes the law alone. Errors: there is no such test; there is no deck
+/// of it.
+Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, const std::string& name);
+
+/// The scene of a slump test in this packing, or in the test's own. Errors: the mould cannot be filled.
+Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);
+
+/// The test for a target: a deck with the given packing; or, for a target that only writes the law, the law, beside the
+/// filled mould if it is a slump test's. Requirement: `test` is from `test_to_export`. Errors: those of `export_scene`
+/// and of the target.
+Result<Export> export_test(const Card& card, const CardTest& test, const Exporter& exporter,
+                           std::optional<std::uint64_t> packing);
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
 std::span<const Exporter> exporters();
@@ -55,8 +74,8 @@ Result<Export> export_lammps(const ExportScene& scene);
 Result<Export> export_lammps_tables(const ExportScene& scene);
 Result<Export> export_liggghts(const ExportScene& scene);
 Result<Export> export_yade(const ExportScene& scene);
-Result<Export> export_mercurydpm(const ExportScene& scene);
-Result<Export> export_csv(const ExportScene& scene);
-Result<Export> export_edem_notes(const ExportScene& scene);
+Result<Export> export_mercurydpm(const ExportLaw& law);
+Result<Export> export_csv(const ExportLaw& law);
+Result<Export> export_edem_notes(const ExportLaw& law);
 
 }  // namespace pastefit

@@ -15,20 +15,17 @@ How to use this in MercuryDPM
    adhesive species from LiquidBridgeWilletSpecies, which already has formation, memory and rupture of a bridge, and
    put that curve (or an interpolation of force.csv) in the place of its force; rupture distance -d_c, formation at
    formation_gap_m.
-3. Grains: grains.csv is a filled mould at rest.
+3. Grains: grains.csv, if there is one, is a filled mould at rest.
 Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
 )";
 
 }  // namespace
 
-Result<Export> export_mercurydpm(const ExportScene& scene) {
+Result<Export> export_mercurydpm(const ExportLaw& law) {
   const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
-  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
+  if (Faults faults = unknown_laws(specimen_of(law.test_of_card).contact, known); !faults.empty()) return faults;
   return Export{
-      {{"mercurydpm.txt", laws_in_words(scene) + kInstructions},
-       parameters_csv(scene),
-       force_csv(scene),
-       grains_csv(scene)},
+      law_files(law, {{"mercurydpm.txt", laws_in_words(law) + kInstructions}}),
       {"MercuryDPM has no such bridge as it comes; an adhesive species has to be derived.", "Not run in MercuryDPM."}};
 }
 

@@ -58,13 +58,14 @@ std::string laws_chosen(const ContactModel& contact) {
          word_of(contact.friction_basis, friction_bases) + " normal force";
 }
 
-std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
+std::vector<ParameterRow> parameter_rows(const ExportLaw& law) {
+  const Specimen& specimen = specimen_of(law.test_of_card);
+  const ContactModel& contact = specimen.contact;
+  const double radius = specimen.grains.radius_m;
   std::vector<ParameterRow> rows{
-      {"grain_radius_m", test.grains.radius_m, "mean radius, to which the bridge's numbers belong"},
-      {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains, such that the mould holds the bulk density"},
-      {"bulk_density_kg_m3", test.bulk_density_kg_m3, "of the fresh material"},
+      {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
+      {"grain_density_kg_m3", law.grain_density_kg_m3, "of the grains"},
+      {"bulk_density_kg_m3", specimen.bulk_density_kg_m3, "of the material as the laboratory prepares it"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
       {"restitution", contact.restitution, "grain on grain, without attraction"},
@@ -72,43 +73,51 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
       {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"}};
   if (contact.normal == NormalLaw::jkr)
     rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
-  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, test.grains.radius_m);
-  rows.insert(rows.end(), {{"mould_base_radius_m", test.mould.base_radius_m, "apparatus"},
-                           {"mould_top_radius_m", test.mould.top_radius_m, "apparatus"},
-                           {"mould_height_m", test.mould.height_m, "apparatus"},
-                           {"lift_velocity_m_s", test.lift_velocity_m_s, "of the mould"}});
-  add_wall(rows, "mould", test.mould_wall);
-  add_wall(rows, "table", test.table_wall);
+  if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, radius);
+  if (const auto* slump = std::get_if<SlumpTest>(&law.test_of_card))
+    rows.insert(rows.end(), {{"mould_base_radius_m", slump->mould.base_radius_m, "apparatus"},
+                             {"mould_top_radius_m", slump->mould.top_radius_m, "apparatus"},
+                             {"mould_height_m", slump->mould.height_m, "apparatus"},
+                             {"lift_velocity_m_s", slump->lift_velocity_m_s, "of the mould"}});
+  Test test = law.test_of_card;
+  for (const Surface& surface : surfaces_of(test)) add_wall(rows, std::string(surface.name), surface.contact);
   return rows;
 }
 
-ExportFile parameters_csv(const ExportScene& scene) {
+ExportFile parameters_csv(const ExportLaw& law) {
   std::string text = "name,value,meaning\n";
-  for (const auto& row : parameter_rows(scene))
+  for (const auto& row : parameter_rows(law))
     text += format("%s,%.17g,\"%s\"\n", row.name.c_str(), row.value, row.meaning.c_str());
   return {"parameters.csv", text};
 }
 
-ExportFile force_csv(const ExportScene& scene) {
-  const auto& test = scene.test;
-  const double radius = test.grains.radius_m;
+ExportFile force_csv(const ExportLaw& law) {
+  const Specimen& specimen = specimen_of(law.test_of_card);
+  const double radius = specimen.grains.radius_m;
   std::string text = "overlap_m,attraction_n,repulsion_n\n";
-  for (const auto& point : force_table(test.contact, {radius, radius, radius}, 0.1 * radius, 2001))
+  for (const auto& point : force_table(specimen.contact, {radius, radius, radius}, 0.1 * radius, 2001))
     text += format("%.17g,%.17g,%.17g\n", point.overlap_m, point.attraction_n, point.repulsion_n);
   return {"force.csv", text};
 }
 
-ExportFile grains_csv(const ExportScene& scene) {
+ExportFile grains_csv(const ExportLaw& law) {
   std::string text = "x_m,y_m,z_m,radius_m\n";
-  for (std::size_t i = 0; i < scene.packing.centres.size(); ++i) {
-    const auto& p = scene.packing.centres[i];
-    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, scene.packing.radii[i]);
+  for (std::size_t i = 0; i < law.packing.centres.size(); ++i) {
+    const auto& p = law.packing.centres[i];
+    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, law.packing.radii[i]);
   }
   return {"grains.csv", text};
 }
 
-std::string laws_in_words(const ExportScene& scene) {
-  const ContactModel& contact = scene.test.contact;
+std::vector<ExportFile> law_files(const ExportLaw& law, std::vector<ExportFile> files) {
+  files.push_back(parameters_csv(law));
+  if (specimen_of(law.test_of_card).contact.normal == NormalLaw::hertz) files.push_back(force_csv(law));
+  if (!law.packing.centres.empty()) files.push_back(grains_csv(law));
+  return files;
+}
+
+std::string laws_in_words(const ExportLaw& law) {
+  const ContactModel& contact = specimen_of(law.test_of_card).contact;
   std::string out =
       R"(The contact law of two grains. d is the overlap: positive when they overlap, negative across a gap.
 R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 - nu)(1 + nu)/E, s = 2 R*/R.
@@ -136,7 +145,7 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
                      until the gap exceeds s |d_c|
 )";
   out += "\nHere: " + laws_chosen(contact) + ".\n\n";
-  for (const auto& row : parameter_rows(scene))
+  for (const auto& row : parameter_rows(law))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
   return out;
 }

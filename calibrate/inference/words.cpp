@@ -139,9 +139,7 @@ std::string next(const Inference& inference) {
         100 * gain.narrowing);
   }
   if (out.empty())
-    out =
-        "  No reading of this test would tell more; another test would (a "
-        "drop plate, another mould, a pellet crush).\n";
+    out = "  No reading of this test would tell more; a test of another kind, or on another apparatus, would.\n";
   return out;
 }
 

@@ -6,7 +6,6 @@
 
 #include "calibrate/base/json_reader.h"
 #include "core/laws/table.h"
-#include "core/rigs/slump/slump_test.h"
 
 namespace pastefit {
 
@@ -30,9 +29,6 @@ inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
 
 inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
     {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}}};
-
-inline constexpr std::array<Named<HeightReading>, 2> height_readings{
-    {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
 
 /// The word for a choice of a test.
 template <class T, std::size_t N>

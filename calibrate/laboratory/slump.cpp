@@ -8,6 +8,7 @@
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/rigs/slump/ruler.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 constexpr double mm = 1000;           // millimetres in a metre
 constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
 constexpr Range apparatus_length{0, 5000, true};
+constexpr std::array<Named<HeightReading>, 2> height_readings{
+    {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
+constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
 constexpr Range any;  // the test's own `validate` knows the ranges
 constexpr Need required = Need::required;
 
@@ -40,12 +44,9 @@ void describe_test(Fields& fields, Test& test) {
     reading.pairs("outline_step1_m", test.reading.outline_step1, any, any, Need::optional, 0);
     reading.pairs("outline_step2_m", test.reading.outline_step2, any, any, Need::optional, 0);
   });
-  fields.number("bulk_density_kg_m3", test.bulk_density_kg_m3, any, required);
-  fields.object("grains", required, [&](auto& grains) { describe_grains(grains, test.grains); });
-  fields.object("contact", required, [&](auto& contact) { describe_contact(contact, test.contact); });
+  describe_specimen(fields, test);
   fields.object("mould_wall", required, [&](auto& wall) { describe_wall(wall, test.mould_wall); });
   fields.object("table_wall", required, [&](auto& wall) { describe_wall(wall, test.table_wall); });
-  fields.integer("packing_seed", test.packing_seed, required);
 }
 
 double largest_pressure_pa(const SlumpTest& test) {
@@ -142,6 +143,25 @@ SlumpTest usual_test(const SlumpTest&) {
 
 void read_test(ObjectReader& reader, SlumpTest& test) {
   describe_test(reader, test);
+}
+
+std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means) {
+  const auto solid = means.find("fill.solid_fraction");
+  return solid ? std::optional(test.bulk_density_kg_m3 / *solid) : std::nullopt;
+}
+
+std::span<const std::string_view> series_of(const SlumpTest&) {
+  return series;
+}
+
+std::size_t series_at(const SlumpTest&, const Moment& moment) {
+  return moment.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(moment.drop) + 1;
+}
+
+std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment) {
+  const bool first = moment.phase == "step1.rest";
+  if (moment.drop > 0 || (!first && moment.phase != "step2.rest")) return std::nullopt;
+  return NamedOutline{first ? "step1" : "step2", outline(on_table(moment.world->particles), test.grains.radius_m)};
 }
 
 nlohmann::ordered_json conditions_of(const SlumpTest& test) {

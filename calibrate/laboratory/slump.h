@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
@@ -44,6 +46,18 @@ nlohmann::json to_json(const SlumpTest& test);
 SlumpTest usual_test(const SlumpTest&);
 /// Reads what `to_json` writes; every key must be there. Faults of form only.
 void read_test(ObjectReader& reader, SlumpTest& test);
+
+Templates templates_of(const SlumpTest& test);
+
+/// Of the grains, such that the mould holds the bulk density.
+std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means);
+
+/// The mould being filled, the test, and the second drop of its heap, each with a clock of its own.
+std::span<const std::string_view> series_of(const SlumpTest& test);
+std::size_t series_at(const SlumpTest& test, const Moment& moment);
+
+/// The heap at rest after each step, for a photograph beside it.
+std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment);
 
 /// What a fit in this test was made for, for cards, and in words.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);

@@ -56,4 +56,13 @@ void describe_wall(Fields& fields, Wall& wall) {
   fields.number("cohesion_factor", wall.cohesion_factor, Range{}, Need::required);
 }
 
+/// All of it.
+template <class Fields, class Specimen>
+void describe_specimen(Fields& fields, Specimen& specimen) {
+  fields.number("bulk_density_kg_m3", specimen.bulk_density_kg_m3, Range{}, Need::required);
+  fields.object("grains", Need::required, [&](auto& grains) { describe_grains(grains, specimen.grains); });
+  fields.object("contact", Need::required, [&](auto& contact) { describe_contact(contact, specimen.contact); });
+  fields.integer("packing_seed", specimen.packing_seed, Need::required);
+}
+
 }  // namespace pastefit

@@ -18,6 +18,19 @@ void each_kind(const Look& look) {
   all(std::make_index_sequence<std::variant_size_v<Test>>{});
 }
 
+/// The starting files of all kinds, by name.
+std::vector<std::pair<std::string, std::string_view>> all_templates() {
+  std::vector<std::pair<std::string, std::string_view>> all;
+  each_kind([&](const auto& kind) {
+    const std::string word = all.empty() ? "" : std::string(kind_of(kind)) + "-";
+    const Templates own = templates_of(kind);
+    all.emplace_back(word + "lab", own.lab);
+    all.emplace_back(word + "study", own.study);
+    return false;
+  });
+  return all;
+}
+
 }  // namespace
 
 Specimen& specimen_of(Test& test) {
@@ -62,6 +75,26 @@ void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
 
 void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test) {
   std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
+}
+
+std::optional<double> grain_density_of(const Test& test, const Observables& means) {
+  return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
+}
+
+std::string_view why_of_that_size(const Test& test) {
+  return std::visit([](const auto& one) { return why_of_that_size(one); }, test);
+}
+
+std::span<const std::string_view> series_of(const Test& test) {
+  return std::visit([](const auto& one) { return series_of(one); }, test);
+}
+
+std::size_t series_at(const Test& test, const Moment& moment) {
+  return std::visit([&](const auto& one) { return series_at(one, moment); }, test);
+}
+
+std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment) {
+  return std::visit([&](const auto& one) { return outline_at(one, moment); }, test);
 }
 
 nlohmann::ordered_json conditions_of(const Test& test) {
@@ -126,6 +159,18 @@ Fault no_such_kind(std::string where, std::string_view word) {
   std::string known;
   for (const std::string_view kind : kinds_of_tests()) known += (known.empty() ? "" : ", ") + std::string(kind);
   return {std::move(where), "there is no test " + in_quotes(word), "one of: " + known};
+}
+
+std::vector<std::string> template_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : all_templates()) names.push_back(name);
+  return names;
+}
+
+std::optional<std::string> template_text(std::string_view wanted) {
+  for (const auto& [name, text] : all_templates())
+    if (name == wanted) return std::string(text);
+  return std::nullopt;
 }
 
 std::vector<ReadingKind> all_reading_kinds() {

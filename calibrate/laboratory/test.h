@@ -16,13 +16,13 @@ namespace pastefit {
 
 /// A laboratory test of any kind. To add a kind: a folder in core/rigs with the apparatus as a value that begins with a
 /// `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what each
-/// does), and its row in this list.
+/// does, calibrate/laboratory/usual_answers.h what a kind need not say), and its row in this list.
 using Test = std::variant<SlumpTest>;
 
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
-             std::span<const Observables> runs) {
+             std::span<const Observables> runs, const Observables& means, const Moment& moment) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
   { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
   { validate(given) } -> std::same_as<Faults>;
@@ -37,6 +37,12 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { to_json(given) } -> std::same_as<nlohmann::json>;
   { usual_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
+  { templates_of(given) } -> std::same_as<Templates>;
+  { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
+  { why_of_that_size(given) } -> std::same_as<std::string_view>;
+  { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
+  { series_at(given, moment) } -> std::same_as<std::size_t>;
+  { outline_at(given, moment) } -> std::same_as<std::optional<NamedOutline>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
@@ -63,6 +69,11 @@ Outcome simulate(const Test& test, const RunOptions& options = {});
 std::vector<ReadingKind> reading_kinds(const Test& test);
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
+std::optional<double> grain_density_of(const Test& test, const Observables& means);
+std::string_view why_of_that_size(const Test& test);
+std::span<const std::string_view> series_of(const Test& test);
+std::size_t series_at(const Test& test, const Moment& moment);
+std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
@@ -81,6 +92,12 @@ std::optional<Test> test_of_kind(std::string_view kind);
 
 /// The fault of a word that no kind has.
 Fault no_such_kind(std::string where, std::string_view word);
+
+/// The names of all starting files: "lab" and "study" of the first kind, of others with their word before.
+std::vector<std::string> template_names();
+
+/// A commented starting file, fit to be read as it is. Nothing if there is none of that name.
+std::optional<std::string> template_text(std::string_view name);
 
 /// The readings of all kinds of tests, with the values of usual ones.
 std::vector<ReadingKind> all_reading_kinds();

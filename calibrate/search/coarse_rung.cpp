@@ -13,6 +13,7 @@ std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count) {
 
 Study with_coarse_grains(Study study) {
   for (StudyTest& test : study.tests) {
+    if (!why_of_that_size(test.lab.test).empty()) continue;
     GrainSizes& grains = specimen_of(test.lab.test).grains;
     grains = enlarged(grains, coarse_radius_ratio);
   }

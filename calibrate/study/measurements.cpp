@@ -60,6 +60,27 @@ void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
   }
 }
 
+/// One fault for all readings of another kind of test, if there are any; true if so.
+bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const ReadingKind> own) {
+  std::string strange;
+  std::string_view other;
+  for (const std::string_view word : kinds_of_tests()) {
+    for (const ReadingKind& kind : reading_kinds(*test_of_kind(word))) {
+      if (kind.key.empty() || !reader.has(kind.key) || std::ranges::count(own, kind.key, &ReadingKind::key) > 0)
+        continue;
+      reader.known(kind.key);
+      strange += (strange.empty() ? "" : ", ") + std::string(kind.key);
+      other = word;
+    }
+  }
+  if (strange.empty()) return false;
+  const std::string told(kind_of(test)), meant(other);
+  reader.faults().push_back({"measurements",
+                             "a " + told + " test has no " + strange + ": readings of a " + meant + " test",
+                             "readings of a " + told + " test, or \"test\": " + in_quotes(meant) + " in this file"});
+  return true;
+}
+
 }  // namespace
 
 std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
@@ -88,7 +109,10 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
       measurements.push_back(std::move(measurement));
     }
     check_orders(document, kinds, measurements);
-    if (!any) document.fault("measurements", "holds no reading", "give at least one, e.g. \"step1.height_mm\"");
+    const bool strange = refuse_strange(reader, test, kinds);
+    if (any || strange) return;
+    const auto usual = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
+    document.fault("measurements", "holds no reading", "give at least one, e.g. " + in_quotes(std::string(usual->key)));
   });
   return measurements;
 }

@@ -83,7 +83,7 @@ class ImpactRun {
     Outcome outcome;
     bool last = false;
     for (std::int64_t step = 0; !last; ++step) {
-      last = world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0;
+      last = (world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0) || rebound_is_over();
       if (options.watch && world_.time >= next_watch_) {
         next_watch_ = world_.time + options.watch_interval_s;
         if (!options.watch({"impact", world_.time, world_.step, &world_}))
@@ -177,6 +177,7 @@ class ImpactRun {
     account_work(before);
     now_ = before;
     watch_first(time, depth);
+    watch_rebound();
     watch_swing(time);
     if (first_) kinetic_at_start_ = kinetic_energy();
     first_ = false;
@@ -265,6 +266,18 @@ class ImpactRun {
     pull_ = pull;
   }
 
+  void watch_rebound() {
+    if (overlap_ <= 0 && !top_) return;
+    top_ = std::max(top_.value_or(now_[0].position.z), now_[0].position.z);
+    const bool recedes = dot(now_[0].velocity, towards_nearest_) < 0;
+    came_back_ = came_back_ || (receded_ && !recedes);
+    receded_ = receded_ || recedes;
+  }
+
+  bool rebound_is_over() const {
+    return test_.rebound_gap_m && top_ && (came_back_ || -overlap_ > *test_.rebound_gap_m);
+  }
+
   void watch_swing(double time) {
     const ImpactGrain& grain = test_.grains[0];
     swing_.add(time, dot(now_[0].position - grain.centre_m, grain.velocity_m_s));
@@ -323,6 +336,7 @@ class ImpactRun {
     if (kinetic_at_start_ > 0) readings.set("kinetic_energy_ratio", kinetic_energy() / kinetic_at_start_);
     if (momentum_size_ > 0) readings.set("momentum_drift", norm(unexplained_) / momentum_size_);
     if (const auto rate = swing_.decay_rate()) readings.set("decay_rate_1_s", *rate);
+    if (top_) readings.set("rebound_top_m", *top_);
     readings.set("work_j", work_);
     readings.set("time_s", last_time_);
     if (!rotor_time_) return;
@@ -343,6 +357,8 @@ class ImpactRun {
   Vec3 towards_nearest_;
   double overlap_ = 0, pull_ = 0, max_overlap_ = 0, max_force_ = 0, contact_time_ = 0;
   std::vector<std::optional<double>> pulls_;
+  std::optional<double> top_;  ///< of the first grain since it touched [m]
+  bool receded_ = false, came_back_ = false;
   double kinetic_at_start_ = 0;
   Vec3 unexplained_;
   double momentum_size_ = 0;
@@ -365,6 +381,7 @@ Faults validate(const Impact& test) {
   check.positive("density_kg_m3", test.density_kg_m3);
   check.positive("reference_radius_m", test.reference_radius_m);
   check.positive("duration_s", test.duration_s);
+  if (test.rebound_gap_m) check.positive("rebound_gap_m", *test.rebound_gap_m);
   check.positive("contact.youngs_modulus_pa", test.contact.youngs_modulus_pa);
   check.require(test.contact.restitution > 0 && test.contact.restitution <= 1, "contact.restitution", "is out of range",
                 "give a number above 0 and at most 1");

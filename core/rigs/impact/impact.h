@@ -54,6 +54,9 @@ struct Impact {
   std::vector<ImpactWall> walls;
   double gravity_m_s2 = 0;  ///< along -z
   double duration_s = 0;
+  /// Given: the run ends sooner, when the first grain has touched something and is farther from everything than this
+  /// gap, or comes near again: its rebound is over.
+  std::optional<double> rebound_gap_m;
   ImpactStep step = ImpactStep::per_contact;
   double steps_per_contact = 400;
   double step_s = 0;
@@ -69,7 +72,8 @@ Faults validate(const Impact& test);
 /// `grain{i}.speed_m_s`; of the first grain: `overlap_m` (at the end), `max_overlap_m`, `max_force_n` (all but its
 /// weight), `contact_time_s` (in all), `pull{k}_n` (attraction at the k-th of `pull_gaps_m`, the last time the gap had
 /// this value; absent if it never had), `decay_rate_1_s` (of its swing about where it started, along its first
-/// velocity; absent if it did not turn twice); of the first two: `relative_speed_m_s` (of their centres); of all:
+/// velocity; absent if it did not turn twice), `rebound_top_m` (its highest z since it first touched; absent if it
+/// never did); of the first two: `relative_speed_m_s` (of their centres); of all:
 /// `kinetic_energy_ratio` (end over start; absent for a start at rest), `momentum_drift` (what the impulses of walls,
 /// weight and hands leave unexplained, over the sum of m |v| at its largest), `work_j` (of the hands that hold grains),
 /// `time_s`; of a rotor that reached its stop: `rotor_time_s`, `rotor_rad_s`. Requirement: `validate(test)` is empty.

@@ -29,6 +29,7 @@ ExportScene scene(const SlumpTest& test) {
   ExportScene out;
   out.title = "Paste";
   out.test = test;
+  out.test_of_card = test;
   out.packing.centres = {{0, 0, kRadius}, {0.05, 0, kRadius}, {0, 0.05, 0.1}};
   out.packing.radii.assign(3, kRadius);
   out.grain_density_kg_m3 = 3800;
@@ -114,9 +115,9 @@ TEST_CASE("the test that is exported is the one that is named, or else the first
     test.name = name;
     test.test = paste();
   }
-  CHECK(test_to_export(card, "").value().name == "slow");
-  CHECK(test_to_export(card, "fast").value().name == "fast");
-  const auto none = test_to_export(card, "fats");
+  CHECK(test_to_export(card, exporters()[0], "").value().name == "slow");
+  CHECK(test_to_export(card, exporters()[0], "fast").value().name == "fast");
+  const auto none = test_to_export(card, exporters()[0], "fats");
   REQUIRE_FALSE(none.ok());
   CHECK(none.faults()[0].where == "--test fats");
   CHECK_THAT(none.faults()[0].remedy, Catch::Contains("slow, fast"));
@@ -161,9 +162,9 @@ TEST_CASE("a law the target lacks is refused, with a remedy") {
 }
 
 TEST_CASE("a law of the overlap that a target lacks is refused by each, with one fault") {
-  Card material = paste();
-  specimen_of(material.test).contact.normal = NormalLaw::jkr;
-  specimen_of(material.test).contact.surface_energy_j_m2 = 5;
+  SlumpTest material = paste();
+  material.contact.normal = NormalLaw::jkr;
+  material.contact.surface_energy_j_m2 = 5;
   for (const auto& exporter : exporters()) {
     INFO(exporter.name);
     const auto written = exporter.write(scene(material));
@@ -177,11 +178,11 @@ TEST_CASE("a law of the overlap that a target lacks is refused by each, with one
 }
 
 TEST_CASE("JKR without a bridge goes to EDEM, which has it, with its surface energy") {
-  Card material = paste();
-  specimen_of(material.test).contact.normal = NormalLaw::jkr;
-  specimen_of(material.test).contact.bridge.shape = BridgeShape::none;
+  SlumpTest material = paste();
+  material.contact.normal = NormalLaw::jkr;
+  material.contact.bridge.shape = BridgeShape::none;
   std::vector<double> values = usual_values();
-  material.test = with_contact_of(material.test, values);
+  material = std::get<SlumpTest>(with_contact_of(material, values));
   const auto written = export_edem_notes(scene(material));
   REQUIRE(written.ok());
   const auto text = text_of(written.value());
@@ -191,8 +192,8 @@ TEST_CASE("JKR without a bridge goes to EDEM, which has it, with its surface ene
 
 TEST_CASE("an attraction of every law is written by every exporter, and its curve is the card's") {
   for (const auto& [word, shape] : bridge_shapes) {
-    Card material = paste();
-    specimen_of(material.test).contact.bridge.shape = shape;
+    SlumpTest material = paste();
+    material.contact.bridge.shape = shape;
     material.test = with_contact_of(material.test, usual_values());
     for (const auto& exporter : exporters()) {
       INFO(exporter.name << ", " << word);
@@ -200,7 +201,7 @@ TEST_CASE("an attraction of every law is written by every exporter, and its curv
       REQUIRE(written.ok());
       CHECK_THAT(text_of(written.value()), !Catch::Contains("nan") && !Catch::Contains("-inf"));
     }
-    const ContactModel& contact = specimen_of(material.test).contact;
+    const ContactModel& contact = material.contact;
     const auto force = force_csv(scene(material)).content;
     const double half = -0.5 * rupture_gap(contact.bridge, kRadius);
     const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);

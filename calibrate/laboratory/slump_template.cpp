@@ -1,6 +1,4 @@
-#include "calibrate/study/template.h"
-
-#include <array>
+#include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
 namespace {
@@ -103,25 +101,10 @@ constexpr std::string_view study_text =
 }
 )";
 
-struct Template {
-  std::string_view name;
-  std::string_view text;
-};
-
-constexpr std::array<Template, 2> templates{{{"lab", lab_text}, {"study", study_text}}};
-
 }  // namespace
 
-std::vector<std::string_view> template_names() {
-  std::vector<std::string_view> names;
-  for (const Template& each : templates) names.push_back(each.name);
-  return names;
-}
-
-std::optional<std::string> template_text(std::string_view name) {
-  for (const Template& each : templates)
-    if (each.name == name) return std::string(each.text);
-  return std::nullopt;
+Templates templates_of(const SlumpTest&) {
+  return {lab_text, study_text};
 }
 
 }  // namespace pastefit

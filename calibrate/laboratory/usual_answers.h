@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "calibrate/base/json_reader.h"
+#include "core/observe/observables.h"
+#include "core/observe/outline.h"
+#include "core/rigs/reading_kind.h"
+#include "core/rigs/specimen.h"
+#include "core/step/run.h"
+
+namespace pastefit {
+
+/// The commented starting files of a kind of test; the study names its laboratory file "lab.json", beside it.
+struct Templates {
+  std::string_view lab, study;
+};
+
+/// An outline that a laboratory file may take as it is.
+struct NamedOutline {
+  std::string_view name;  ///< the stage of the test, e.g. "step1"
+  Outline outline;
+};
+
+// What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
+// kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
+
+inline std::shared_ptr<const Packing> prepare(const Specimen&, const RunOptions&) {
+  return nullptr;
+}
+
+inline std::string preparation_key(const Specimen&) {
+  return {};
+}
+
+/// A laboratory's outline; called for readings that come from one only (`ReadingKind::from_outline`).
+inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
+
+/// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known.
+inline std::optional<double> grain_density_of(const Specimen&, const Observables&) {
+  return std::nullopt;
+}
+
+/// Why the grains have to be as large as the laboratory's, for a person; empty: their size is the simulation's choice.
+inline std::string_view why_of_that_size(const Specimen&) {
+  return {};
+}
+
+/// The names of the series of pictures that a run may be shown in, and the one that a moment belongs to.
+inline std::span<const std::string_view> series_of(const Specimen&) {
+  static constexpr std::array<std::string_view, 1> only{"grains"};
+  return only;
+}
+
+inline std::size_t series_at(const Specimen&, const Moment&) {
+  return 0;
+}
+
+/// What stands there is seen from the side, at moments that are worth a drawing; of one name the last counts.
+inline std::optional<NamedOutline> outline_at(const Specimen&, const Moment&) {
+  return std::nullopt;
+}
+
+/// What a person should know of these runs besides their readings. A line, or nothing.
+inline std::string remarks_on(const Specimen&, std::span<const Observables>) {
+  return {};
+}
+
+}  // namespace pastefit

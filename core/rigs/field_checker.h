@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/result.h"
+#include "core/rigs/specimen.h"
+
+namespace pastefit {
+
+/// Collects faults of numbers that are not finite or not in their range.
+class FieldChecker {
+ public:
+  void range(const char* where, double value, double lower, double upper, const char* unit) {
+    if (std::isfinite(value) && value >= lower && value <= upper) return;
+    faults_.push_back({where, "is " + text(value) + " " + unit,
+                       "give a number from " + text(lower) + " to " + text(upper) + " " + unit});
+  }
+  void require(bool holds, const char* where, std::string what, std::string remedy) {
+    if (!holds) faults_.push_back({where, std::move(what), std::move(remedy)});
+  }
+  Faults take() { return std::move(faults_); }
+
+  static std::string text(double value) {
+    std::string s(32, '\0');
+    s.resize(std::snprintf(s.data(), s.size(), "%.6g", value));
+    return s;
+  }
+
+ private:
+  Faults faults_;
+};
+
+/// Faults of what all tests share: grains, density, contact laws. Places are the fields' paths in a test.
+void check_specimen(FieldChecker& check, const Specimen& specimen);
+
+/// Faults of a surface of the apparatus.
+void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name);
+
+/// The radius of the largest grain that these sizes allow.
+double largest_radius(const GrainSizes& sizes);
+
+}  // namespace pastefit

@@ -1,0 +1,120 @@
+"""Every kind of laboratory test on its way through the program, from its starting files to an export.
+
+usage: test_pipe.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+LAWS = ("csv", "edem-notes", "mercurydpm")
+FEW = {"screening": 6, "budget_simulations": 40, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+def template(name):
+    text = run("template", name).stdout
+    return json.loads(re.sub(r"(^|\s)//.*$", "", text, flags=re.M))
+
+
+def schema(name):
+    return json.loads((SOURCE / f"data/schema/{name}.schema.json").read_text())
+
+
+def kinds():
+    return schema("lab")["properties"]["test"]["enum"]
+
+
+def is_slump(kind):
+    return kind == kinds()[0]
+
+
+class Pipe(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-pipe-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def done(self, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 0, f"{arguments}\n{result.stdout}{result.stderr}")
+        self.assertNotRegex(result.stdout + result.stderr, r"\bnan\b|\binf\b")
+        return result.stdout
+
+    def write(self, kind):
+        """The starting files of the kind, with a search of a few simulations, and coarse grains if it pours any."""
+        word = "" if is_slump(kind) else kind + "-"
+        lab, study = template(word + "lab"), template(word + "study")
+        if is_slump(kind):
+            lab["grains"]["radius_mm"] = 14
+        jsonschema.validate(lab, schema("lab"))
+        study["search"].update(FEW)
+        jsonschema.validate(study, schema("study"))
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        (self.folder / "study.json").write_text(json.dumps(study))
+        return self.folder / "study.json"
+
+    def test_every_kind_of_test_goes_through_the_pipe(self):
+        for kind in kinds():
+            with self.subTest(kind):
+                out = self.folder / kind
+                self.done("calibrate", self.write(kind), "--out", out)
+                card = out / "card.json"
+                document = json.loads(card.read_text())
+                jsonschema.validate(document, schema("card"))
+                self.assertTrue(document["baseline"]["readings"])
+                self.assertIn(document["title"], self.done("show", card))
+                self.assertIn("agrees", self.done("check", card))
+                again = json.loads(self.done("simulate", card, "--json", "--out", out / "film", "--vtk", "0.25"))
+                readings = document["baseline"]["readings"]
+                self.assertEqual({name: values[0] for name, values in readings.items()}, again["observables"])
+                self.assertTrue((out / "film/grains.pvd").exists())
+                for target in LAWS:
+                    self.done("export", card, "--to", target, "--out", out / target)
+                    self.assertTrue((out / target / "parameters.csv").read_text().startswith("name,value,meaning"))
+                self.assertEqual((out / "csv/grains.csv").exists(), is_slump(kind))
+                resumed = self.done("calibrate", self.folder / "study.json", "--out", out, "--resume")
+                self.assertEqual(json.loads(card.read_text()), document, resumed)
+
+    def test_a_deck_is_written_of_a_slump_test_and_refused_with_a_reason_of_others(self):
+        for kind in kinds():
+            with self.subTest(kind):
+                out = self.folder / kind
+                self.done("calibrate", self.write(kind), "--out", out, "--budget", "8")
+                result = run("export", out / "card.json", "--to", "lammps", "--out", out / "deck")
+                if is_slump(kind):
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    continue
+                self.assertEqual(result.returncode, 2)
+                for words in (f"is a {kind} test", "csv"):
+                    self.assertIn(words, result.stderr)
+                self.assertFalse((out / "deck").exists())
+
+    def test_readings_of_another_kind_are_refused_in_one_message(self):
+        of_kind = {}
+        for kind in kinds():
+            of_kind[kind] = template(("" if is_slump(kind) else kind + "-") + "lab")
+        for kind in kinds():
+            for other in set(kinds()) - {kind}:
+                with self.subTest(f"{kind} with readings of {other}"):
+                    file = self.folder / "strange.json"
+                    file.write_text(json.dumps(dict(of_kind[kind], measurements=of_kind[other]["measurements"])))
+                    result = run("simulate", file)
+                    self.assertEqual(result.returncode, 2)
+                    self.assertEqual(len(re.findall("measurements", result.stderr)), 1, result.stderr)
+                    for words in (f"a {kind} test has no", f"readings of a {other} test"):
+                        self.assertIn(words, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
