@@ -75,17 +75,24 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
-/// What a person should know of the runs of each test besides their readings.
+/// What a person should know of the runs of each test besides their readings, and of the laboratory's readings taken
+/// together.
 std::string remark_lines(const Card& card) {
   std::string out;
-  const auto add = [&](const Test& test, const Baseline& baseline, const std::string& name) {
+  const auto add = [&](const Test& test, const std::vector<CardObservable>& observables, const Baseline& baseline,
+                       const std::string& name) {
+    std::vector<Measurement> measurements;
+    for (const auto& one : observables)
+      if (one.measured) measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
+    std::vector<std::string> remarks;
+    for (const std::string& note : doubts_about(test, measurements).notes) remarks.push_back("Laboratory: " + note);
     std::vector<Observables> runs;
     for (const auto& run : baseline.runs) runs.push_back(run.observables);
-    const std::string remarks = remarks_on(test, runs);
-    if (!remarks.empty()) out += (name.empty() ? "" : "Test " + name + ": ") + remarks + ".\n";
+    if (std::string on_runs = remarks_on(test, runs); !on_runs.empty()) remarks.push_back(std::move(on_runs));
+    for (const std::string& remark : remarks) out += (name.empty() ? "" : "Test " + name + ": ") + remark + ".\n";
   };
-  add(card.test, card.baseline, card.test_name);
-  for (const auto& test : card.further) add(test.test, test.baseline, test.name);
+  add(card.test, card.observables, card.baseline, card.test_name);
+  for (const auto& test : card.further) add(test.test, test.observables, test.baseline, test.name);
   return out;
 }
 
