@@ -87,6 +87,15 @@ std::string changes_in(const Study& study, const Store& store) {
          " candidates are known from before within the present bounds; they do not count in the budget.\n";
 }
 
+/// What the laboratories' readings look like, taken together.
+std::string notes_on_readings(const Study& study) {
+  std::string out;
+  for (const StudyTest& test : study.tests)
+    for (const std::string& note : doubts_about(test.lab.test, test.lab.measurements).notes)
+      out += test.lab_file + ": " + note + ".\n";
+  return out;
+}
+
 /// Card and summary, to the folder and to the person.
 int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
@@ -141,7 +150,7 @@ int calibrate(const CalibrateOptions& options) {
 
   std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
               budget, store.value().size());
-  std::printf("%s%s", changes_in(study, store.value()).c_str(),
+  std::printf("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
               warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
   ProgressLine line(budget, misfit_unit_of(study));
   EvaluatorOptions evaluator;

@@ -13,6 +13,11 @@ constexpr std::uint64_t first_packing = 900;  // beyond any the search of the sa
 
 }  // namespace
 
+std::string reason_for(bool confirmed, std::size_t packings) {
+  return confirmed ? "which was confirmed on " + std::to_string(packings) + " fresh packings"
+                   : "the best that was found; it is not confirmed";
+}
+
 Inference examine(const Study& study, Objective& objective, const Store& store, const Calibration& calibration,
                   int simulations, std::uint64_t seed) {
   std::vector<Response> history = calibration.history;
@@ -28,9 +33,7 @@ Inference examine(const Study& study, Objective& objective, const Store& store, 
   }
   Inference inference = infer(evidence(), calibration.best.point, options);
   inference.recommended_because =
-      calibration.status == CalibrationStatus::confirmed
-          ? "which was confirmed on " + std::to_string(calibration.confirmation.packings.size()) + " fresh packings"
-          : "the best that was found; it is not confirmed";
+      reason_for(calibration.status == CalibrationStatus::confirmed, calibration.confirmation.packings.size());
   return inference;
 }
 

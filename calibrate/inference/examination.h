@@ -1,9 +1,14 @@
 #pragma once
 
+#include <string>
+
 #include "calibrate/inference/inference.h"
 #include "calibrate/search/strategy.h"
 
 namespace pastefit {
+
+/// Why a material is the one that is recommended, for `Inference::recommended_because`.
+std::string reason_for(bool confirmed, std::size_t packings);
 
 /// Asks what a finished search leaves open: simulates other materials that may meet the laboratory as well, spread as
 /// far apart as can be, each on one fresh packing, in two rounds of which the second knows the first. Then infers.

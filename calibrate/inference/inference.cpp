@@ -1,5 +1,6 @@
 #include "calibrate/inference/inference.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 
 #include "calibrate/inference/posterior.h"
+#include "calibrate/inference/response_model.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
 
@@ -44,13 +46,6 @@ Eigen::VectorXd deviations_before(const Evidence& evidence) {
   for (std::size_t j = 0; j < evidence.parameters.size(); ++j)
     out[static_cast<Eigen::Index>(j)] = deviation_before(evidence.parameters[j]);
   return out;
-}
-
-std::vector<std::size_t> fitted_of(const Evidence& evidence) {
-  std::vector<std::size_t> fitted;
-  for (std::size_t k = 0; k < evidence.readings.size(); ++k)
-    if (evidence.readings[k].fitted()) fitted.push_back(k);
-  return fitted;
 }
 
 double quantile(const std::vector<double>& sorted, double share) {
@@ -135,10 +130,10 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at) {
   const Evidence& evidence = model.evidence();
   const Eigen::VectorXd before = deviations_before(evidence);
-  Eigen::MatrixXd scaled = jacobian_of(model, fitted, at) * before.asDiagonal();
-  for (std::size_t k = 0; k < fitted.size(); ++k)
-    scaled.row(static_cast<Eigen::Index>(k)) /=
-        std::sqrt(evidence.readings[fitted[k]].variance() + model.predict(fitted[k], at).variance);
+  // The symmetric root: each row stays the one of its reading, as far as the readings are told apart.
+  const Eigen::MatrixXd in_deviations =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model.covariance(at)).operatorInverseSqrt();
+  const Eigen::MatrixXd scaled = in_deviations * jacobian_of(model, fitted, at) * before.asDiagonal();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeFullU | Eigen::ComputeFullV);
   std::vector<Combination> combinations;
   for (Eigen::Index i = 0; i < at.size(); ++i) {
@@ -321,9 +316,9 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
 }
 
 Inference infer(const Evidence& evidence, const UnitPoint& recommended, const InferenceOptions& options) {
-  const std::vector<std::size_t> fitted = fitted_of(evidence);
-  if (fitted.empty()) throw std::logic_error("infer: no reading is fitted");
   const ResponseModel model(evidence);
+  const std::vector<std::size_t>& fitted = model.fitted();
+  if (fitted.empty()) throw std::logic_error("infer: no reading is fitted");
   const auto dimension = recommended.size();
   const std::vector<UnitPoint> sample = sample_of(model, options);
   const Moments moments = moments_of(sample);
@@ -333,7 +328,7 @@ Inference infer(const Evidence& evidence, const UnitPoint& recommended, const In
   double usual_deviation = std::numeric_limits<double>::infinity();
   for (const std::size_t k : fitted) {
     out.fitted.push_back(evidence.readings[k].name);
-    out.noise.push_back(model.noise(k));
+    out.noise.push_back(model.noise(k, recommended));
     usual_deviation = std::min(usual_deviation, evidence.readings[k].deviation);
   }
   out.combinations = combinations_of(model, fitted, recommended);

@@ -66,8 +66,8 @@ struct MeasurementGain {
 /// What a calibration knows, and what it does not.
 struct Inference {
   std::vector<std::string> fitted;               ///< the readings behind it
-  std::vector<double> noise;                     ///< standard deviation of each in one simulation,
-                                                 ///< from packing to packing
+  std::vector<double> noise;                     ///< standard deviation of each in one simulation of the
+                                                 ///< recommended candidate, from packing to packing
   std::vector<ParameterInterval> intervals;      ///< of the free parameters, in their order
   std::vector<std::vector<double>> correlation;  ///< of the free parameters, after the measurement
   std::vector<Combination> combinations;         ///< best determined first; one for each free parameter
@@ -92,7 +92,7 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
                                              const InferenceOptions& options = {});
 
 /// What the evidence says about the parameters of a study, without further
-/// simulations. See `evidence.h` for the likelihood, `posterior.h` for the
+/// simulations. See `response_model.h` for the likelihood, `posterior.h` for the
 /// sample. Bounds count as prior knowledge, evenly spread on the parameter's scale, or by its prior if the study gives
 /// one. Limits: the law itself is taken as right, and so is its grain size;
 /// what both are off is in none of the intervals. Requirements: some simulation

@@ -109,6 +109,10 @@ std::string remarks_on(const Test& test, std::span<const Observables> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }
 
+Doubts doubts_about(const Test& test, std::span<const Measurement> measurements) {
+  return std::visit([&](const auto& one) { return doubts_about(one, measurements); }, test);
+}
+
 Faults validate(const Test& test) {
   return std::visit([](const auto& one) { return validate(one); }, test);
 }

@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "calibrate/laboratory/heap_shape.h"
+#include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
@@ -22,7 +24,8 @@ using Test = std::variant<SlumpTest>;
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
-             std::span<const Observables> runs, const Observables& means, const Moment& moment) {
+             std::span<const Observables> runs, const Observables& means, const Moment& moment,
+             std::span<const Measurement> measurements) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
   { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
   { validate(given) } -> std::same_as<Faults>;
@@ -46,6 +49,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
+  { doubts_about(given, measurements) } -> std::same_as<Doubts>;
 };
 
 namespace detail {
@@ -77,6 +81,7 @@ std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
+Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);

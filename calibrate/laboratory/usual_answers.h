@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/measurement.h"
 #include "core/observe/observables.h"
 #include "core/observe/outline.h"
 #include "core/rigs/reading_kind.h"
@@ -64,6 +65,11 @@ inline std::size_t series_at(const Specimen&, const Moment&) {
 /// What stands there is seen from the side, at moments that are worth a drawing; of one name the last counts.
 inline std::optional<NamedOutline> outline_at(const Specimen&, const Moment&) {
   return std::nullopt;
+}
+
+/// What these measurements, taken together, cannot be, or can hardly be.
+inline Doubts doubts_about(const Specimen&, std::span<const Measurement>) {
+  return {};
 }
 
 /// What a person should know of these runs besides their readings. A line, or nothing.

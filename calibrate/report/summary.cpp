@@ -90,15 +90,19 @@ std::string hold_out_lines(const Card& card) {
   return out;
 }
 
-/// What a person should know of each test besides its readings.
+/// What a person should know of each test besides its readings, and of the laboratory's readings taken together.
 std::string remark_lines(const Card& card) {
   std::string out;
   for (const auto& test : card.tests) {
-    if (test.lab.twin) out += heading_of(test) + "The laboratory's data were made by a simulation (a twin).\n";
+    const auto say = [&](const std::string& remark) { out += heading_of(test) + remark + ".\n"; };
+    if (test.lab.twin) say("The laboratory's data were made by a simulation (a twin)");
+    std::vector<Measurement> measurements;
+    for (const auto& one : test.observables)
+      if (one.measured) measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
+    for (const std::string& note : doubts_about(test.test, measurements).notes) say("Laboratory: " + note);
     std::vector<Observables> runs;
     for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
-    const std::string remarks = remarks_on(test.test, runs);
-    if (!remarks.empty()) out += heading_of(test) + remarks + ".\n";
+    if (const std::string on_runs = remarks_on(test.test, runs); !on_runs.empty()) say(on_runs);
   }
   return out;
 }

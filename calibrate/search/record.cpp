@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <set>
 #include <unordered_set>
+#include <utility>
 
 #include "calibrate/search/early_end.h"
 #include "calibrate/study/parameters.h"
@@ -43,6 +46,31 @@ std::optional<std::vector<double>> point_of(const Study& study, std::span<const 
     point.push_back(std::clamp(unit, 0.0, 1.0));
   }
   return point;
+}
+
+/// The candidates of epochs before this one that hold for the study, each on each packing once; `ways`: as they may
+/// have answered (`tried`), the better one first. Ordered by values and packing.
+std::vector<StoredEvaluation> held(const Study& study, const Store& store, int before,
+                                   std::initializer_list<bool> ways) {
+  std::vector<StoredEvaluation> out;
+  const auto tests = tests_of(study, false);
+  std::set<std::pair<std::vector<double>, std::uint64_t>> known;
+  for (const StoredEvaluation& evaluation : store.all()) {
+    if (evaluation.epoch >= before) continue;
+    const auto point = point_of(study, evaluation.values);
+    if (!point) continue;
+    std::optional<StoredEvaluation> found;
+    for (const bool tried : ways)
+      if (!found) found = find_in(study, tests, store, evaluation.values, evaluation.packing, before, tried);
+    if (!found || !known.emplace(found->values, found->packing).second) continue;
+    found->point = *point;
+    out.push_back(std::move(*found));
+  }
+  // The order of arrival depends on the machine.
+  std::ranges::sort(out, [](const StoredEvaluation& a, const StoredEvaluation& b) {
+    return a.values != b.values ? a.values < b.values : a.packing < b.packing;
+  });
+  return out;
 }
 
 }  // namespace
@@ -98,23 +126,11 @@ std::size_t holding(const Study& study, const Store& store) {
 }
 
 std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store) {
-  std::vector<StoredEvaluation> out;
-  const auto tests = tests_of(study, false);
-  std::unordered_set<std::string> known;
-  for (const StoredEvaluation& evaluation : store.all()) {
-    if (evaluation.epoch >= store.epoch()) continue;
-    const auto point = point_of(study, evaluation.values);
-    if (!point) continue;
-    auto found = find_in(study, tests, store, evaluation.values, evaluation.packing, store.epoch(), true);
-    if (!found || !known.insert(found->key).second) continue;
-    found->point = *point;
-    out.push_back(std::move(*found));
-  }
-  // The order of arrival depends on the machine.
-  std::ranges::sort(out, [](const StoredEvaluation& a, const StoredEvaluation& b) {
-    return a.values != b.values ? a.values < b.values : a.packing < b.packing;
-  });
-  return out;
+  return held(study, store, store.epoch(), {true});
+}
+
+std::vector<StoredEvaluation> everything_of(const Study& study, const Store& store) {
+  return held(study, store, std::numeric_limits<int>::max(), {false, true});
 }
 
 std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, std::span<const Response> history) {

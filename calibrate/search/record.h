@@ -35,6 +35,10 @@ std::size_t holding(const Study& study, const Store& store);
 /// ordered by values and packing.
 std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store);
 
+/// Everything the store holds of the study as it is now, whatever search asked for it, in the same order: each
+/// candidate on each packing once, run to its end where that is known. The store may be of another program.
+std::vector<StoredEvaluation> everything_of(const Study& study, const Store& store);
+
 /// Everything a search knows in the end: what earlier epochs left, and the record of what it has asked, each candidate
 /// on each packing once, in the order of asking: the same whatever else the store holds and in whichever order it came
 /// in. What a stop cut off is not there.

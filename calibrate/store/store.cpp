@@ -47,8 +47,8 @@ void create(Database& database, const StoreIdentity& identity) {
 
 const std::string kStartAnew = "choose another output folder, or start anew with --force";
 
-/// What keeps a non-empty database from being a store of these inputs.
-Faults differences(Database& database, const std::string& file, const StoreIdentity& identity) {
+/// What keeps a non-empty database from being a store.
+Faults defects(Database& database, const std::string& file) {
   if (database.number("PRAGMA application_id") != kApplicationId)
     return {{file, "is a database, but not a store of evaluations", "choose another output folder"}};
   if (const int version = database.number("PRAGMA user_version"); version != kSchemaVersion)
@@ -58,8 +58,18 @@ Faults differences(Database& database, const std::string& file, const StoreIdent
              "resume with the program that wrote it; or " + kStartAnew}};
   if (const auto verdict = database.run("PRAGMA quick_check(1)").at(0).at(0); verdict != "ok")
     return {{file, "is damaged: " + verdict, "restore it from a copy; or " + kStartAnew}};
+  return {};
+}
+
+std::string program_of(Database& database) {
   const auto rows = database.run("SELECT value FROM identity WHERE name = 'program'");
-  const std::string theirs = rows.empty() ? "" : rows[0][0];
+  return rows.empty() ? "" : rows[0][0];
+}
+
+/// What keeps a non-empty database from being a store of these inputs.
+Faults differences(Database& database, const std::string& file, const StoreIdentity& identity) {
+  if (auto faults = defects(database, file); !faults.empty()) return faults;
+  const std::string theirs = program_of(database);
   if (theirs == identity.program) return {};
   return {{file + ": program", "evaluations belong to '" + theirs + "', not to '" + identity.program + "'",
            "resume with the program that wrote it; or " + kStartAnew}};
@@ -127,6 +137,19 @@ struct Store::State {
   mutable std::mutex mutex;
   std::vector<StoredEvaluation> evaluations;
   std::unordered_map<std::string, std::size_t> index;
+
+  /// Takes what the file holds; answers its last inputs.
+  std::string load() {
+    for (const auto& row : database.run("SELECT key, epoch, point, parameter_values, packing, observables, failure,"
+                                        " run FROM evaluations ORDER BY sequence")) {
+      auto evaluation = evaluation_of(row);
+      index.emplace(evaluation.key, evaluations.size());
+      evaluations.push_back(std::move(evaluation));
+    }
+    const auto last = database.run("SELECT epoch, content FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
+    epoch = std::stoi(last.at(0));
+    return last.at(1);
+  }
 };
 
 Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -147,16 +170,8 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
     database.run("PRAGMA journal_mode = WAL");
     database.run("PRAGMA synchronous = FULL");
     if (fresh) create(database, identity);
-    for (const auto& row : database.run("SELECT key, epoch, point, parameter_values, packing, observables, failure,"
-                                        " run FROM evaluations ORDER BY sequence")) {
-      auto evaluation = evaluation_of(row);
-      state->index.emplace(evaluation.key, state->evaluations.size());
-      state->evaluations.push_back(std::move(evaluation));
-    }
-    const auto last = database.run("SELECT epoch, content FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
-    state->epoch = std::stoi(last.at(0));
-    if (last.at(1) != identity.inputs) {
-      state->changes = changes_of(last.at(1), identity.inputs);
+    if (const std::string before = state->load(); before != identity.inputs) {
+      state->changes = changes_of(before, identity.inputs);
       ++state->epoch;
       state->begun = false;
     }
@@ -164,6 +179,20 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
   } catch (const std::exception& error) {
     return Fault{file.string(), std::string("cannot be used as the store of evaluations: ") + error.what(),
                  "a writable place, free of other files of that name; or " + kStartAnew};
+  }
+}
+
+Result<Store> Store::read(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    return Fault{file.string(), "there is no such file", "the folder of a calibration"};
+  try {
+    auto state = std::make_unique<State>(file, StoreIdentity{});
+    if (auto faults = defects(state->database, file.string()); !faults.empty()) return faults;
+    state->identity = {program_of(state->database), state->load()};
+    return Store(std::move(state));
+  } catch (const std::exception& error) {
+    return Fault{file.string(), std::string("cannot be read as a store of evaluations: ") + error.what(),
+                 "the store of a calibration"};
   }
 }
 

@@ -59,6 +59,10 @@ class Store {
   /// writable.
   static Result<Store> open(const std::filesystem::path& file, const StoreIdentity& identity);
 
+  /// Opens a store to look at what it holds, whichever program and inputs it is of; nothing is to be added.
+  /// Errors: there is no such file, not a database, damaged, not a store, other schema version.
+  static Result<Store> read(const std::filesystem::path& file);
+
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();

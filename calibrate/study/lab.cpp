@@ -30,6 +30,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     if (values_are_good(faults, before))
       for (Fault& fault : validate_in_file_words(lab.test)) faults.push_back(std::move(fault));
     lab.measurements = read_measurements(reader, lab.test);
+    if (values_are_good(faults, before))
+      for (Fault& fault : doubts_about(lab.test, lab.measurements).faults) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) return faults;
   const std::string rig = preset ? preset->content : "";

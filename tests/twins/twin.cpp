@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrate/inference/examination.h"
+#include "calibrate/inference/response_model.h"
 #include "calibrate/search/screening.h"
 #include "calibrate/search/search_run.h"
 #include "calibrate/store/program.h"

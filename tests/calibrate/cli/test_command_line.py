@@ -391,6 +391,31 @@ class CommandLine(unittest.TestCase):
             (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
         self.assertLessEqual(stored, 16)
 
+    def test_infer_says_what_the_stored_simulations_tell_and_simulates_nothing(self):
+        study = self.study(budget=16, screening=6)
+        self.assertEqual(run("calibrate", study, "--out", self.out).returncode, 0)
+        files = ("card.json", "evaluations.sqlite", "summary.txt")
+        kept = {file: (self.out / file).read_bytes() for file in files}
+        result = run("infer", study, "--from", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("What the readings say", result.stdout)
+        self.fails(run("infer", study, "--from", self.out, "--out", self.out), 2, "earlier result", "--force")
+        self.assertEqual({file: (self.out / file).read_bytes() for file in files}, kept)
+
+        card = json.loads(kept["card.json"])
+        spoiled = {key: value for key, value in card.items() if key not in ("intervals", "not_identified")}
+        (self.out / "card.json").write_text(json.dumps(spoiled))
+        result = run("infer", study, "--from", self.out, "--out", self.out, "--force")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        again = json.loads((self.out / "card.json").read_text())
+        self.assertEqual({**again, "intervals": 0, "not_identified": 0, "correlation": 0},
+                         {**card, "intervals": 0, "not_identified": 0, "correlation": 0})
+        self.assertEqual((self.out / "evaluations.sqlite").read_bytes(), kept["evaluations.sqlite"])
+
+        self.fails(run("infer", study, "--from", self.folder / "none"), 2, "card.json")
+        other = self.study(budget=16, screening=6, title="another")
+        self.fails(run("infer", other, "--from", self.out), 2, "another study", "--resume")
+
     def test_a_wall_budget_ends_a_run_with_the_best_so_far(self):
         start = time.monotonic()
         result = run("calibrate", self.study(budget=500, screening=400), "--out", self.out, "--wall-budget", "3")

@@ -201,3 +201,42 @@ TEST_CASE("the same evidence gives the same inference") {
   const std::string once = words_of(infer(evidence_for({sum_of_both, second_alone}), middle));
   CHECK(words_of(infer(evidence_for({sum_of_both, second_alone}), middle)) == once);
 }
+
+TEST_CASE("a simulation that ended early says that it read less, not that it read its bound") {
+  const Evidence whole = evidence_for({first_alone});
+  Evidence cut = whole;
+  ReadingEvidence& height = cut.readings[0];
+  constexpr double cutoff = 38;
+  for (double& value : height.simulated) {
+    height.is_bound.push_back(value <= cutoff);
+    value = std::max(value, cutoff);
+  }
+  Evidence equal = cut;
+  equal.readings[0].is_bound.clear();
+  const auto lower = [](const Evidence& evidence) { return infer(evidence, middle).intervals[0].lower; };
+  const double known = lower(whole);
+  CHECK(lower(cut) == Approx(known).margin(0.02));
+  CHECK(std::abs(lower(cut) - known) < std::abs(lower(equal) - known));
+}
+
+TEST_CASE("readings of one heap that scatter against each other tell more together than apart") {
+  // Both rise with the first parameter, with a noise of 5 each: var = 25/(100^2 2) (1 + r).
+  const auto uncertainty = [](double correlation) {
+    Evidence evidence = evidence_for({first_alone, {"step1.spread_mm", first_alone.mean, 50}}, 16);
+    const std::vector<UnitPoint> sites = evidence.points;
+    evidence.points.clear();
+    std::vector<double> heights, spreads;
+    for (std::uint64_t i = 0; i < 160; ++i) {
+      const UnitPoint& site = sites[i % sites.size()];
+      const double one = normal(i, 7), other = normal(i, 8);
+      evidence.points.push_back(site);
+      heights.push_back(100 * site[0] + 5 * one);
+      spreads.push_back(100 * site[0] + 5 * (correlation * one + std::sqrt(1 - correlation * correlation) * other));
+    }
+    evidence.readings[0].simulated = Eigen::Map<Eigen::VectorXd>(heights.data(), std::ssize(heights));
+    evidence.readings[1].simulated = Eigen::Map<Eigen::VectorXd>(spreads.data(), std::ssize(spreads));
+    return infer(evidence, middle).intervals[0].uncertainty / std::sqrt(12.0);
+  };
+  for (const double correlation : {0.0, -0.8})
+    CHECK(uncertainty(correlation) == Approx(0.05 * std::sqrt((1 + correlation) / 2)).epsilon(0.15));
+}

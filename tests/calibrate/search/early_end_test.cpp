@@ -186,6 +186,27 @@ TEST_CASE("the surrogate learns a reading from the simulations that took it") {
   CHECK(Surrogate(seen).evaluate(points, {}).at(1).residuals[1] == 0);
 }
 
+TEST_CASE("what any search left in a store is found again, run to its end where it was, by whichever program") {
+  TwoSteps laboratory;
+  {
+    auto store = laboratory.store();
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    const std::vector<UnitPoint> points{at(0.1, 0.5), at(0.8, 0.5)};
+    (void)objective.try_out(points, kPackings);
+    (void)objective.evaluate({&points[1], 1}, kPackings);
+  }
+  const auto store = Store::read(laboratory.folder.path() / "evaluations.sqlite");
+  REQUIRE(store.ok());
+  CHECK(store.value().identity().program == "program");
+  const auto record = everything_of(laboratory.study, store.value());
+  REQUIRE(record.size() == 4);
+  for (std::size_t i = 0; i < record.size(); ++i) CHECK(record[i].run.ended_early == (record[i].point[0] < 0.5));
+  laboratory.study.parameters.front().value *= 2;  // and is another material now
+  laboratory.study.parameters.front().free = false;
+  CHECK(everything_of(laboratory.study, store.value()).empty());
+  CHECK_FALSE(Store::read(laboratory.folder.path() / "none.sqlite").ok());
+}
+
 TEST_CASE("a search that ends candidates early, killed and resumed, brings the same, and its inference too") {
   const auto calibrate = [](TwoSteps& laboratory) {
     auto store = laboratory.store();
@@ -201,8 +222,14 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
   CHECK(undisturbed.ended > 4);
   CHECK_FALSE(first.best.ended_early);
   CHECK_FALSE(first.confirmation.ended_early);
-  for (const ReadingEvidence& reading : evidence.readings)
+  for (const ReadingEvidence& reading : evidence.readings) {
     if (reading.name == "step2.height_mm") CHECK(reading.simulated.array().isNaN().any());
+    if (reading.name != "step1.height_mm") continue;
+    const double lowest = cutoff_of(undisturbed.study, 0)->lowest;
+    for (std::size_t i = 0; i < evidence.points.size(); ++i)
+      CHECK(reading.bound(i) == (reading.simulated[static_cast<Eigen::Index>(i)] == lowest));
+    CHECK(std::ranges::find(reading.is_bound, true) != reading.is_bound.end());
+  }
 
   for (const int killed_after : {3, 9, 17}) {
     TwoSteps killed;

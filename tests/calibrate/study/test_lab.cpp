@@ -346,5 +346,14 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
   }
 }
 
+TEST_CASE("a height and a width that cannot hold what the mould holds are a fault of the file") {
+  json document = lab();
+  document["measurements"]["step1.spread_mm"] = {{"value", 205}, {"standard_deviation", 5}};
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].where == "measurements");
+  CHECK(says(faults[0], "step1.height_mm (70) contradicts step1.spread_mm (205)"));
+}
+
 }  // namespace
 }  // namespace pastefit

@@ -1,0 +1,186 @@
+#include "calibrate/inference/response_model.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double least_survival = 1e-3;  // a model of failures is too rough to rule a candidate out
+constexpr double doubted_heaps = 3;      // worth of no correlation, beside what the heaps show
+
+/// Sum of squares, each in standard deviations of the prior.
+double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
+  double squares = 0;
+  for (std::size_t j = 0; j < evidence.parameters.size(); ++j) {
+    if (!evidence.parameters[j].prior) continue;
+    const UnitPrior prior = unit_prior(evidence.parameters[j]);
+    squares += std::pow((point[static_cast<Eigen::Index>(j)] - prior.mean) / prior.deviation, 2);
+  }
+  return squares;
+}
+
+/// The test of a reading: what stands before the slash of its name.
+std::string_view test_of(const ReadingEvidence& reading) {
+  const std::string_view name = reading.name;
+  return name.substr(0, name.find('/') == std::string_view::npos ? 0 : name.find('/'));
+}
+
+}  // namespace
+
+ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence)) {
+  if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
+  std::vector<UnitPoint> places;
+  std::vector<std::size_t> sites;  // of the simulations
+  for (const UnitPoint& point : evidence_.points) {
+    const auto known = std::ranges::find(places, point);
+    sites.push_back(static_cast<std::size_t>(known - places.begin()));
+    if (known == places.end()) places.push_back(point);
+  }
+  for (std::size_t k = 0; k < evidence_.readings.size(); ++k) {
+    const ReadingEvidence& reading = evidence_.readings[k];
+    std::vector<ReadingModel::Answer> answers;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      if (const double value = reading.simulated[static_cast<Eigen::Index>(i)]; !std::isnan(value))
+        answers.push_back({sites[i], value, reading.bound(i)});
+    models_.emplace_back(places, answers);
+    if (reading.fitted()) fitted_.push_back(k);
+  }
+  learn_correlation(sites);
+  find_shared();
+  if (evidence_.failed.empty()) return;
+  std::vector<UnitPoint> all = evidence_.points;
+  all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size()));
+  share.tail(static_cast<Eigen::Index>(evidence_.failed.size())).setOnes();
+  failures_.emplace(all, share);
+}
+
+void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
+  const auto count = static_cast<Eigen::Index>(fitted_.size());
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count, count);
+  double freedom = 0;
+  for (std::size_t site = 0; site < sites.size(); ++site) {  // no more sites than simulations
+    Eigen::MatrixXd heaps(count, 0);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (sites[i] != site) continue;
+      Eigen::VectorXd heap(count);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const ReadingEvidence& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
+        heap[k] = reading.bound(i) ? std::nan("") : reading.simulated[static_cast<Eigen::Index>(i)];
+      }
+      if (heap.array().isNaN().any()) continue;
+      heaps.conservativeResize(Eigen::NoChange, heaps.cols() + 1);
+      heaps.rightCols(1) = heap;
+    }
+    if (heaps.cols() < 2) continue;
+    const Eigen::VectorXd mean = heaps.rowwise().mean();
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const double noise = models_[fitted_[static_cast<std::size_t>(k)]].noise_at(mean[k]);
+      heaps.row(k).array() -= mean[k];
+      if (noise > 0) heaps.row(k) /= noise;
+    }
+    products += heaps * heaps.transpose();
+    freedom += static_cast<double>(heaps.cols() - 1);
+  }
+  correlation_ = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto first = fitted_[static_cast<std::size_t>(j)], second = fitted_[static_cast<std::size_t>(k)];
+      if (j == k || test_of(evidence_.readings[first]) != test_of(evidence_.readings[second])) continue;
+      const double size = std::sqrt(products(j, j) * products(k, k));
+      correlation_(j, k) = size > 0 ? products(j, k) / size * freedom / (freedom + doubted_heaps) : 0;
+    }
+}
+
+void ResponseModel::find_shared() {
+  shared_.resize(fitted_.size());
+  for (std::size_t j = 0; j < fitted_.size(); ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      std::vector<Shared>& shared = shared_[j].emplace_back();
+      const double correlation = correlation_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k));
+      const auto& first = models_[fitted_[j]].rows();
+      const auto& second = models_[fitted_[k]].rows();
+      for (std::size_t a = 0; a < first.size(); ++a)
+        for (std::size_t b = 0; b < second.size(); ++b) {
+          if (first[a].site != second[b].site || first[a].is_bound || second[b].is_bound) continue;
+          const double both = std::min(first[a].count, second[b].count) / (first[a].count * second[b].count);
+          shared.push_back({static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b),
+                            correlation * first[a].noise * second[b].noise * both});
+        }
+    }
+  }
+}
+
+ReadingModel::Prediction ResponseModel::predict(std::size_t reading, const UnitPoint& point) const {
+  return models_.at(reading).predict(point);
+}
+
+double ResponseModel::noise(std::size_t reading, const UnitPoint& point) const {
+  return models_.at(reading).noise_at(predict(reading, point).mean);
+}
+
+std::vector<ReadingModel::Prediction> ResponseModel::predictions(const UnitPoint& point) const {
+  std::vector<ReadingModel::Prediction> out;
+  for (const std::size_t k : fitted_) out.push_back(models_[k].predict(point));
+  return out;
+}
+
+Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
+  return covariance(predictions(point));
+}
+
+Eigen::MatrixXd ResponseModel::covariance(const std::vector<ReadingModel::Prediction>& predictions) const {
+  const auto count = static_cast<Eigen::Index>(fitted_.size());
+  Eigen::MatrixXd out(count, count);
+  std::vector<double> of_heap;  // part of the laboratory's deviation that is the heap's
+  for (std::size_t j = 0; j < fitted_.size(); ++j) {
+    const ReadingEvidence& first = evidence_.readings[fitted_[j]];
+    const auto row = static_cast<Eigen::Index>(j);
+    out(row, row) = first.variance() + predictions[j].variance;
+    of_heap.push_back(std::min(models_[fitted_[j]].noise_at(predictions[j].mean), first.widening * first.deviation) /
+                      std::sqrt(first.weight));
+    for (std::size_t k = 0; k < j; ++k) {
+      const ReadingEvidence& second = evidence_.readings[fitted_[k]];
+      const auto column = static_cast<Eigen::Index>(k);
+      double both = correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
+      for (const Shared& one : shared_[j][k])
+        both += predictions[j].weights[one.row_of_first] * predictions[k].weights[one.row_of_second] * one.covariance;
+      out(row, column) = out(column, row) = both;
+    }
+  }
+  return out;
+}
+
+double ResponseModel::miss(const UnitPoint& point) const {
+  double squares = 0;
+  for (const std::size_t k : fitted_) {
+    const ReadingEvidence& reading = evidence_.readings[k];
+    squares += reading.weight * std::pow((models_[k].predict(point).mean - *reading.measured) / reading.deviation, 2);
+  }
+  return std::sqrt(squares + distance_from_priors(evidence_, point));
+}
+
+double ResponseModel::log_posterior(const UnitPoint& point) const {
+  return log_likelihood(point) - 0.5 * distance_from_priors(evidence_, point);
+}
+
+double ResponseModel::log_likelihood(const UnitPoint& point) const {
+  const std::vector<ReadingModel::Prediction> known = predictions(point);
+  Eigen::VectorXd differences(std::ssize(known));
+  for (std::size_t k = 0; k < known.size(); ++k)
+    differences[static_cast<Eigen::Index>(k)] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance(known));
+  const Eigen::VectorXd scaled = cholesky.matrixL().solve(differences);
+  double sum = -0.5 * scaled.squaredNorm() - Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+  if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
+  return sum;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/inference/evidence.h"
+#include "calibrate/inference/reading_model.h"
+#include "calibrate/search/gaussian_process.h"
+
+namespace pastefit {
+
+/// What a simulation of any candidate is likely to read, learnt from the evidence: a model for each reading
+/// (`ReadingModel`), and a Gaussian process for the share of failures. Readings of one heap are correlated: a heap that
+/// happens to stay high is narrow. The correlation is learnt from the fillings of the same candidates, drawn towards
+/// none by three heaps' worth of doubt. It is none between tests.
+/// The likelihood of a candidate follows: the laboratory's means are off the mean answers of the simulations by the
+/// laboratory's own errors and by what is not known of those answers, normal with
+///     C = L + M,   M_jk = (doubt of the two means: that of j for j = k; else what the same heaps brought into both),
+///     L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j n_k);
+/// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
+/// What the laboratory's deviation is more than s is the ruler's, and not correlated.
+/// Requirement: at least one simulation ended well.
+class ResponseModel {
+ public:
+  explicit ResponseModel(Evidence evidence);
+
+  const Evidence& evidence() const { return evidence_; }
+  /// Mean reading of a candidate, and the variance of what is known of it.
+  ReadingModel::Prediction predict(std::size_t reading, const UnitPoint& point) const;
+  /// Standard deviation of the reading of one simulation about its mean, at this candidate.
+  double noise(std::size_t reading, const UnitPoint& point) const;
+  /// The readings that are fitted, as indices.
+  const std::vector<std::size_t>& fitted() const { return fitted_; }
+  /// Between the readings of one heap. Shape: fitted readings x fitted readings.
+  const Eigen::MatrixXd& correlation() const { return correlation_; }
+  /// C of a candidate. Shape: fitted readings x fitted readings.
+  Eigen::MatrixXd covariance(const UnitPoint& point) const;
+  /// Distance of the mean readings from the laboratory, and of the point from what was known beforehand: root of the
+  /// sum of squares, each in standard deviations, of one measurement or of the prior.
+  double miss(const UnitPoint& point) const;
+  double log_likelihood(const UnitPoint& point) const;
+  /// The same, and what was known beforehand.
+  double log_posterior(const UnitPoint& point) const;
+
+ private:
+  /// Rows of two readings that are of the same heaps.
+  struct Shared {
+    Eigen::Index row_of_first = 0, row_of_second = 0;
+    double covariance = 0;  ///< of the noise of the two
+  };
+
+  void learn_correlation(const std::vector<std::size_t>& sites);
+  void find_shared();
+  Eigen::MatrixXd covariance(const std::vector<ReadingModel::Prediction>& predictions) const;
+  std::vector<ReadingModel::Prediction> predictions(const UnitPoint& point) const;
+
+  Evidence evidence_;
+  std::vector<ReadingModel> models_;
+  std::vector<std::size_t> fitted_;
+  Eigen::MatrixXd correlation_;
+  std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
+  std::optional<GaussianProcess> failures_;
+};
+
+}  // namespace pastefit

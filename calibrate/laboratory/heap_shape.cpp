@@ -1,0 +1,110 @@
+#include "calibrate/laboratory/heap_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "calibrate/base/format.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double pancake = 0.57735026918962576;  // 1/sqrt(3)
+constexpr double paraboloid = 0.81649658092772603;
+constexpr double explained = 2, sure = 3;  // deviations
+
+double error_of(const Measurement& one) {
+  return one.standard_deviation / std::sqrt(one.repeats);
+}
+
+/// The first of these readings that was taken.
+const Measurement* first_of(std::span<const Measurement> measurements, std::initializer_list<std::string> names) {
+  for (const std::string& name : names)
+    for (const Measurement& one : measurements)
+      if (one.observable == name) return &one;
+  return nullptr;
+}
+
+/// Height and width of one heap.
+struct Heap {
+  const Measurement& height;
+  const Measurement& width;
+};
+
+double psi_of(const SlumpTest& test, const Heap& heap) {
+  return heap.width.value / cone_width_mm(test, heap.height.value);
+}
+
+double deviation_of_psi(const SlumpTest& test, const Heap& heap) {
+  return psi_of(test, heap) *
+         std::hypot(error_of(heap.width) / heap.width.value, 0.5 * error_of(heap.height) / heap.height.value);
+}
+
+/// Height of the cone that is nearest to the readings, in their deviations; by bisection of the slope. Requirement:
+/// the readings are wider than a cone.
+double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
+  const auto& [height, width] = heap;
+  const auto rises = [&](double at_mm) {
+    const double cone_mm = cone_width_mm(test, at_mm);
+    return (at_mm - height.value) / std::pow(error_of(height), 2) >
+           (cone_mm - width.value) * cone_mm / (2 * at_mm) / std::pow(error_of(width), 2);
+  };
+  double low = height.value / std::pow(psi_of(test, heap), 2), high = height.value;  // there one reading is met
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    (rises(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+std::string words_of(const SlumpTest& test, const Heap& heap) {
+  const double psi = psi_of(test, heap), deviation = deviation_of_psi(test, heap);
+  const std::string size =
+      format("%.4g mm high and %.4g mm wide (psi %.2f +- %.2f)", heap.height.value, heap.width.value, psi, deviation);
+  if (psi > 1 + explained * deviation) {
+    const double height_mm = nearest_cone_mm(test, heap);
+    return "no convex heap of this volume is " + size +
+           ": check the readings, or the heap has a peak on a skirt; a cone, the nearest that can be, is " +
+           format("%.4g mm high and %.4g mm wide", height_mm, cone_width_mm(test, height_mm));
+  }
+  if (psi > 1) return "a heap of this volume " + size + " is wider than a cone, by no more than the readings' noise";
+  const char* shape = psi < pancake      ? "flatter than a pancake, by no more than the readings' noise"
+                      : psi < paraboloid ? "between a pancake and a paraboloid"
+                                         : "between a paraboloid and a cone";
+  return "a heap of this volume " + size + " is " + shape;
+}
+
+Fault missing_volume(const SlumpTest& test, const Heap& heap) {
+  const double volume_mm3 = 1e9 * volume_m3(test.mould);
+  return {"measurements",
+          heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
+              format(" (%.4g): what the mould holds does not fit in; a flat cylinder of this height, the narrowest "
+                     "heap, is %.4g mm wide",
+                     heap.width.value, std::sqrt(4 * volume_mm3 / (std::numbers::pi * heap.height.value))),
+          "look for a slump that was given as a height, for a radius that was given as a width, and at the mould"};
+}
+
+}  // namespace
+
+double cone_width_mm(const SlumpTest& test, double height_mm) {
+  return 2 * std::sqrt(3e9 * volume_m3(test.mould) / (std::numbers::pi * height_mm));
+}
+
+Doubts doubts_about(const SlumpTest& test, std::span<const Measurement> measurements) {
+  Doubts doubts;
+  for (const std::string step : {"step1.", "step2."}) {
+    const Measurement* height =
+        first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
+    const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
+    if (!height || !width || height->value <= 0) continue;
+    const Heap heap{*height, *width};
+    if (psi_of(test, heap) < pancake - sure * deviation_of_psi(test, heap))
+      doubts.faults.push_back(missing_volume(test, heap));
+    else
+      doubts.notes.push_back((step == "step2." ? "after the drop, " : "") + words_of(test, heap));
+  }
+  return doubts;
+}
+
+}  // namespace pastefit
