@@ -92,6 +92,11 @@ void Archive::enter(std::string_view phase) {
   report();
 }
 
+double Archive::allowance(std::size_t reading) const {
+  const double factor = factors_.size() == 0 ? 1 : factors_[static_cast<Eigen::Index>(reading)];
+  return factor * objective_.allowance(reading);
+}
+
 void Archive::weigh(Response& response) const {
   if (factors_.size() == 0 || !is_feasible(response)) return;
   response.residuals.array() *= factors_.array();

@@ -30,6 +30,7 @@ class Archive : public Objective {
   int budget_left() const override;  ///< without what is held back or under way
   int simulations_each() const override { return objective_.simulations_each(); }
   double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
+  double allowance(std::size_t reading) const override;
   MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;

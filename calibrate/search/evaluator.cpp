@@ -291,6 +291,11 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
   return out;
 }
 
+double SimulationObjective::allowance(std::size_t reading) const {
+  const StudyReading& fitted = readings_.at(reading);
+  return std::sqrt(fitted.weight) * fitted.tolerance / fitted.measurement.standard_deviation;
+}
+
 double SimulationObjective::certain_miss(const Response& response, std::size_t reading) const {
   const StudyReading& fitted = readings_[reading];
   const double miss = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
@@ -328,8 +333,6 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     const auto& [coordinate, prior] = known_[i];
     out.residuals[count + static_cast<Eigen::Index>(i)] = (out.point[coordinate] - prior.mean) / prior.deviation;
   }
-  double squares = 0, noise_squares = 0;
-  int fitted = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
     if (out.failed)
@@ -337,15 +340,12 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     double miss = out.observables[i] - measurement.value;
     if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
-    if (weight > 0) {
-      squares += std::pow(miss / tolerance, 2);
-      noise_squares += squared_standard_error(out, static_cast<std::size_t>(i)) / (tolerance * tolerance);
-      ++fitted;
-    }
+    if (weight == 0) continue;
+    const double error = std::sqrt(squared_standard_error(out, static_cast<std::size_t>(i)));
+    out.miss = std::max(out.miss, std::abs(miss) / tolerance);
+    out.noise = std::max(out.noise, error / tolerance);
   }
   out.misfit = 0.5 * out.residuals.squaredNorm();
-  out.miss = std::sqrt(squares / std::max(fitted, 1));
-  out.noise = std::sqrt(noise_squares / std::max(fitted, 1));
   return out;
 }
 

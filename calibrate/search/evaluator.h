@@ -87,6 +87,7 @@ class SimulationObjective : public Objective {
   int budget_left() const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
+  double allowance(std::size_t reading) const override;
   MisfitUnit misfit_unit() const override { return misfit_unit_of(study_); }
   std::vector<Response> earlier() const override;
   bool stop_requested() const override;

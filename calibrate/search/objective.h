@@ -33,10 +33,10 @@ struct Response {
   /// their standard deviations. Finite; graded if it failed.
   Eigen::VectorXd residuals;
   double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
-  /// Root mean square difference of the fitted readings, each over its tolerance: what is judged; 1 is asked for.
+  /// Largest difference of a fitted reading from the laboratory over its tolerance: what is judged; 1 is asked for.
   double miss = 0;
-  /// What the noise of the packings makes of `miss` by itself: root mean square of the standard errors of the fitted
-  /// readings over their tolerances. 0: a single packing, or a failure.
+  /// What the noise of the packings makes of `miss` by itself: largest standard error of a fitted reading over its
+  /// tolerance. 0: a single packing, or a failure.
   double noise = 0;
   bool failed = false;  ///< some packing ended in a failure
   /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
@@ -55,6 +55,8 @@ class Objective {
   virtual int readings() const { return residuals(); }
   /// How far off a reading may be, in its unit.
   virtual double tolerance(std::size_t) const { return 1; }
+  /// The residual of a reading that is off by just that; 0: it is not fitted.
+  virtual double allowance(std::size_t) const { return 1; }
   /// In which people are told what a candidate misses by.
   virtual MisfitUnit misfit_unit() const { return {}; }
   /// Answers all points on the same packings; the answers are in the order of the points.

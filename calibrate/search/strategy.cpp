@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "calibrate/search/archive.h"
+#include "calibrate/search/candidates.h"
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/conclusion.h"
@@ -15,14 +16,13 @@
 #include "calibrate/search/proposals.h"
 #include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
-#include "calibrate/search/surrogate.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double goal_share = 0.6;             // of the tolerances, on the common packings
-constexpr double far_from_prior = 2;           // standard deviations at which a candidate contradicts what is known
-constexpr int fruitless_proposals = 4;         // proposals in a row without a better candidate that end the search
+constexpr double goal_share = 0.6;             // of the tolerances: what a candidate should be within, to be confirmed
+constexpr double hardly_likely = 0.1;          // its probability with which a confirmation is broken off
+constexpr double likely_enough = 0.5;          // and with which it is begun
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
@@ -44,13 +44,13 @@ class Search {
     if (archive_.evidence().empty()) screen();
     if (!archive_.singles().empty() && is_out_of_reach()) {
       archive_.evaluate({&out_of_reach_->nearest, 1}, common_);
-      if (!archive_.stop_requested() && archive_.best_on(common_)) confirm();
+      if (!archive_.stop_requested() && candidates().best().size() > 0) confirm();
       return conclude();
     }
     while (any_evidence() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
-      if (archive_.stop_requested() || candidates().empty() || confirm()) break;
+      if (archive_.stop_requested() || confirm()) break;
     }
     return conclude();
   }
@@ -100,50 +100,17 @@ class Search {
     return out_of_reach_.has_value();
   }
 
-  /// The candidate on the common packings that is likely to be best. The one that reads best is often the luckiest;
-  /// what its neighbours read, all of them on packings of their own luck, tells them apart.
-  Response likely_best() const {
-    std::optional<Surrogate> surrogate;
-    if (noise() > 0) surrogate.emplace(archive_.evidence());
-    Response best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Response& seen : candidates()) {
-      const double likely = surrogate ? surrogate->evaluate({&seen.point, 1}, common_).at(0).misfit : seen.misfit;
-      if (likely >= least) continue;
-      least = likely;
-      best = seen;
-    }
-    return best;
+  Candidates candidates() const { return {archive_, refuted_}; }
+
+  /// True if the best candidate is more likely than not to do.
+  bool goal_is_met(const Candidates& candidates) const {
+    return candidates.best().size() > 0 && candidates.chance_of(candidates.best(), goal_share) >= likely_enough;
   }
 
-  /// What was simulated on the common packings and has not failed a confirmation.
-  std::vector<Response> candidates() const {
-    std::vector<Response> found;
-    for (const Response& seen : archive_.history()) {
-      const bool is_out = std::ranges::any_of(refuted_, [&](const UnitPoint& one) { return one == seen.point; });
-      if (is_whole(seen) && seen.packings == common_ && !is_out) found.push_back(seen);
-    }
-    return found;
-  }
-
-  /// Of them the one that reads best; no point if there is none.
-  Response incumbent() const {
-    Response best;
-    for (const Response& one : candidates())
-      if (is_better(one, best)) best = one;
-    return best;
-  }
-
-  static bool beats(double misfit, const Response& other) { return other.point.size() == 0 || misfit < other.misfit; }
-
-  bool goal_is_met() const {
-    return std::ranges::any_of(candidates(),
-                               [&](const Response& one) { return one.miss <= goal_share && agrees_with_priors(one); });
-  }
-
-  bool agrees_with_priors(const Response& response) const {
-    const auto priors = objective_.residuals() - objective_.readings();
-    return (response.residuals.tail(priors).array().abs() <= far_from_prior).all();
+  /// The misfit of a candidate that misses by so many tolerances, by the ratio of both in the best simulation.
+  double misfit_of_miss(double miss) const {
+    const auto best = archive_.best_single();
+    return best && best->miss > 0 ? best->misfit * std::pow(miss / best->miss, 2) : 0;
   }
 
   /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
@@ -165,42 +132,41 @@ class Search {
       nlopt.seed = options_.seed;
       search_nlopt(archive_, common_, archive_.best_point(common_), nlopt);
     }
-    return archive_.best_on(common_).has_value();
+    return candidates().best().size() > 0;
   }
 
-  /// A point of the screening that reads within the tolerances may do already, and one of its packings is known.
-  void begin_with_what_is_there() {
-    const auto best = archive_.best_single();
-    if (best && !archive_.best_on(common_) && best->miss <= 1 && may_go_on()) archive_.begin(best->point, common_);
-  }
-
-  /// Proposes, and takes the answers in the order of the proposals. Proposal k knows the answers up to k - 1 - lag, of
-  /// the others only that they were asked: what is ready first does not matter.
+  /// Proposes, and takes the answers in the order of the proposals, until a candidate is likely to do. Proposal k knows
+  /// the answers up to k - 1 - lag, of the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
-    begin_with_what_is_there();
-    Proposals proposals(archive_, coarse_, options_, common_, goal_share);
-    int fruitless = 0;
-    bool nothing_new = false;  // until the next answer
+    Proposals proposals(archive_, coarse_, options_);
+    bool enough = false;  // until the next answer
     while (true) {
-      const bool wanted =
-          !nothing_new && !goal_is_met() && may_go_on() && fruitless < fruitless_proposals + options_.lag;
-      if (wanted && std::ssize(archive_.under_way()) <= options_.lag) {
-        std::optional<UnitPoint> proposal = proposals.next();
-        if (!proposal && archive_.under_way().empty() && candidates().empty()) proposal = proposals.next_elsewhere();
-        if (proposal) archive_.begin(*proposal, common_);
-        nothing_new = !proposal;
+      const Candidates known = candidates();
+      enough = enough || !may_go_on() || goal_is_met(known);
+      if (!enough && std::ssize(archive_.under_way()) <= options_.lag) {
+        const std::optional<UnitPoint> proposal = proposals.next(known, misfit_of_miss(1));
+        if (proposal) archive_.begin(*proposal, packing_for(*proposal));
+        enough = !proposal;
         continue;
       }
       if (archive_.under_way().empty()) return;
-      const Response before = incumbent();
-      Response response = archive_.next_answer();
-      nothing_new = false;
+      const Response response = archive_.next_answer();
+      enough = false;
       // What it misses at least does not rule it out: its other readings decide.
-      if (is_feasible(response) && response.ended_early && beats(response.misfit, before) && may_go_on())
-        response = archive_.evaluate({&response.point, 1}, common_).at(0);
-      const bool better = is_whole(response) && beats(response.misfit + noise(), before);
-      fruitless = better ? 0 : fruitless + 1;
+      if (is_feasible(response) && response.ended_early && response.misfit < known.misfit_of_best() && may_go_on())
+        (void)archive_.evaluate({&response.point, 1}, response.packings);
     }
+  }
+
+  /// One of the common packings in turn; a fresh one for a point that has been simulated on all of them.
+  std::vector<std::uint64_t> packing_for(const UnitPoint& point) {
+    const std::size_t turn = archive_.history().size() + archive_.under_way().size();
+    for (std::size_t k = 0; k < common_.size(); ++k) {
+      const std::uint64_t packing = common_[(turn + k) % common_.size()];
+      const auto known = [&](const Response& one) { return one.point == point && one.packings.front() == packing; };
+      if (std::ranges::none_of(archive_.singles(), known)) return {packing};
+    }
+    return fresh_packings(1);
   }
 
   /// Misfit that the noise of the packings makes by itself on the common set, as far as it is known.
@@ -232,17 +198,9 @@ class Search {
     return noise_step(deviation, 4 * (most - least).maxCoeff());
   }
 
-  /// What the luck of the common packings makes of a candidate's miss, root mean square over the candidates.
-  double luck() const {
-    double squares = 0;
-    const std::vector<Response> seen = candidates();
-    for (const Response& one : seen) squares += one.noise * one.noise;
-    return seen.empty() ? 0 : std::sqrt(squares / static_cast<double>(seen.size()));
-  }
-
-  /// Descends on what the common packings say, unless that is luck for the most part.
+  /// Descends where the surrogate sees no better candidate and none that will do, unless what is left is luck.
   void refine() {
-    if (goal_is_met() || !may_go_on() || luck() > 1) return;
+    if (!may_go_on() || goal_is_met(candidates()) || noise() > misfit_of_miss(1)) return;
     archive_.enter("refinement");
     descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
   }
@@ -258,44 +216,65 @@ class Search {
     search_ceres(archive_, common_, archive_.best_point(common_), ceres);
   }
 
-  /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds.
-  /// If not, some of them join the common packings, as many as there are: the luck that misled is halved, and further
-  /// candidates stay affordable.
+  /// The packings that a point was simulated on to its end.
+  std::vector<std::uint64_t> packings_of(const UnitPoint& point) const {
+    std::vector<std::uint64_t> packings;
+    for (const Response& one : archive_.singles())
+      if (one.point == point && is_whole(one)) packings.push_back(one.packings.front());
+    return packings;
+  }
+
+  /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
+  /// quarter of them is asked first: if it is unlikely then that it will do, the others are saved.
   bool confirm() {
     archive_.enter("confirmation");
     archive_.hold_back(0);
-    const Response candidate = likely_best();
-    const std::size_t most = most_confirmations * static_cast<std::size_t>(options_.confirmation_packings);
-    std::vector<std::uint64_t> fresh = fresh_packings(options_.confirmation_packings);
-    Response confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
-    Verdict verdict = verdict_on(confirmation);
-    while (verdict == Verdict::undecided && fresh.size() < most && affordable(fresh.size()) &&
-           !archive_.stop_requested()) {
-      std::ranges::copy(fresh_packings(static_cast<int>(fresh.size())), std::back_inserter(fresh));
-      confirmation = archive_.evaluate({&candidate.point, 1}, fresh).at(0);
+    const UnitPoint candidate = candidates().best();
+    const std::vector<std::uint64_t> tried = packings_of(candidate);
+    const auto all = static_cast<std::size_t>(options_.confirmation_packings);
+    std::vector<std::uint64_t> fresh = fresh_packings(static_cast<int>((all + 3) / 4));
+    Response confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
+    Verdict verdict = Verdict::undecided;
+    if (!out_of_reach_ && candidates().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
+    while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !archive_.stop_requested()) {
+      const std::size_t more = fresh.size() < all ? all - fresh.size() : fresh.size();
+      if (!affordable(more)) break;
+      std::ranges::copy(fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
+      confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
       verdict = verdict_on(confirmation);
     }
     if (archive_.stop_requested()) return false;
     ++result_.rounds;
-    std::vector<std::uint64_t> joined = common_;
+    std::vector<std::uint64_t> joined = tried;
     joined.insert(joined.end(), fresh.begin(), fresh.end());
-    const Response evidence = archive_.evaluate({&candidate.point, 1}, joined).at(0);
+    const Response evidence = archive_.evaluate({&candidate, 1}, joined).at(0);
     const bool holds = verdict == Verdict::holds;
     if (holds || result_.confirmation.point.size() == 0 || is_better(evidence, result_.best)) {
       result_.best = evidence;
-      result_.search = candidate;
+      result_.search = archive_.evaluate({&candidate, 1}, tried).at(0);
       result_.confirmation = confirmation;
     }
     confirmed_ = holds;
-    if (!holds) {
-      common_.assign(joined.begin(), joined.begin() + std::min(std::ssize(joined), 2 * std::ssize(common_)));
-      refuted_.push_back(candidate.point);
-    }
+    if (!holds) refuted_.push_back(candidate);
     archive_.hold_back(options_.confirmation_packings);
     return holds;
   }
 
+  /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them.
+  void finish_confirmation() {
+    archive_.hold_back(0);
+    const std::size_t asked = result_.confirmation.packings.size();
+    const auto all = static_cast<std::size_t>(options_.confirmation_packings);
+    if (asked == 0 || asked >= all || !affordable(all - asked) || archive_.stop_requested()) return;
+    const UnitPoint point = result_.confirmation.point;
+    std::vector<std::uint64_t> fresh = result_.confirmation.packings;
+    std::ranges::copy(fresh_packings(static_cast<int>(all - asked)), std::back_inserter(fresh));
+    const Response confirmation = archive_.evaluate({&point, 1}, fresh).at(0);
+    if (!archive_.stop_requested()) result_.confirmation = confirmation;
+  }
+
   Calibration conclude() {
+    finish_confirmation();
     if (result_.best.point.size() == 0 && archive_.any_feasible()) {
       result_.search = archive_.best_on(common_).value_or(Response{});
       if (result_.search.point.size() == 0)

@@ -1,6 +1,7 @@
 #include "calibrate/search/surrogate.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,10 @@
 
 namespace pastefit {
 namespace {
+
+/// Of candidates that meet the laboratory alike the one nearer to the middle of the bounds is the more plausible: each
+/// coordinate counts with a prior of this weight, normal about the middle with half the range as its deviation.
+constexpr double weight_of_middle = 0.1;
 
 /// Any packing will do where none is simulated.
 const std::vector<std::uint64_t> no_packing{0};
@@ -37,7 +42,7 @@ Surrogate::Surrogate(std::span<const Response> seen) : parameters_(static_cast<i
     if (points.empty()) continue;
     models_.back().emplace(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
   }
-  if (failed.sum() > 0) failures_ = std::make_unique<GaussianProcess>(all, failed);
+  if (failed.sum() > 0) failures_.emplace(all, failed);
 }
 
 std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) {
@@ -52,11 +57,45 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
       response.residuals[static_cast<Eigen::Index>(k)] = prediction.mean;
       variance += prediction.variance;
     }
-    const double failing = failures_ ? std::clamp(failures_->predict(point).mean, 0.0, 1.0) : 0;
-    response.misfit = 0.5 * (response.residuals.squaredNorm() + variance) + failing * worst_;
+    response.misfit = 0.5 * (response.residuals.squaredNorm() + variance) + failing(point) * worst_;
     responses.push_back(std::move(response));
   }
   return responses;
+}
+
+Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
+  double mean = 0, variance = 0;
+  for (const std::optional<GaussianProcess>& model : models_) {
+    if (!model) continue;
+    const GaussianProcess::Prediction residual = model->predict(point);
+    const double square = residual.mean * residual.mean;
+    mean += 0.5 * (square + residual.variance);
+    variance += residual.variance * (0.5 * residual.variance + square);
+  }
+  const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
+  return {mean + odd + failing(point) * worst_, variance};
+}
+
+double Surrogate::failing(const UnitPoint& point) const {
+  return failures_ ? std::clamp(failures_->predict(point).mean, 0.0, 1.0) : 0;
+}
+
+double Surrogate::within(const Eigen::VectorXd& bounds, const UnitPoint& point) const {
+  double probability = 1 - failing(point);
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    const double bound = bounds[static_cast<Eigen::Index>(k)];
+    if (!models_[k] || bound == 0) continue;
+    const GaussianProcess::Prediction residual = models_[k]->predict(point);
+    const double scale = std::sqrt(2 * std::max(residual.variance, std::numeric_limits<double>::min()));
+    probability *= 0.5 * (std::erf((bound - residual.mean) / scale) + std::erf((bound + residual.mean) / scale));
+  }
+  return probability;
+}
+
+double Surrogate::Outlook::improvement(double bound) const {
+  if (variance_ <= 0) return std::max(0.0, bound - mean_);
+  const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;
+  return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));
 }
 
 Eigen::VectorXd Surrogate::imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck) {
@@ -80,6 +119,42 @@ double Surrogate::noise() const {
   double variance = 0;
   for (const auto& model : models_) variance += model ? model->noise_variance() : 0;
   return 0.5 * variance;
+}
+
+namespace {
+
+/// What is likely to be the least misfit once a point is known, as a thing to minimise.
+class LeastMisfit : public Objective {
+ public:
+  LeastMisfit(const Surrogate& surrogate, double misfit) : surrogate_(surrogate), misfit_(misfit) {}
+  int parameters() const override { return surrogate_.parameters(); }
+  int residuals() const override { return 0; }
+  int budget_left() const override { return std::numeric_limits<int>::max(); }
+  bool stop_requested() const override { return false; }
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
+    constexpr double slope = 1e-4;  // leads out of where no improvement is in sight
+    std::vector<Response> responses;
+    for (const UnitPoint& point : points) {
+      const Surrogate::Outlook outlook = surrogate_.outlook(point);
+      Response response;
+      response.point = point;
+      response.misfit = misfit_ - outlook.improvement(misfit_) + slope * outlook.mean();
+      responses.push_back(std::move(response));
+    }
+    return responses;
+  }
+
+ private:
+  const Surrogate& surrogate_;
+  double misfit_;
+};
+
+}  // namespace
+
+Improvement most_promising(const Surrogate& surrogate, double misfit, const UnitPoint& start) {
+  LeastMisfit least(surrogate, misfit);
+  const UnitPoint point = least_point(least, start);
+  return {point, surrogate.outlook(point).improvement(misfit)};
 }
 
 UnitPoint least_point(Objective& model, const UnitPoint& start) {

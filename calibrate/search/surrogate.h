@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,6 +26,25 @@ class Surrogate : public Objective {
   int budget_left() const override;
   bool stop_requested() const override { return false; }
 
+  /// What the misfit of a point may be, less the noise of the packings: half the sum of squared normal variables, which
+  /// is nearly a gamma distribution with the same mean and variance.
+  class Outlook {
+   public:
+    Outlook(double mean, double variance) : mean_(mean), variance_(variance) {}
+    double mean() const { return mean_; }
+    /// Mean of what lies below this bound: max(0, bound - misfit).
+    double improvement(double bound) const;
+
+   private:
+    double mean_, variance_;
+  };
+  /// With what a point far from the middle of the bounds has to make up for (a weak prior).
+  Outlook outlook(const UnitPoint& point) const;
+
+  /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
+  /// of 0 do not count. Shape: one for each residual.
+  double within(const Eigen::VectorXd& bounds, const UnitPoint& point) const;
+
   /// Goes on as if `point` had answered on so many packings as it may well do: the mean residuals drawn from what is
   /// known of them, without the noise of the packings; `luck`: standard normal deviates, one for each residual. Returns
   /// them.
@@ -37,14 +55,24 @@ class Surrogate : public Objective {
   double noise() const;
 
  private:
+  double failing(const UnitPoint& point) const;  ///< likely share of failures
+
   int parameters_ = 0;
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
-  std::unique_ptr<GaussianProcess> failures_;
+  std::optional<GaussianProcess> failures_;
 };
 
 /// The point of least misfit of a model that answers at once: DIRECT_L over the cube, then a local search, both by
 /// NLopt.
 UnitPoint least_point(Objective& model, const UnitPoint& start);
+
+/// The point that is expected to improve most on a misfit (Jones, Schonlau & Welch 1998), failures counted as no
+/// improvement, and how much that is.
+struct Improvement {
+  UnitPoint point;
+  double expected = 0;
+};
+Improvement most_promising(const Surrogate& surrogate, double misfit, const UnitPoint& start);
 
 }  // namespace pastefit

@@ -58,10 +58,10 @@ struct Target {
 /// How to search.
 struct SearchOptions {
   std::string strategy = "default";  ///< name of a search strategy or of an NLopt algorithm
-  int screening = 12;                ///< space-filling points
+  int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< simulations in all, confirmation included
-  int packings = 2;                  ///< common random packings per candidate
-  int lag = 1;                       ///< candidates that may be under way when the next one is proposed
+  int packings = 2;                  ///< random packings on which candidates are tried in turn
+  int lag = 0;                       ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< of each fitted length that has none of its own

@@ -37,9 +37,9 @@ TEST_CASE("strategies are compared with the same budget and judged on the same p
     CHECK(trial.simulations <= 60);
     CHECK(trial.miss.size() == static_cast<std::size_t>(trial.simulations));
     CHECK(trial.judged >= 0);
-    CHECK(trial.judged < 8);
+    CHECK(trial.judged < 10);  // two tolerances
   }
-  CHECK(trials[0].miss[11] == trials[1].miss[11]);  // the screening is the same
+  CHECK(trials[0].miss[7] == trials[1].miss[7]);  // the screening is the same
 }
 
 TEST_CASE("a comparison is repeated exactly") {

@@ -33,7 +33,9 @@ struct Screened {
       : objective(fake_slump(150, seed)),
         options(lagging_options(seed, lag)),
         archive(screened(objective, options)),
-        proposals(archive, nullptr, options, common, 0.1) {}
+        proposals(archive, nullptr, options) {}
+
+  std::optional<UnitPoint> next(double good = 0.1) { return proposals.next({archive, {}}, good); }
 
   Synthetic objective;
   SearchOptions options;
@@ -50,8 +52,10 @@ Cost cost_of(int lag, int cores, int seeds) {
   Cost cost;
   for (int seed = 1; seed <= seeds; ++seed) {
     const auto random = static_cast<std::uint64_t>(seed);
-    VirtualCores objective(fake_slump(40 + 250 * uniform(random, 77), random), cores);
-    const Calibration calibration = search(objective, lagging_options(random, lag));
+    VirtualCores objective(fake_heap(205, 275, random), cores);
+    SearchOptions options = lagging_options(random, lag);
+    options.budget_simulations = 150;
+    const Calibration calibration = search(objective, options);
     cost.simulations += calibration.simulations / static_cast<double>(seeds);
     cost.time += objective.now / seeds;
     if (calibration.status == CalibrationStatus::confirmed) ++cost.confirmed;
@@ -61,68 +65,60 @@ Cost cost_of(int lag, int cores, int seeds) {
 
 }  // namespace
 
-TEST_CASE("candidates under way together are different ones, and none is one that was answered") {
+TEST_CASE(
+    "candidates under way together are different ones, and what was answered is proposed again as the same point") {
   int several = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Screened search(seed, 3);
-    auto& [objective, options, archive, proposals] = search;
+    Archive& archive = search.archive;
     while (archive.under_way().size() < 4) {
-      const auto proposal = proposals.next();
+      const auto proposal = search.next();
       if (!proposal) break;
       for (const Archive::Asked& asked : archive.under_way())
         REQUIRE((asked.point - *proposal).lpNorm<Eigen::Infinity>() >= same_point);
-      archive.begin(*proposal, common);
+      archive.begin(*proposal, {common.data(), 1});
     }
     REQUIRE(!archive.under_way().empty());
     if (archive.under_way().size() > 1) ++several;
     while (!archive.under_way().empty()) archive.next_answer();
-    const auto next = proposals.next();
+    const auto next = search.next();
     if (!next) continue;
-    for (const Response& seen : archive.history())
-      if (std::ranges::equal(seen.packings, common))
-        CHECK((seen.point - *next).lpNorm<Eigen::Infinity>() >= same_point);
+    for (const Response& seen : archive.singles())
+      CHECK((seen.point == *next || (seen.point - *next).lpNorm<Eigen::Infinity>() >= same_point));
   }
   CHECK(several >= 15);
 }
 
-TEST_CASE(
-    "beside candidates that were refuted the next one lies apart from all of them, and is expected to do as well") {
-  int found = 0;
+TEST_CASE("where nothing promises an improvement that matters there is no proposal") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
-    Screened search(seed, 0);
-    auto& [objective, options, archive, proposals] = search;
-    CHECK_FALSE(proposals.next_elsewhere());  // nothing was asked on the common packings
-    for (int k = 0; k < 6; ++k) {
-      const auto proposal = proposals.next();
-      if (!proposal) break;
-      archive.evaluate({&*proposal, 1}, common);
-    }
-    const auto beside = proposals.next_elsewhere();
-    if (!beside) continue;
-    ++found;
-    for (const Response& seen : archive.history())
-      if (std::ranges::equal(seen.packings, common)) CHECK((seen.point - *beside).norm() >= 2 * same_point);
-    Surrogate model(archive.evidence());
-    CHECK(std::abs(model.evaluate({&*beside, 1}, common).at(0).residuals[0]) <= 2);  // in the laboratory's deviations
+    CHECK_FALSE(Screened(seed, 0).next(1e9));
+    CHECK(Screened(seed, 0).next(1e-6));
   }
-  CHECK(found >= 18);
 }
 
-TEST_CASE("a candidate under way that is likely to meet the goal is waited for") {
-  int waited = 0, waited_for_none = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Synthetic objective = fake_slump(150, seed);
-    const SearchOptions options = lagging_options(seed, 1);
-    Archive archive = screened(objective, options);
-    Proposals generous(archive, nullptr, options, common, 200), strict(archive, nullptr, options, common, 1e-3);
-    archive.begin(generous.next().value(), common);
-    if (!generous.next()) ++waited;
-    if (!strict.next()) ++waited_for_none;
+TEST_CASE("the improvement that a point promises is the mean of what its misfit falls short of the bound") {
+  // Half the sum of two squared normal variables, by a sum over their quantiles.
+  const double means[2] = {0.8, -0.3}, deviations[2] = {0.5, 1.1};
+  double mean = 0, variance = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double m = means[k] * means[k], v = deviations[k] * deviations[k];
+    mean += 0.5 * (m + v);
+    variance += v * (0.5 * v + m);
   }
-  CHECK(waited == 20);
-  CHECK(waited_for_none <= 5);
+  const Surrogate::Outlook outlook(mean, variance);
+  constexpr double bound = 0.7;
+  double improvement = 0;
+  constexpr int draws = 200'000;
+  for (std::uint64_t n = 0; n < draws; ++n) {
+    double misfit = 0;
+    for (std::uint64_t k = 0; k < 2; ++k) misfit += 0.5 * std::pow(means[k] + deviations[k] * normal(k + 1, n), 2);
+    improvement += std::max(0.0, bound - misfit) / draws;
+  }
+  // Mean and variance are exact, the shape is a gamma distribution's.
+  CHECK(outlook.improvement(bound) == Approx(improvement).epsilon(0.1));
+  CHECK(Surrogate::Outlook(0.4, 0).improvement(bound) == Approx(bound - 0.4));
 }
 
 TEST_CASE("what is under way is spent, and answered in the order of asking") {
@@ -144,7 +140,7 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
     std::size_t most = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       Synthetic slump = fake_slump(150, seed);
-      slump.tolerance_mm = 0.1;  // no candidate is so good that it is waited for
+      slump.tolerance_mm = 0.1;  // no candidate is good enough
       VirtualCores objective(slump, 64);
       CHECK(search(objective, lagging_options(seed, lag)).simulations <= 60);
       most = std::max(most, objective.most_begun);
@@ -153,8 +149,8 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
   }
 }
 
-TEST_CASE("a lag of one costs few simulations, and no time where there are cores for it", "[campaign]") {
-  const int seeds = 100;
+TEST_CASE("a lag of one costs simulations, and saves time", "[campaign]") {
+  const int seeds = 40;
   std::vector<std::vector<Cost>> costs;  // by lag and cores
   for (const int lag : {0, 1}) {
     costs.emplace_back();
@@ -166,8 +162,8 @@ TEST_CASE("a lag of one costs few simulations, and no time where there are cores
     }
   }
   CHECK(costs[1][0].simulations == costs[1][2].simulations);  // cores change the time alone
-  CHECK(costs[1][0].simulations < 1.1 * costs[0][0].simulations);
-  CHECK(costs[1][0].time < 1.1 * costs[0][0].time);
+  CHECK(costs[1][0].simulations < 1.4 * costs[0][0].simulations);
+  CHECK(costs[1][0].time < costs[0][0].time);
   CHECK(costs[1][1].time < costs[0][1].time);
   CHECK(costs[1][2].time < costs[0][2].time);
 }

@@ -53,7 +53,8 @@ class Synthetic : public Objective {
   /// A try whose first reading is off by more ends early: below it reads the level and nothing else, above it lacks the
   /// other readings. 0: every one runs to its end.
   double level = 0;
-  double tolerance_mm = 5;  ///< of every reading
+  double tolerance_mm = 5;              ///< of every reading that has none of its own
+  std::vector<double> tolerances = {};  ///< of each reading; empty: `tolerance_mm`
   int budget = std::numeric_limits<int>::max();
   std::function<bool()> stop = [] { return false; };
 
@@ -66,7 +67,10 @@ class Synthetic : public Objective {
   }
   int readings() const override { return static_cast<int>(measured.size()); }
   int budget_left() const override { return budget - simulations; }
-  double tolerance(std::size_t) const override { return tolerance_mm; }
+  double tolerance(std::size_t reading) const override {
+    return tolerances.empty() ? tolerance_mm : tolerances.at(reading);
+  }
+  double allowance(std::size_t reading) const override { return tolerance(reading) / standard_deviations.at(reading); }
   MisfitUnit misfit_unit() const override { return {tolerance_mm}; }
   bool stop_requested() const override { return stop(); }
 
@@ -121,7 +125,6 @@ class Synthetic : public Objective {
     response.residuals.resize(residuals());
     const auto priors = known(point);
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
-    double squares = 0, noise_squares = 0;
     for (int k = 0; k < count; ++k) {
       double miss = response.observables[k] - measured[k];
       const auto bound = [&](const Evaluation& one) {
@@ -130,13 +133,13 @@ class Synthetic : public Objective {
       if (std::isnan(miss)) miss = 0;
       if (k == 0 && std::ranges::any_of(response.evaluations, bound)) miss = std::min(miss, 0.0);
       response.residuals[k] = miss / standard_deviations[k];
-      squares += miss * miss;
-      noise_squares += squared_standard_error(response, static_cast<std::size_t>(k));
+      const double allowed = tolerance(static_cast<std::size_t>(k));
+      response.miss = std::max(response.miss, std::abs(miss) / allowed);
+      response.noise = std::max(response.noise, std::sqrt(squared_standard_error(response, k)) / allowed);
     }
     if (response.failed) response.residuals.setConstant(failure_value(point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
-    response.miss = (response.failed ? response.residuals[0] : std::sqrt(squares / count)) / tolerance_mm;
-    response.noise = std::sqrt(noise_squares / count) / tolerance_mm;
+    if (response.failed) response.miss = std::abs(response.residuals[0]) / tolerance_mm;
     return response;
   }
 
