@@ -1,7 +1,6 @@
 #include "calibrate/report/summary.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "calibrate/base/format.h"
@@ -17,25 +16,27 @@ namespace {
 std::string law_lines(const Material& material) {
   const ContactModel& contact = material.contact;
   const Bridge& bridge = contact.bridge;
-  const double radius = material.grains.radius_m;
-  std::vector<std::pair<const char*, double>> lines;
-  if (contact.normal != NormalLaw::hertz) lines = {{"surface_energy_j_m2", contact.surface_energy_j_m2}};
-  if (bridge.shape == BridgeShape::polynomial)
-    lines.insert(lines.end(), {{"a_n_m2", bridge.a_n_m2}, {"b_n_m", bridge.b_n_m}});
-  if (bridge.shape == BridgeShape::capillary)
-    lines.insert(lines.end(), {{"liquid_volume_m3", bridge.liquid_volume_m3},
-                               {"surface_tension_n_m", bridge.surface_tension_n_m},
-                               {"contact_angle_rad", bridge.contact_angle_rad}});
-  if (bridge.shape != BridgeShape::none)
-    lines.insert(lines.end(), {{"c_n", attraction_at_touch(bridge, radius)},
-                               {"d_c_m", -rupture_gap(bridge, radius)},
-                               {"offset_m", bridge.offset_m},
-                               {"cohesion_n", contact.cohesion_n.value_or(attraction_at_touch(bridge, radius))}});
+  const double radius = material.grains.radius_m, at_touch = attraction_at_touch(bridge, radius);
   std::string out = format("Contact law in SI, for grains of %g mm radius\n", 1e3 * radius);
+  const auto line = [&](const char* name, double value) { out += format("  %-24s %14.6g\n", name, value); };
   if (contact.normal != NormalLaw::hertz || bridge.shape != BridgeShape::polynomial)
     out += "  normal " + word_of(contact.normal, normal_laws) + ", attraction " + word_of(bridge.shape, bridge_shapes) +
            "\n";
-  for (const auto& [name, value] : lines) out += format("  %-24s %14.6g\n", name, value);
+  if (contact.normal != NormalLaw::hertz) line("surface_energy_j_m2", contact.surface_energy_j_m2);
+  if (bridge.shape == BridgeShape::polynomial) {
+    line("a_n_m2", bridge.a_n_m2);
+    line("b_n_m", bridge.b_n_m);
+  }
+  if (bridge.shape == BridgeShape::capillary) {
+    line("liquid_volume_m3", bridge.liquid_volume_m3);
+    line("surface_tension_n_m", bridge.surface_tension_n_m);
+    line("contact_angle_rad", bridge.contact_angle_rad);
+  }
+  if (bridge.shape == BridgeShape::none) return out;
+  line("c_n", at_touch);
+  line("d_c_m", -rupture_gap(bridge, radius));
+  line("offset_m", bridge.offset_m);
+  line("cohesion_n", contact.cohesion_n.value_or(at_touch));
   return out;
 }
 

@@ -9,17 +9,6 @@
 
 using namespace pastefit;
 
-namespace {
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-}  // namespace
-
 TEST_CASE("a file is replaced whole, and stays as it was when that fails") {
   const test::Folder temporary;
   const std::filesystem::path& folder = temporary.path();

@@ -10,6 +10,7 @@
 #include "calibrate/report/card_text.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
+#include "tests/calibrate/folder.h"
 
 using namespace pastefit;
 
@@ -226,7 +227,7 @@ TEST_CASE("a card of this version is written as it was read") {
   const auto file = folder + "card-" + std::to_string(kCardVersion) + ".json";
   const auto read = read_card(file);
   REQUIRE(read.ok());
-  CHECK(text_and_back(to_json(read.value())).dump(2) == nlohmann::json::parse(content(file)).dump(2));
+  CHECK(text_and_back(to_json(read.value())).dump(2) == nlohmann::json::parse(test::content(file)).dump(2));
 }
 
 TEST_CASE("a card of several tests of version 3 becomes a material and its tests, to the last bit") {
@@ -234,7 +235,7 @@ TEST_CASE("a card of several tests of version 3 becomes a material and its tests
   const auto read = read_card(file);
   INFO((read.ok() ? "" : read.faults()[0].where + ": " + read.faults()[0].what));
   REQUIRE(read.ok());
-  const auto written = nlohmann::json::parse(content(file));
+  const auto written = nlohmann::json::parse(test::content(file));
   const auto again = text_and_back(to_json(read.value()));
   REQUIRE(again["tests"].size() == 3);
   // What a test has of the material is said once.
@@ -349,7 +350,7 @@ TEST_CASE("a card of a newer version, of none, and one cut short are refused wit
     document["format"] = format;
     CHECK_FALSE(card_from_json(document).ok());
   }
-  document = nlohmann::json::parse(content(PASTEFIT_SOURCE_DIR "/tests/calibrate/card/versions/card-2.json"));
+  document = nlohmann::json::parse(test::content(PASTEFIT_SOURCE_DIR "/tests/calibrate/card/versions/card-2.json"));
   document.erase("observables");
   read = card_from_json(document);
   REQUIRE_FALSE(read.ok());

@@ -61,13 +61,6 @@ Store opened(const std::filesystem::path& file, const StoreIdentity& identity = 
   return std::move(store).value();
 }
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
 void execute(const std::filesystem::path& file, const char* sql) {
   sqlite3* database = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
