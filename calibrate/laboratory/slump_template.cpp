@@ -87,10 +87,10 @@ constexpr std::string_view study_text =
 
   "search": {
     "strategy": "default",
-    "screening": 12,             // candidates spread over the bounds at the start
+    "screening": 8,              // candidates spread over the bounds at the start
     "budget_simulations": 80,    // in all, confirmation included
     "packings": 2,               // random packings on which every candidate is tried
-    "lag": 1,                    // candidates under way when the next is proposed; more for more than 4 cores
+    "lag": 0,                    // candidates under way when the next is proposed; 1 saves time and costs simulations
     "confirmation_packings": 8,  // fresh packings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     "tolerance_mm": 5,           // good enough: for every fitted length without a tolerance of its own

@@ -14,12 +14,12 @@ constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, 
 
 }  // namespace
 
-std::optional<UnitPoint> Proposals::next(const Candidates& candidates, double good) {
-  Surrogate model = candidates.surrogate();
+std::optional<UnitPoint> Proposals::next(const Prospects& prospects, double good) {
+  Surrogate model = prospects.surrogate();
   imagine_answers(model);
-  double least = candidates.least_misfit();
+  double least = prospects.least_misfit();
   for (const Archive::Asked& asked : archive_.under_way()) least = std::min(least, model.outlook(asked.point).mean());
-  const Improvement best = most_promising(model, least, candidates.least());
+  const Improvement best = most_promising(model, least, prospects.least());
   if (best.expected < worthwhile * good) return std::nullopt;
   const UnitPoint proposal = tried_with_coarse_grains(best.point);
   const auto is_same = [&](const auto& asked) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "calibrate/search/candidates.h"
+#include "calibrate/search/prospects.h"
 
 namespace pastefit {
 
@@ -30,7 +30,7 @@ class Proposals {
 
   /// `good`: misfit of a candidate that just meets the laboratory. None if nothing promises more than a fiftieth of it,
   /// or before the next answer.
-  std::optional<UnitPoint> next(const Candidates& candidates, double good);
+  std::optional<UnitPoint> next(const Prospects& prospects, double good);
 
  private:
   UnitPoint tried_with_coarse_grains(UnitPoint proposal);

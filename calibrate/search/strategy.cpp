@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "calibrate/search/archive.h"
-#include "calibrate/search/candidates.h"
 #include "calibrate/search/ceres_search.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/confirmation.h"
 #include "calibrate/search/nlopt_search.h"
 #include "calibrate/search/proposals.h"
+#include "calibrate/search/prospects.h"
 #include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
 
@@ -44,7 +44,7 @@ class Search {
     if (archive_.evidence().empty()) screen();
     if (!archive_.singles().empty() && is_out_of_reach()) {
       archive_.evaluate({&out_of_reach_->nearest, 1}, common_);
-      if (!archive_.stop_requested() && candidates().best().size() > 0) confirm();
+      if (!archive_.stop_requested() && prospects().best().size() > 0) confirm();
       return conclude();
     }
     while (any_evidence() && may_go_on()) {
@@ -100,11 +100,11 @@ class Search {
     return out_of_reach_.has_value();
   }
 
-  Candidates candidates() const { return {archive_, refuted_}; }
+  Prospects prospects() const { return {archive_, refuted_}; }
 
   /// True if the best candidate is more likely than not to do.
-  bool goal_is_met(const Candidates& candidates) const {
-    return candidates.best().size() > 0 && candidates.chance_of(candidates.best(), goal_share) >= likely_enough;
+  bool goal_is_met(const Prospects& prospects) const {
+    return prospects.best().size() > 0 && prospects.chance_of(prospects.best(), goal_share) >= likely_enough;
   }
 
   /// The misfit of a candidate that misses by so many tolerances, by the ratio of both in the best simulation.
@@ -132,7 +132,7 @@ class Search {
       nlopt.seed = options_.seed;
       search_nlopt(archive_, common_, archive_.best_point(common_), nlopt);
     }
-    return candidates().best().size() > 0;
+    return prospects().best().size() > 0;
   }
 
   /// Proposes, and takes the answers in the order of the proposals, until a candidate is likely to do. Proposal k knows
@@ -141,7 +141,7 @@ class Search {
     Proposals proposals(archive_, coarse_, options_);
     bool enough = false;  // until the next answer
     while (true) {
-      const Candidates known = candidates();
+      const Prospects known = prospects();
       enough = enough || !may_go_on() || goal_is_met(known);
       if (!enough && std::ssize(archive_.under_way()) <= options_.lag) {
         const std::optional<UnitPoint> proposal = proposals.next(known, misfit_of_miss(1));
@@ -200,7 +200,7 @@ class Search {
 
   /// Descends where the surrogate sees no better candidate and none that will do, unless what is left is luck.
   void refine() {
-    if (!may_go_on() || goal_is_met(candidates()) || noise() > misfit_of_miss(1)) return;
+    if (!may_go_on() || goal_is_met(prospects()) || noise() > misfit_of_miss(1)) return;
     archive_.enter("refinement");
     descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
   }
@@ -229,13 +229,13 @@ class Search {
   bool confirm() {
     archive_.enter("confirmation");
     archive_.hold_back(0);
-    const UnitPoint candidate = candidates().best();
+    const UnitPoint candidate = prospects().best();
     const std::vector<std::uint64_t> tried = packings_of(candidate);
     const auto all = static_cast<std::size_t>(options_.confirmation_packings);
     std::vector<std::uint64_t> fresh = fresh_packings(static_cast<int>((all + 3) / 4));
     Response confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
     Verdict verdict = Verdict::undecided;
-    if (!out_of_reach_ && candidates().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
+    if (!out_of_reach_ && prospects().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
     while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !archive_.stop_requested()) {
       const std::size_t more = fresh.size() < all ? all - fresh.size() : fresh.size();
       if (!affordable(more)) break;

@@ -14,7 +14,7 @@ TEST_CASE("a file is replaced whole, and stays as it was when that fails") {
   const std::filesystem::path& folder = temporary.path();
   CHECK(write_atomically(folder / "card.json", "old").empty());
   CHECK(write_atomically(folder / "card.json", "new").empty());
-  CHECK(content(folder / "card.json") == "new");
+  CHECK(test::content(folder / "card.json") == "new");
   std::filesystem::create_directories(folder / "taken" / "by a folder");
   CHECK_FALSE(write_atomically(folder / "taken", "x").empty());
   CHECK_FALSE(write_atomically(folder / "missing" / "card.json", "x").empty());

@@ -61,8 +61,8 @@ TEST_CASE("the noise of a mean is the scatter of its packings over the root of t
   };
   const std::vector<std::uint64_t> four{1, 2, 3, 4}, one{1};
   const UnitPoint point = UnitPoint::Constant(2, 0.5);
-  // Standard errors sqrt(4 * 9/(4 * 3)) and 0, root mean square of both.
-  CHECK(objective.evaluate({&point, 1}, four).at(0).noise == Approx(std::sqrt(3.0 / 2) / 5));
+  // Standard errors sqrt(4 * 9/(4 * 3)) and 0: the larger one.
+  CHECK(objective.evaluate({&point, 1}, four).at(0).noise == Approx(std::sqrt(3.0) / 5));
   CHECK(objective.evaluate({&point, 1}, one).at(0).noise == 0);
 }
 

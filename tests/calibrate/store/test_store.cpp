@@ -228,14 +228,14 @@ TEST_CASE("a store of another program is refused, named and left as it was") {
   const Folder folder;
   const auto file = folder.path() / "evaluations.sqlite";
   CHECK(opened(file).add(evaluation(0.5)).empty());
-  const auto before = content(file);
+  const auto before = test::content(file);
   const auto other = Store::open(file, {"pastefit 0.2.0", kIdentity.inputs});
   REQUIRE_FALSE(other.ok());
   REQUIRE(other.faults().size() == 1);
   CHECK_THAT(other.faults()[0].where, Catch::EndsWith("program"));
   CHECK_THAT(other.faults()[0].what, Catch::Contains(kIdentity.program) && Catch::Contains("pastefit 0.2.0"));
   CHECK_THAT(other.faults()[0].remedy, Catch::Contains("--force"));
-  CHECK(content(file) == before);
+  CHECK(test::content(file) == before);
 }
 
 TEST_CASE("changed inputs are named, and begin an epoch that keeps what is known") {
@@ -293,12 +293,12 @@ TEST_CASE("a file that is not a store is refused and left as it was") {
     }
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   }
-  const auto before = content(file);
+  const auto before = test::content(file);
   const auto store = Store::open(file, kIdentity);
   REQUIRE_FALSE(store.ok());
   CHECK_THAT(store.faults()[0].where, Catch::Contains("evaluations.sqlite"));
   CHECK_FALSE(store.faults()[0].remedy.empty());
-  CHECK(content(file) == before);
+  CHECK(test::content(file) == before);
 }
 
 TEST_CASE("a store whose folder does not exist is a fault, not an exception") {

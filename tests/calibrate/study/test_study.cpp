@@ -416,7 +416,7 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
   CHECK(choices.at("normal").at("enum") == words(normal_laws));
   CHECK(choices.at("attraction").at("enum") == words(bridge_shapes));
   CHECK(choices.at("rolling_model").at("enum") == words(rolling_models));
-  const json contact = schema("card.schema.json").at("properties").at("test").at("properties").at("contact");
+  const json contact = schema("card.schema.json").at("definitions").at("contact");
   CHECK(contact.at("properties").at("normal").at("enum") == words(normal_laws));
   CHECK(contact.at("properties").at("rolling").at("enum") == words(rolling_models));
   CHECK(contact.at("properties").at("bridge").at("properties").at("shape").at("enum") == words(bridge_shapes));

@@ -10,10 +10,10 @@ namespace pastefit {
 /// The candidates of a search in the light of all that was simulated so far. The one that reads best is often the
 /// luckiest; what its neighbours read, with luck of their own, tells them apart.
 /// Requirement: some evidence is feasible.
-class Candidates {
+class Prospects {
  public:
   /// `refuted`: candidates that a confirmation has judged, which are none any more.
-  Candidates(const Archive& archive, std::span<const UnitPoint> refuted);
+  Prospects(const Archive& archive, std::span<const UnitPoint> refuted);
 
   const Surrogate& surrogate() const { return surrogate_; }
   /// The one of least expected misfit, of those simulated to their end; no point if there is none.

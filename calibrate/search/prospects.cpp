@@ -1,4 +1,4 @@
-#include "calibrate/search/candidates.h"
+#include "calibrate/search/prospects.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(const Archive& archive, std::span<const UnitPoint> refuted)
+Prospects::Prospects(const Archive& archive, std::span<const UnitPoint> refuted)
     : archive_(archive), surrogate_(archive.evidence()), misfit_of_best_(infinity), least_misfit_(infinity) {
   const auto is_refuted = [&](const UnitPoint& point) {
     return std::ranges::any_of(refuted, [&](const UnitPoint& one) { return one == point; });
@@ -34,7 +34,7 @@ Candidates::Candidates(const Archive& archive, std::span<const UnitPoint> refute
   }
 }
 
-double Candidates::chance_of(const UnitPoint& point, double tolerances) const {
+double Prospects::chance_of(const UnitPoint& point, double tolerances) const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Constant(archive_.residuals(), far_from_prior);
   for (int k = 0; k < archive_.readings(); ++k)
     bounds[k] = tolerances * archive_.allowance(static_cast<std::size_t>(k));
