@@ -29,7 +29,8 @@ Sample sample_of(std::span<const double> values) {
   Sample out;
   out.count = static_cast<int>(values.size());
   if (values.empty()) return out;
-  for (const double value : values) out.mean += value / out.count;
+  out.mean = values.front();  // about which there is nothing to round where all are the same
+  for (const double value : values) out.mean += (value - values.front()) / out.count;
   double squares = 0;
   for (const double value : values) squares += (value - out.mean) * (value - out.mean);
   if (out.count > 1) out.standard_deviation = std::sqrt(squares / (out.count - 1));

@@ -11,6 +11,7 @@ struct Sample {
   double standard_deviation = 0;  ///< of one reading; 0 for a single one
 };
 
+/// Readings that are all the same have no deviation, to the last bit.
 Sample sample_of(std::span<const double> values);
 
 /// How far the means of two samples of one population lie apart at most, except with probability `false_alarm`:

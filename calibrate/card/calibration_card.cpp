@@ -19,17 +19,17 @@ constexpr double kHoldOutAlarm = 0.05;  // probability that a right prediction i
 
 /// Mean and standard deviation of a reading over the packings; nothing if some packing did not give it.
 std::optional<CardObservable> mean_of(const std::string& name, const std::vector<Observables>& runs) {
-  CardObservable out;
-  out.name = name;
-  const auto count = static_cast<double>(runs.size());
+  std::vector<double> values;
   for (const auto& run : runs) {
     const auto value = run.find(name);
     if (!value) return std::nullopt;
-    out.simulated += *value / count;
+    values.push_back(*value);
   }
-  double squares = 0;
-  for (const auto& run : runs) squares += std::pow(*run.find(name) - out.simulated, 2);
-  if (runs.size() > 1) out.simulated_standard_deviation = std::sqrt(squares / (count - 1));
+  const Sample sample = sample_of(values);
+  CardObservable out;
+  out.name = name;
+  out.simulated = sample.mean;
+  out.simulated_standard_deviation = sample.standard_deviation;
   return out;
 }
 

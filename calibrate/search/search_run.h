@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/search/objective.h"
 
 namespace pastefit {
@@ -62,12 +64,12 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
 /// Square of the standard error of a mean reading, from its scatter over the packings: sum (x - mean)^2/(n (n - 1)).
 /// 0 for a single packing, a failure, or a reading that was not taken.
 inline double squared_standard_error(const Response& response, std::size_t reading) {
-  const auto packings = static_cast<double>(response.evaluations.size());
-  if (packings < 2 || response.failed) return 0;
-  double mean = 0, squares = 0;
-  for (const Evaluation& one : response.evaluations) mean += one.observables[reading] / packings;
-  for (const Evaluation& one : response.evaluations) squares += std::pow(one.observables[reading] - mean, 2);
-  return std::isfinite(squares) ? squares / packings / (packings - 1) : 0;
+  if (response.evaluations.size() < 2 || response.failed) return 0;
+  std::vector<double> values;
+  for (const Evaluation& one : response.evaluations) values.push_back(one.observables[reading]);
+  const Sample sample = sample_of(values);
+  const double square = sample.standard_deviation * sample.standard_deviation / sample.count;
+  return std::isfinite(square) ? square : 0;
 }
 
 /// True if `candidate` should replace `best`: one with all its readings beats one without, feasible beats failed, then

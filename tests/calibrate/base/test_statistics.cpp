@@ -45,6 +45,14 @@ TEST_CASE("a deviation estimated from five readings is widened until the mean co
   CHECK(widening(1) == 1);
 }
 
+TEST_CASE("readings that are all the same have no deviation, however many they are") {
+  for (const std::size_t count : {2u, 3u, 7u, 49u}) {
+    const Sample sample = sample_of(std::vector<double>(count, 0.1));
+    CHECK(sample.mean == 0.1);
+    CHECK(sample.standard_deviation == 0);
+  }
+}
+
 TEST_CASE("readings without scatter may differ by rounding only") {
   const Sample fixed{4, 12.5, 0};
   CHECK(band_of(fixed, {4, 12.5 + 1e-10, 0}, 1e-3) > 1e-10);

@@ -90,7 +90,7 @@ class Pipe(unittest.TestCase):
         for kind in kinds():
             with self.subTest(kind):
                 out = self.folder / kind
-                self.done("calibrate", self.write(kind), "--out", out, "--budget", "8")
+                self.done("calibrate", self.write(kind), "--out", out, "--budget", "12")
                 result = run("export", out / "card.json", "--to", "lammps", "--out", out / "deck")
                 if is_slump(kind):
                     self.assertEqual(result.returncode, 0, result.stderr)
