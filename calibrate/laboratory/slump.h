@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
 #include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/slump/packing.h"

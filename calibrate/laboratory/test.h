@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/slump.h"
 
