@@ -1,0 +1,155 @@
+#include "calibrate/laboratory/drop.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/object_writer.h"
+#include "calibrate/laboratory/specimen_json.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double mm = 1000;                         // millimetres in a metre
+constexpr double degrees = 180 / std::numbers::pi;  // in a radian
+
+constexpr std::string_view lab_text =
+    R"(// What a laboratory measured in a drop test: a ball of the material falls on a plate. Lines like this one are comments;
+// the unit is in each key.
+{
+  "format": "pastefit-lab-1",
+  "test": "drop",
+  "title": "my gravel, batch 1",
+
+  // Where the data come from; it is carried through to the material card.
+  "provenance": {
+    "source": "laboratory, person, date",
+    "licence": "",
+    "notes": "",
+    "twin": false  // true: not measured, but made by a simulation with known parameters
+  },
+
+  // The plate is of the ball's material: a slab of it, or grains of it cast in and ground flat.
+  "apparatus": {
+    "drop_height_mm": 500,  // the ball falls so far until it touches the plate
+    "plate_tilt_deg": 40    // in a second series of drops; leave it out if there is none
+  },
+
+  // Of the ball: there is nothing between grains.
+  "material": {"bulk_density_kg_m3": 2650},
+
+  // The ball: one grain. Others of its size, or nearly so, are the repeats.
+  "grains": {"distribution": "mono", "radius_mm": 10},
+
+  // Either value and standard deviation of one reading, or all repeats. Heights: the highest rise of the ball above where
+  // it touched. Spin: after it left the plate. It tells the friction if the ball slides throughout the contact, as it does
+  // where the tangent of the tilt is above 3.5 friction (1 + restitution); a ball that sticks may spin as much.
+  "measurements": {
+    "level.rebound_height_mm": {"repeats": [311, 324, 330, 318], "standard_deviation": 5},
+    "tilted.rebound_height_mm": {"repeats": [8, 10, 7]},
+    "tilted.spin_rad_s": {"value": 86, "standard_deviation": 4}
+  }
+}
+)";
+
+constexpr std::string_view study_text =
+    R"(// Which contact parameters are fitted to a drop test, and how. Lines like this one are comments.
+{
+  "format": "pastefit-study-1",
+  "title": "restitution and friction of my gravel",
+  "lab": "lab.json",  // path as seen from this file
+
+  // A dry ball. The attraction of wet ones: as in the study of a slump test, `pastefit template study`.
+  "contact": {"attraction": "none"},
+
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  "parameters": {
+    "restitution": {"free": [0.3, 1]},
+    "friction": {"free": [0.02, 0.5]},
+    "rolling_friction": {"value": 0},
+    "youngs_modulus_pa": {"value": 5e10}
+  },
+
+  "search": {
+    "screening": 8,              // candidates spread over the bounds at the start
+    "budget_simulations": 300,   // in all, confirmation included; one takes milliseconds
+    "packings": 1,               // nothing in this test is random
+    "confirmation_packings": 2,
+    "examination_simulations": 40,
+    "tolerance_mm": 5,           // good enough, for heights; for a spin the laboratory's deviation
+    "seed": 1
+  }
+}
+)";
+
+template <class Fields, class Test>
+void describe_test(Fields& fields, Test& test) {
+  fields.number("drop_height_m", test.drop_height_m, Range{}, Need::required);
+  fields.number("plate_tilt_rad", test.plate_tilt_rad, Range{}, Need::required);
+  describe_specimen(fields, test);
+}
+
+}  // namespace
+
+std::vector<Surface> surfaces_of(DropTest&) {
+  return {};
+}
+
+double grains_needed(const DropTest&) {
+  return 1;
+}
+
+void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need) {
+  apparatus.number("drop_height_mm", test.drop_height_m, {0, 20000, true}, need, mm);
+  apparatus.number("plate_tilt_deg", test.plate_tilt_rad, {0, 80}, Need::optional, degrees);
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 2> places{
+      {{"drop_height_m", "apparatus.drop_height_mm"}, {"plate_tilt_rad", "apparatus.plate_tilt_deg"}}};
+  return places;
+}
+
+nlohmann::json to_json(const DropTest& test) {
+  nlohmann::json document;
+  ObjectWriter writer(document);
+  describe_test(writer, test);
+  return document;
+}
+
+DropTest usual_test(const DropTest&) {
+  DropTest test;
+  test.plate_tilt_rad = 0.5;
+  return test;
+}
+
+void read_test(ObjectReader& reader, DropTest& test) {
+  describe_test(reader, test);
+}
+
+Templates templates_of(const DropTest&) {
+  return {lab_text, study_text};
+}
+
+std::optional<double> grain_density_of(const DropTest& test, const Observables&) {
+  return test.bulk_density_kg_m3;
+}
+
+std::string_view why_of_that_size(const DropTest&) {
+  return "the ball of a drop test is one grain, as large as the laboratory's";
+}
+
+nlohmann::ordered_json conditions_of(const DropTest& test) {
+  return {{"drop_height_m", test.drop_height_m}, {"impact_speed_m_s", impact_speed_m_s(test)}};
+}
+
+std::string conditions_in_words(const DropTest& test) {
+  std::string out = format("  drop                     from %g mm, %.3g m/s at touch", mm * test.drop_height_m,
+                           impact_speed_m_s(test));
+  if (test.plate_tilt_rad > 0)
+    out += format(", on a level plate and on one tilted by %g deg", degrees * test.plate_tilt_rad);
+  return out + "\n";
+}
+
+}  // namespace pastefit

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/usual_answers.h"
+#include "core/rigs/drop_test/drop_test.h"
+
+namespace pastefit {
+
+// The drop test in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind.
+
+inline constexpr std::string_view kind_of(const DropTest&) {
+  return "drop";
+}
+
+/// None: the plate is of the ball's material.
+std::vector<Surface> surfaces_of(DropTest& test);
+
+double grains_needed(const DropTest& test);
+
+/// The keys of "apparatus" in laboratory and rig files: millimetres and degrees.
+void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&);
+
+nlohmann::json to_json(const DropTest& test);
+DropTest usual_test(const DropTest&);
+void read_test(ObjectReader& reader, DropTest& test);
+
+Templates templates_of(const DropTest& test);
+std::optional<double> grain_density_of(const DropTest& test, const Observables& means);
+std::string_view why_of_that_size(const DropTest& test);
+
+nlohmann::ordered_json conditions_of(const DropTest& test);
+std::string conditions_in_words(const DropTest& test);
+
+}  // namespace pastefit
