@@ -126,6 +126,7 @@ class ReadingModel::Fit : public Objective {
 ReadingModel::ReadingModel(std::span<const UnitPoint> sites, std::span<const Answer> answers)
     : sites_(sites.begin(), sites.end()) {
   pool(answers);
+  standardise();
   if (scale_ == 0) return;
   levels_ = Eigen::VectorXd::Zero(std::ssize(rows_));
   Fit even(*this, false);
@@ -138,29 +139,35 @@ ReadingModel::ReadingModel(std::span<const UnitPoint> sites, std::span<const Ans
 }
 
 void ReadingModel::pool(std::span<const Answer> answers) {
-  const auto count = static_cast<double>(answers.size());
-  for (const Answer& answer : answers) centre_ += answer.value / count;
-  for (const Answer& answer : answers) scale_ += std::pow(answer.value - centre_, 2) / count;
-  scale_ = std::sqrt(scale_);
-  if (scale_ <= 1e-12 * (1 + std::abs(centre_))) scale_ = 0;
-  lowest_ = std::numeric_limits<double>::infinity();
-  highest_ = -lowest_;
   for (const Answer& answer : answers) {
-    const double value = scale_ > 0 ? (answer.value - centre_) / scale_ : 0;
-    lowest_ = std::min(lowest_, value);
-    highest_ = std::max(highest_, value);
     const auto same = [&](const Row& row) { return row.site == answer.site && !row.is_bound; };
     const auto known = answer.is_bound ? rows_.end() : std::ranges::find_if(rows_, same);
     if (known == rows_.end()) {
-      rows_.push_back({.site = answer.site, .is_bound = answer.is_bound, .value = value, .observed = value});
+      rows_.push_back({.site = answer.site, .is_bound = answer.is_bound, .value = answer.value});
       continue;
     }
     // Welford's update: without cancellation.
     known->count += 1;
-    const double before = value - known->value;
+    const double before = answer.value - known->value;
     known->value += before / known->count;
-    known->squares += before * (value - known->value);
-    known->observed = known->value;
+    known->squares += before * (answer.value - known->value);
+  }
+}
+
+void ReadingModel::standardise() {
+  const auto count = static_cast<double>(rows_.size());
+  for (const Row& row : rows_) centre_ += row.value / count;
+  for (const Row& row : rows_) scale_ += std::pow(row.value - centre_, 2) / count;
+  scale_ = std::sqrt(scale_);
+  if (scale_ <= 1e-12 * (1 + std::abs(centre_))) scale_ = 0;
+  if (scale_ == 0) return;
+  lowest_ = std::numeric_limits<double>::infinity();
+  highest_ = -lowest_;
+  for (Row& row : rows_) {
+    row.observed = row.value = (row.value - centre_) / scale_;
+    row.squares /= scale_ * scale_;
+    lowest_ = std::min(lowest_, row.value);
+    highest_ = std::max(highest_, row.value);
   }
 }
 

@@ -15,7 +15,7 @@ namespace pastefit {
 ///     y = b_0 + b.(2x - 1) + f(x) + s(x) e,   log s^2 = g_0 + g_1 u + g_2 (u^2 - 1),
 /// a trend with wide normal priors, so that it is followed where there are no simulations (generalised least squares);
 /// a Gaussian process f with a Matérn 5/2 covariance and one length for each coordinate; standard normal noise e whose
-/// deviation depends on the mean reading itself, u, in standard deviations of all answers from their mean: heaps that
+/// deviation depends on the mean reading itself, u, in standard deviations of all sites from their mean: heaps that
 /// stand or have flowed away scatter less than those between. A bound c has the likelihood Phi((c - mean)/s);
 /// expectation propagation replaces it by the normal observation of the same effect. Lengths, variance of f and g
 /// maximise the evidence times broad priors that favour a smooth f and even noise. Answers of one site are pooled,
@@ -42,7 +42,7 @@ class ReadingModel {
     bool is_bound = false;
     double noise = 0;  ///< standard deviation of one answer
 
-    // In units of the answers' deviation, from their mean.
+    // In standard deviations of all sites, from their mean.
     double value = 0;                     // mean of the answers, or the bound
     double squares = 0;                   // of the answers about their mean
     double observed = 0, variance = 1e9;  // the same as one normal observation
@@ -61,7 +61,7 @@ class ReadingModel {
 
  private:
   class Fit;
-  /// All but the answers. In units of the answers' standard deviation.
+  /// All but the answers, in the same unit.
   struct Settings {
     Eigen::VectorXd lengths;
     double signal_variance = 1;
@@ -69,6 +69,7 @@ class ReadingModel {
   };
 
   void pool(std::span<const Answer> answers);
+  void standardise();
   void adopt(const Settings& settings);
   void condition();
   /// One round of expectation propagation over all bounds; answers how much it has changed.
@@ -79,7 +80,7 @@ class ReadingModel {
 
   std::vector<UnitPoint> sites_;
   std::vector<Row> rows_;
-  double centre_ = 0, scale_ = 0;  // of the answers; scale 0: all are the same
+  double centre_ = 0, scale_ = 0;  // mean and deviation of all sites; 0: all are the same
   double lowest_ = 0, highest_ = 0;
   Eigen::VectorXd levels_;  // mean reading of each row, by which its noise is chosen
   Settings settings_;

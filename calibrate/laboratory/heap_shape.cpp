@@ -44,7 +44,7 @@ double deviation_of_psi(const SlumpTest& test, const Heap& heap) {
 /// Height of the cone that is nearest to the readings, in their deviations; by bisection of the slope. Requirement:
 /// the readings are wider than a cone.
 double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
-  const auto& [height, width] = heap;
+  const Measurement &height = heap.height, &width = heap.width;
   const auto rises = [&](double at_mm) {
     const double cone_mm = cone_width_mm(test, at_mm);
     return (at_mm - height.value) / std::pow(error_of(height), 2) >
