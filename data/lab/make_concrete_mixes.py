@@ -21,18 +21,13 @@ MIXES = {
     2: "did not move",
     4: "slump small",
     20: "slump middle",
-    39: "slump large",
-    50: "slump large",
     66: "slump large",
     79: "slump middle",
-    85: "flows",
     89: "slump low to middle",
     103: "nearly flowed away",
 }
-# Height and spread are fitted together; of the others the height alone: mix 2 did not move, 103 flowed away, mix 66 is
-# met in either, not in both (data/studies/README.md), and no
-# convex heap of the mould's volume is as high and wide as mix 20.
-BOTH_FITTED = {4, 39, 50, 79, 85, 89}
+# Height and spread are fitted together; of the others the height alone (data/studies/README.md).
+BOTH_FITTED = {79}
 MOULD_HEIGHT_MM = 300
 HEIGHT_DEVIATION_MM = 7.5
 SPREAD_DEVIATION_MM = 25
