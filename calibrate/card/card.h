@@ -73,8 +73,8 @@ std::string heading_of(const CardTest& test);
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds of the packings that the simulated readings are means over
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
-  double misfit = 0;  ///< largest difference of a fitted reading over its tolerance; 1 is asked for
-  bool meets_laboratory = false;  ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
+  double misfit = 0;                    ///< largest difference of a fitted reading over its tolerance; 1 is asked for
+  bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
 };
 
 /// How the material was found.

@@ -70,19 +70,20 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      and counts in the surrogate as a simulation; nothing else does. They are outside of the budget, and `history`
 ///      does not hold them.
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; the point that
-///      promises most (`proposals.h`) is tried out on one packing, one of the common ones in turn (`Objective::try_out`,
-///      as the screening), and simulated to its end if the bound that this brings does not rule it out; until some
-///      candidate is more likely than not to do (`prospects.h`), or nothing promises enough. Up to `lag` candidates are
-///      under way when the next one is proposed. An NLopt algorithm by name: that algorithm on the simulations themselves,
-///      from the best screening point, on all common packings, with half of what is left of the budget;
-///      "levenberg_marquardt" and "dogleg": Ceres likewise.
-///   3. Refinement: Ceres on the residuals on the common packings, if no candidate is likely to do and the noise of these
+///      promises most (`proposals.h`) is tried out on one packing, one of the common ones in turn
+///      (`Objective::try_out`, as the screening), and simulated to its end if the bound that this brings does not rule
+///      it out; until some candidate is more likely than not to do (`prospects.h`), or nothing promises enough. Up to
+///      `lag` candidates are under way when the next one is proposed. An NLopt algorithm by name: that algorithm on the
+///      simulations themselves, from the best screening point, on all common packings, with half of what is left of the
+///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
+///   3. Refinement: Ceres on the residuals on the common packings, if no candidate is likely to do and the noise of
+///   these
 ///      packings is less than what is allowed.
 ///   4. Confirmation of the likely best candidate on fresh packings: a quarter of them first, and no more if it is
 ///      unlikely then that it will do; up to eight times as many as the options say while their noise hides whether it
-///      meets the laboratory (`confirmation.h`). If it does not for certain, the candidate is out and the search goes on
-///      from 2 with what all of them taught. Limit: a mean that is looked at up to four times is a little kinder than one
-///      that is looked at once.
+///      meets the laboratory (`confirmation.h`). If it does not for certain, the candidate is out and the search goes
+///      on from 2 with what all of them taught. Limit: a mean that is looked at up to four times is a little kinder
+///      than one that is looked at once.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),

@@ -18,8 +18,9 @@ bool is_length(std::string_view observable);
 /// Requirements: `test` and `measurement` are indices in `study.tests` and its `lab.measurements`.
 double tolerance_of(const Study& study, std::size_t test, std::size_t measurement);
 
-/// A misfit has no unit: it is the largest difference of a fitted reading from the laboratory, over its tolerance, and 1
-/// is asked for: one reading that is met does not make up for one that is not. People are told it in mm where all that is fitted are lengths of one tolerance.
+/// A misfit has no unit: it is the largest difference of a fitted reading from the laboratory, over its tolerance, and
+/// 1 is asked for: one reading that is met does not make up for one that is not. People are told it in mm where all
+/// that is fitted are lengths of one tolerance.
 struct MisfitUnit {
   std::optional<double> tolerance_mm;  ///< that one tolerance; none: people are told tolerances
 

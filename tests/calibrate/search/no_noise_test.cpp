@@ -33,7 +33,8 @@ SearchOptions options() {
 
 bool all_finite(const Calibration& calibration) {
   return std::ranges::all_of(calibration.history, [](const Response& one) {
-    return one.point.allFinite() && one.residuals.allFinite() && std::isfinite(one.misfit) && one.noise < 1e-12;  // a mean of equal numbers rounds
+    return one.point.allFinite() && one.residuals.allFinite() && std::isfinite(one.misfit) &&
+           one.noise < 1e-12;  // a mean of equal numbers rounds
   });
 }
 
