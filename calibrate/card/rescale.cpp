@@ -14,9 +14,9 @@ Result<Card> rescaled(Card card, double radius) {
                  "keep its grains; in a test of many grains the same material is another card"};
   const double old_radius = card.material.grains.radius_m, s = radius / old_radius;
   const auto carry = [&](GrainSizes& grains, ContactModel& contact) {
-    const bool of_material = grains.radius_m == old_radius;
+    const bool of_that_radius = grains.radius_m == old_radius;
     grains = enlarged(grains, s);
-    if (of_material) grains.radius_m = radius;  // s rounds
+    if (of_that_radius) grains.radius_m = radius;  // s rounds
     contact = enlarged(contact, s);
   };
   carry(card.material.grains, card.material.contact);

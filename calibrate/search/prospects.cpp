@@ -9,12 +9,12 @@ namespace pastefit {
 namespace {
 
 constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts what is known
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger than any
 
 }  // namespace
 
 Prospects::Prospects(const Archive& archive, std::span<const UnitPoint> refuted)
-    : archive_(archive), surrogate_(archive.evidence()), misfit_of_best_(infinity), least_misfit_(infinity) {
+    : archive_(archive), surrogate_(archive.evidence()), misfit_of_best_(no_misfit), least_misfit_(no_misfit) {
   const auto is_refuted = [&](const UnitPoint& point) {
     return std::ranges::any_of(refuted, [&](const UnitPoint& one) { return one == point; });
   };

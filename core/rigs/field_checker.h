@@ -39,7 +39,4 @@ void check_specimen(FieldChecker& check, const Specimen& specimen);
 /// Faults of a surface of the apparatus.
 void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name);
 
-/// The radius of the largest grain that these sizes allow.
-double largest_radius(const GrainSizes& sizes);
-
 }  // namespace pastefit

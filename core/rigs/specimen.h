@@ -14,4 +14,7 @@ struct Specimen {
   std::uint64_t packing_seed = 1;
 };
 
+/// The radius of the largest grain that these sizes allow.
+double largest_radius(const GrainSizes& sizes);
+
 }  // namespace pastefit

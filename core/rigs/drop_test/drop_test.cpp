@@ -8,12 +8,11 @@
 #include "core/rigs/field_checker.h"
 #include "core/rigs/impact/approach.h"
 #include "core/rigs/impact/impact.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
 namespace {
-
-constexpr double kGravity = 9.81;  // [m/s^2]
 
 double speed_after_fall(double height_m) {
   return std::sqrt(2 * kGravity * height_m);

@@ -33,10 +33,6 @@ double sphere_volume(double r) {
   return 4.0 / 3.0 * std::numbers::pi * r * r * r;
 }
 
-double largest_radius(const GrainSizes& sizes) {
-  return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
-}
-
 /// Solid volume that is poured.
 double poured_volume(const Mould& mould) {
   return kOverfill * kSolidFraction * volume_m3(mould);

@@ -2,11 +2,12 @@
 #include <cmath>
 
 #include "core/rigs/impact/impact.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double kRadius = 0.01, kRestitution = 0.7, kGravity = 9.81;
+constexpr double kRadius = 0.01, kRestitution = 0.7;
 
 /// A grain just above a plane of its own material, on its way down.
 Impact falling(double speed_m_s) {
