@@ -89,7 +89,7 @@ constexpr std::string_view study_text =
     "strategy": "default",
     "screening": 8,              // candidates spread over the bounds at the start
     "budget_simulations": 80,    // in all, confirmation included
-    "packings": 2,               // random packings on which every candidate is tried
+    "packings": 2,               // random packings on which candidates are tried in turn
     "lag": 0,                    // candidates under way when the next is proposed; 1 saves time and costs simulations
     "confirmation_packings": 8,  // fresh packings for the best candidate
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well

@@ -72,11 +72,11 @@ class Pipe(unittest.TestCase):
                 card = out / "card.json"
                 document = json.loads(card.read_text())
                 jsonschema.validate(document, schema("card"))
-                self.assertTrue(document["baseline"]["readings"])
+                self.assertTrue(document["tests"][0]["baseline"]["readings"])
                 self.assertIn(document["title"], self.done("show", card))
                 self.assertIn("agrees", self.done("check", card))
                 again = json.loads(self.done("simulate", card, "--json", "--out", out / "film", "--vtk", "0.25"))
-                readings = document["baseline"]["readings"]
+                readings = document["tests"][0]["baseline"]["readings"]
                 self.assertEqual({name: values[0] for name, values in readings.items()}, again["observables"])
                 self.assertTrue((out / "film/grains.pvd").exists())
                 for target in LAWS:
