@@ -97,7 +97,7 @@ ordered_json test_to_json(const CardTest& test, const Material& material, std::s
   const json shared = shared_part(material);
   for (const char* key : of_material)
     if (of_test.at(key) == shared.at(key)) of_test.erase(key);
-  out["test"] = std::move(of_test);
+  out["test"] = of_test;
   out["observables"] = observables_to_json(test.observables, packings);
   if (test.within_noise) out["within_noise"] = *test.within_noise;
   if (!test.baseline.runs.empty()) out["baseline"] = baseline_to_json(test.baseline);
