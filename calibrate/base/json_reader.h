@@ -36,6 +36,8 @@ template <class T>
 struct Usual {
   T value;
 };
+template <class T>
+Usual(T) -> Usual<T>;
 
 /// A word of a file and the value it stands for.
 template <class T>
