@@ -259,7 +259,7 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
   inference.level = 0.95;
   inference.intervals = {{"strength_pa", 300, 900}};
   inference.correlations = {{"strength_pa", "curvature", -0.75}};
-  inference.not_identified = {{"offset_ratio", "no reading moves with it"}};
+  inference.not_identified = {{"formation_ratio", "no reading moves with it"}};
   written.rebaselined = {{"the fill was mended", "a", "b", {{"step1.height_mm", 150, 152}}}};
   written.rescaled = {{0.01, {{"step1.height_mm", 150, 140, 2}}}};
   const auto document = to_json(written);

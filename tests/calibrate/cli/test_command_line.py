@@ -209,12 +209,12 @@ class CommandLine(Desk):
                           {"name": "slow", "lab": "lab.json", "weights": weights},
                           {"name": "fast", "lab": "fast.json", "weights": weights}]
         study["search"]["confirmation_packings"] = 2
-        study["parameters"]["offset_ratio"]["prior"] = {"value": 0.3, "standard_deviation": 0.05}
+        study["parameters"]["formation_ratio"]["prior"] = {"value": 0.8, "standard_deviation": 0.1}
         file.write_text(json.dumps(study))
         result = run("calibrate", file, "--out", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
         for words in ("slow/step1.height_mm", "Test fast", "Test later, held out", "Hold-out later",
-                      "offset_ratio was known to be 0.3 +- 0.05"):
+                      "formation_ratio was known to be 0.8 +- 0.1"):
             self.assertIn(words, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
@@ -247,7 +247,7 @@ class CommandLine(Desk):
         card = json.loads((self.out / "card.json").read_text())
         named = set(card.get("not_identified", {})) | set(card.get("intervals", {}).get("parameters", {}))
         self.assertEqual(named, {"strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio",
-                                 "offset_ratio"})
+                                 "formation_ratio"})
         with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
         self.assertLessEqual(stored, 16)

@@ -83,7 +83,7 @@ TEST_CASE("parameters of laws that a study did not choose are refused, all at on
   CHECK(says(at(Desk().faults(document), "contact.normal"), "did you mean \"hertz\"?"));
 }
 
-TEST_CASE("without an attraction nothing is asked of the offset") {
+TEST_CASE("without an attraction nothing is asked of a film") {
   json document = Desk::study();
   document["contact"] = {{"attraction", "none"}, {"formation", "touch"}};
   document["parameters"] = {{"friction", {{"free", {0.1, 0.9}}}}};
