@@ -33,6 +33,7 @@ HEIGHT_FITTED = {2, 20, 103}
 MOULD_HEIGHT_MM = 300
 HEIGHT_DEVIATION_MM = 7.5
 SPREAD_DEVIATION_MM = 25
+SHEAR_MM = 40  # a top that shifts by more than 0.4 of the base radius has sheared off
 
 
 def number(value):
@@ -53,7 +54,8 @@ def lab_file(row, kind):
             "notes": "Slump and flow as in the source, in mm. The source states neither mould nor table: an Abrams cone "
                      "(200/100/300 mm) read at its centre is assumed. Density: sum of the seven amounts. "
                      "The source has no repeats: 7.5 mm is from ASTM C143-98, 21 mm as the 95 % limit between two "
-                     "results; 25 mm for the spread is an estimate.",
+                     "results; 25 mm for the spread is an estimate. A slump that is reported did not "
+                     "shear off, or the standards would have had it repeated: a shift of the top of 0 +- 20 mm.",
             "twin": False,
         },
         "apparatus": {"preset": "abrams"},
@@ -65,6 +67,7 @@ def lab_file(row, kind):
                 "standard_deviation": HEIGHT_DEVIATION_MM,
             },
             "step1.spread_mm": {"value": number(10 * flow_cm), "standard_deviation": SPREAD_DEVIATION_MM},
+            "step1.lateral_shift_mm": {"value": 0, "standard_deviation": SHEAR_MM / 2},
         },
     }
 
@@ -87,10 +90,14 @@ def study_file(row, kind):
             "friction": {"free": [0.05, 0.8]} if both else {"value": 0.15},
             "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
         },
-        "weights": {"step1.height_mm": 1, "step1.spread_mm": 1 if both else 0},
+        "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both), "step1.lateral_shift_mm": int(both)},
     }
     if both:
-        study["tolerances"] = {"step1.height_mm": HEIGHT_DEVIATION_MM, "step1.spread_mm": SPREAD_DEVIATION_MM}
+        study["tolerances"] = {
+            "step1.height_mm": HEIGHT_DEVIATION_MM,
+            "step1.spread_mm": SPREAD_DEVIATION_MM,
+            "step1.lateral_shift_mm": SHEAR_MM,
+        }
     study["search"] = {
         "strategy": "default",
         "screening": 8,
