@@ -1,9 +1,11 @@
 #include "core/rigs/specimen.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/laws/constants.h"
+#include "core/random.h"
 #include "core/rigs/field_checker.h"
 
 namespace pastefit {
@@ -42,6 +44,25 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
 
 double largest_radius(const GrainSizes& sizes) {
   return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
+}
+
+double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
+  switch (sizes.distribution) {
+    case SizeDistribution::mono:
+      return sizes.radius_m;
+    case SizeDistribution::uniform:
+      return RandomStream(seed, "grain-radius").uniform(n, sizes.smallest_m, sizes.largest_m);
+    case SizeDistribution::normal: {
+      const RandomStream draws(seed, "grain-radius");
+      constexpr std::uint64_t kTries = 1000;
+      for (std::uint64_t t = 0; t < kTries; ++t) {
+        const double r = sizes.radius_m + sizes.standard_deviation_m * draws.normal(kTries * n + t);
+        if (r >= sizes.smallest_m && r <= sizes.largest_m) return r;
+      }
+      return std::clamp(sizes.radius_m, sizes.smallest_m, sizes.largest_m);
+    }
+  }
+  return sizes.radius_m;
 }
 
 void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name) {
