@@ -19,7 +19,7 @@ World filling_world(const PelletCrush& test, const Grains& grains) {
   World world;
   world.particles = make_particles(grains.centres, grains.radii, test.bulk_density_kg_m3);
   set_contact_model(world, test.contact, test.grains.radius_m);
-  const PairConstants surface = wall_pair(test.contact, test.die_wall, test.grains.radius_m);
+  const PairConstants surface = wall_pair(test.contact, test.tools, test.grains.radius_m);
   const double radius = 0.5 * test.die_diameter_m, top = std::max(top_of(grains), test.fill_height_m);
   Wall floor, die;
   floor.name = "floor";

@@ -67,8 +67,7 @@ Faults validate(const PelletCrush& test) {
                 "give a slower punch or a smaller press_speedup");
     check_speed(check, "platen_speed_m_s", "the platen", test.platen_speed_m_s, sound, "give a slower platen");
   }
-  check_wall(check, test.die_wall, "die_wall");
-  check_wall(check, test.platen_wall, "platen_wall");
+  check_wall(check, test.tools, "tools");
   return check.take();
 }
 

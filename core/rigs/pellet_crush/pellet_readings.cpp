@@ -5,7 +5,7 @@ namespace pastefit {
 std::vector<ReadingKind> reading_kinds(const PelletCrush& test) {
   constexpr int pressed = 0, crushed = 1;
   constexpr double solid = 0.9;  // of the die: more is no bed of grains
-  constexpr double strongest_pa = 1e7;
+  constexpr double strongest_pa = 1e6;
   const double full_g = 1e3 * solid * test.bulk_density_kg_m3 * filled_volume_m3(test);
   const double fill_mm = 1e3 * test.fill_height_m;
   const ReadingRange mass{0, full_g}, share{0, 1}, height{0, 1.5 * fill_mm}, strength{0, strongest_pa};

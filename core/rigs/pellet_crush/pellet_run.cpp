@@ -15,10 +15,11 @@ constexpr int kStepsPerLook = 64;           // at what has fallen off, and at wh
 constexpr double kRestCap = 1;              // [s] simulated time granules are allowed for coming to rest
 constexpr double kBeyond = 1.25;            // of the die's radius: what lies farther out has fallen off
 constexpr double kMostFallen = 0.25;        // of the mass; beyond it there is no pellet any more
+constexpr double kFallen = 0.75;            // of the largest stress: it was a peak
 constexpr double kStrainInterval = 0.0025;  // over which the force on the platen is averaged, as a load cell does
 
-/// Places of the walls. The punch becomes the platen; the die is the last one, and is gone when it is taken away.
-constexpr std::size_t kFloor = 0, kPunch = 1, kDie = 2;
+/// Place of a wall: the floor is before it, the die behind, until it is taken away. The punch becomes the platen.
+constexpr std::size_t kPunch = 1;
 
 /// Pressing and crushing, phase by phase, each as a person in the laboratory would say it.
 class Pressing {
@@ -52,7 +53,7 @@ class Pressing {
     die.name = "die";
     die.shape = Shell{{}, radius, radius, top + 2 * test.grains.radius_m};
     world.walls = {floor, punch, die};
-    for (Wall& wall : world.walls) wall.pair = wall_pair(test.contact, test.die_wall, test.grains.radius_m);
+    for (Wall& wall : world.walls) wall.pair = wall_pair(test.contact, test.tools, test.grains.radius_m);
     return world;
   }
 
@@ -82,7 +83,6 @@ class Pressing {
 
   std::optional<Failure> take_away_die() {
     world_.walls.pop_back();
-    world_.walls[kFloor].pair = punch().pair = wall_pair(test_.contact, test_.platen_wall, test_.grains.radius_m);
     runner_.changed();
     const auto fallen = [this](const World& world) { return world.step % kStepsPerLook == 0 && fell_apart(); };
     if (auto problem = runner_.settle({"release", {}, fallen}, kRestCap)) return problem;
@@ -143,6 +143,16 @@ class Pressing {
   std::vector<CurvePoint> curve_;
 };
 
+/// The largest stress before it has fallen by a quarter.
+CurvePoint peak_of(const std::vector<CurvePoint>& curve) {
+  CurvePoint peak;
+  for (const CurvePoint& point : curve) {
+    if (point.y > peak.y) peak = point;
+    if (point.y < kFallen * peak.y && peak.y > 0) break;
+  }
+  return peak;
+}
+
 }  // namespace
 
 Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
@@ -164,10 +174,10 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   const std::vector<CurvePoint>& curve = pressing.stress_over_strain();
   if (outcome.failure || curve.empty()) return outcome;
 
-  const auto peak = std::ranges::max_element(curve, {}, &CurvePoint::y);
+  const CurvePoint peak = peak_of(curve);
   outcome.observables.set("pellet.height_mm", 1e3 * pressing.pellet_height_m());
-  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak->y);
-  outcome.observables.set("pellet.strain_at_peak", peak->x);
+  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak.y);
+  outcome.observables.set("pellet.strain_at_peak", peak.x);
   outcome.curve = Curve{"stress_strain", "strain", "stress_pa", curve};
   return outcome;
 }
