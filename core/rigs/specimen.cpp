@@ -40,6 +40,14 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
                 "choose a, b, c, d_c with a d_c^2 + b d_c + c >= 0");
 }
 
+/// Of a normal distribution.
+double share_between_bounds(const GrainSizes& sizes) {
+  const auto below = [&](double radius) {
+    return 0.5 * std::erfc((sizes.radius_m - radius) / (sizes.standard_deviation_m * std::numbers::sqrt2));
+  };
+  return below(sizes.largest_m) - below(sizes.smallest_m);
+}
+
 }  // namespace
 
 double largest_radius(const GrainSizes& sizes) {
@@ -85,8 +93,14 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
     check.require(sizes.largest_m <= 20 * sizes.smallest_m, "grains",
                   "the largest grain is more than 20 times the smallest", "narrow the distribution");
   }
-  if (sizes.distribution == SizeDistribution::normal)
+  if (sizes.distribution == SizeDistribution::normal) {
     check.range("grains.standard_deviation_m", sizes.standard_deviation_m, 1e-6 * radius, radius, "m");
+    constexpr double kFewest = 0.01;
+    const double left = share_between_bounds(sizes);
+    check.require(!(left < kFewest), "grains.standard_deviation_m",
+                  "leaves " + FieldChecker::text(100 * left) + " % of the grains between smallest and largest",
+                  "widen the bounds, narrow the distribution, or give \"mono\" or \"uniform\"");
+  }
   check.range("bulk_density_kg_m3", specimen.bulk_density_kg_m3, 100, 20000, "kg/m^3");
 
   const ContactModel& contact = specimen.contact;

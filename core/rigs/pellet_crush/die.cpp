@@ -1,5 +1,6 @@
 #include "core/rigs/pellet_crush/die.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kMostSolid = 0.7;  // share of the die that is poured as solid; what does not fit is scraped away
 constexpr double kEmptiest = 0.25;  // solid share of a die that is full
+constexpr double kDeepest = 0.9;    // overlap over the smaller radius
 constexpr double kFillCap = 2;      // [s]
 constexpr double kScrape = 0.5;     // [radii] centres less than this below the fill height are scraped away
 
@@ -74,8 +76,11 @@ void strike_off(const PelletCrush& test, const RunOptions& options, FilledDie& f
 
 }  // namespace
 
-RunOptions with_window_of(const PelletCrush& test, RunOptions options) {
+RunOptions with_bounds_of(const PelletCrush& test, RunOptions options) {
   options.rest.window_s *= std::sqrt(test.grains.radius_m / GrainSizes{}.radius_m);
+  options.rest.speed_over_fall *= 3;
+  options.rest.change_over_radius *= 5;
+  options.steps.overlap_limit = std::max(options.steps.overlap_limit, kDeepest);
   return options;
 }
 
@@ -88,7 +93,7 @@ double poured_grains(const PelletCrush& test) {
 }
 
 FilledDie fill_die(const PelletCrush& test, const RunOptions& asked) {
-  RunOptions options = with_window_of(test, asked);
+  RunOptions options = with_bounds_of(test, asked);
   // A fixed step, sleep and the ledger are meant for the test.
   options.steps.fixed_step_s.reset();
   options.steps.sleep = options.steps.ledger = false;

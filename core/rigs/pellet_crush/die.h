@@ -18,8 +18,10 @@ struct FilledDie {
 /// stick and how fast they arrive. They sink as in a liquid; what lies above the fill height is scraped away.
 FilledDie fill_die(const PelletCrush& test, const RunOptions& options);
 
-/// When granules count as at rest: the usual window is for grains of 8 mm, and goes with the time in which one falls by
-/// its radius.
-RunOptions with_window_of(const PelletCrush& test, RunOptions options);
+/// How granules are stepped. When they count as at rest: the usual window is for grains of 8 mm, and goes with the time
+/// in which one falls by its radius; a strong pellet swings for long like a jelly, at speeds far below the platen's, so
+/// what is slow is three times as fast as usual, and what changes little five times as much. How deep two may overlap:
+/// where soft ones are pressed, single ones go deeper than in a heap, and still come back.
+RunOptions with_bounds_of(const PelletCrush& test, RunOptions options);
 
 }  // namespace pastefit

@@ -11,8 +11,7 @@ namespace pastefit {
 
 /// The pellet crush test as one value: granules that stick are poured into a die, pressed by a punch, and the pellet
 /// that is left when punch and die are away is crushed by a platen at constant speed. Its dynamic yield strength is the
-/// peak of the force on the platen over the area of the die: the largest before it has fallen by a quarter. What debris
-/// carries that is pressed flat afterwards is none.
+/// peak of the force on the platen over the area of the die, up to the final strain.
 ///
 /// The density of a granule is `bulk_density_kg_m3`: how much of the die they fill follows from how they are poured,
 /// and is a reading. The punch is as wide as the die (no granule fits into its play) and the platen wider than the

@@ -15,7 +15,6 @@ constexpr int kStepsPerLook = 64;           // at what has fallen off, and at wh
 constexpr double kRestCap = 1;              // [s] simulated time granules are allowed for coming to rest
 constexpr double kBeyond = 1.25;            // of the die's radius: what lies farther out has fallen off
 constexpr double kMostFallen = 0.25;        // of the mass; beyond it there is no pellet any more
-constexpr double kFallen = 0.75;            // of the largest stress: it was a peak
 constexpr double kStrainInterval = 0.0025;  // over which the force on the platen is averaged, as a load cell does
 
 /// Place of a wall: the floor is before it, the die behind, until it is taken away. The punch becomes the platen.
@@ -143,16 +142,6 @@ class Pressing {
   std::vector<CurvePoint> curve_;
 };
 
-/// The largest stress before it has fallen by a quarter.
-CurvePoint peak_of(const std::vector<CurvePoint>& curve) {
-  CurvePoint peak;
-  for (const CurvePoint& point : curve) {
-    if (point.y > peak.y) peak = point;
-    if (point.y < kFallen * peak.y && peak.y > 0) break;
-  }
-  return peak;
-}
-
 }  // namespace
 
 Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
@@ -164,7 +153,7 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   outcome.observables.set("die.mass_g", 1e3 * test.bulk_density_kg_m3 * filled.grains.solid_volume_m3);
   outcome.observables.set("die.solid_fraction", filled.grains.solid_volume_m3 / filled_volume_m3(test));
 
-  const RunOptions options = with_window_of(test, asked);
+  const RunOptions options = with_bounds_of(test, asked);
   Pressing pressing(test, filled, options);
   outcome.failure = pressing.run();
   outcome.run = pressing.summary();
@@ -174,10 +163,10 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   const std::vector<CurvePoint>& curve = pressing.stress_over_strain();
   if (outcome.failure || curve.empty()) return outcome;
 
-  const CurvePoint peak = peak_of(curve);
+  const auto peak = std::ranges::max_element(curve, {}, &CurvePoint::y);
   outcome.observables.set("pellet.height_mm", 1e3 * pressing.pellet_height_m());
-  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak.y);
-  outcome.observables.set("pellet.strain_at_peak", peak.x);
+  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak->y);
+  outcome.observables.set("pellet.strain_at_peak", peak->x);
   outcome.curve = Curve{"stress_strain", "strain", "stress_pa", curve};
   return outcome;
 }
