@@ -73,19 +73,20 @@ TEST_CASE("what platen and floor push a pellet with is its weight and its change
   REQUIRE(seen.size() > 100);
   double impulse = 0, on_platen = 0;
   for (std::size_t k = 1; k < seen.size(); ++k) {
-    impulse += seen[k].push_n * (seen[k].time_s - seen[k - 1].time_s);
-    on_platen += seen[k].platen_n / static_cast<double>(seen.size() - 1);
+    const double dt = seen[k].time_s - seen[k - 1].time_s;
+    impulse += seen[k].push_n * dt;
+    on_platen += seen[k].platen_n * dt;
   }
   const double gained = seen.back().momentum - seen.front().momentum;
-  const double weight_s = seen.back().weight * (seen.back().time_s - seen.front().time_s);
-  CHECK(impulse == Approx(gained + weight_s).epsilon(0.01));
-  CHECK(weight_s > 5 * std::fabs(gained));
+  const double duration = seen.back().time_s - seen.front().time_s, weight = seen.back().weight * duration;
+  CHECK(impulse == Approx(gained + weight).epsilon(0.01));
+  CHECK(on_platen > 10 * std::fabs(gained + weight));
 
   // The curve is the same force over the die's area.
   double stress_pa = 0;
   for (const CurvePoint& point : outcome.curve->points)
     stress_pa += point.y / static_cast<double>(outcome.curve->points.size());
-  CHECK(stress_pa * area_m2(test) == Approx(on_platen).epsilon(0.02));
+  CHECK(stress_pa * area_m2(test) == Approx(on_platen / duration).epsilon(0.01));
   const auto peak = std::ranges::max_element(outcome.curve->points, {}, &CurvePoint::y);
   CHECK(read(outcome, "pellet.dynamic_yield_strength_pa") == peak->y);
   CHECK(read(outcome, "pellet.strain_at_peak") == peak->x);
@@ -100,13 +101,13 @@ TEST_CASE("granules that do not stick make no pellet, and that is what the failu
   CHECK_FALSE(outcome.observables.find("pellet.dynamic_yield_strength_pa"));
 }
 
-TEST_CASE("a pellet is as strong as its granules stick, and springs back when the punch is withdrawn") {
+TEST_CASE("a pellet is the stronger the more its granules stick, and springs back when the punch is withdrawn") {
   const PelletCrush weak = small(0.5), strong = small(2.0);
   const Outcome of_weak = done(weak), of_strong = done(strong);
   const double ratio =
       read(of_strong, "pellet.dynamic_yield_strength_pa") / read(of_weak, "pellet.dynamic_yield_strength_pa");
-  CHECK(ratio > 2.5);
-  CHECK(ratio < 6.5);
+  CHECK(ratio > 2);
+  CHECK(ratio < 8);
   for (const Outcome* outcome : {&of_weak, &of_strong}) {
     CHECK(read(*outcome, "pellet.height_mm") > 1e3 * weak.pressed_height_m);
     CHECK(read(*outcome, "pellet.height_mm") < 1e3 * weak.fill_height_m);
