@@ -51,7 +51,8 @@ constexpr std::string_view lab_text =
   "grains": {"distribution": "normal", "radius_mm": 1.05, "standard_deviation_mm": 0.315, "smallest_mm": 1.05, "largest_mm": 1.5},
 
   // Either value and standard deviation of one reading, or all repeats. The strength is the peak of force over the die's
-  // area; pellet.height_mm is read when the die is away.
+  // area. Besides: die.mass_g, of the granules that fill the die; pellet.height_mm, when the die is away;
+  // pellet.strain_at_peak.
   "measurements": {
     "pellet.dynamic_yield_strength_pa": {"value": 3000, "standard_deviation": 300}
   }
