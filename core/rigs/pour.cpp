@@ -13,14 +13,14 @@ constexpr double kLoosest = 2.15;  // spacing of the lattice over the largest ra
 
 }  // namespace
 
-Grains pour(const GrainSizes& sizes, std::uint64_t seed, double enough, double widest,
-            const std::function<double(double)>& inner_radius) {
+LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double enough, double widest,
+                 const std::function<double(double)>& inner_radius) {
   const double largest = largest_radius(sizes);
   const double spacing = kLoosest * largest;
   const double jitter = 0.5 * spacing - largest;
   const RandomStream place(seed, "pour-position");
   const int across = static_cast<int>(widest / spacing) + 1;
-  Grains grains;
+  LooseGrains grains;
   std::uint64_t n = 0;
   for (int layer = 0; grains.solid_volume_m3 < enough; ++layer) {
     const double z = spacing * (layer + 0.5);
@@ -47,7 +47,7 @@ double sphere_volume_m3(double r) {
   return 4.0 / 3.0 * std::numbers::pi * r * r * r;
 }
 
-double top_of(const Grains& grains) {
+double top_of(const LooseGrains& grains) {
   double top = 0;
   for (std::size_t i = 0; i < grains.centres.size(); ++i) top = std::max(top, grains.centres[i].z + grains.radii[i]);
   return top;

@@ -17,7 +17,7 @@ constexpr double kDeepest = 0.9;    // overlap over the smaller radius
 constexpr double kFillCap = 2;      // [s]
 constexpr double kScrape = 0.5;     // [radii] centres less than this below the fill height are scraped away
 
-World filling_world(const PelletCrush& test, const Grains& grains) {
+World filling_world(const PelletCrush& test, const LooseGrains& grains) {
   World world;
   world.particles = make_particles(grains.centres, grains.radii, test.bulk_density_kg_m3);
   set_contact_model(world, test.contact, test.grains.radius_m);
@@ -34,7 +34,7 @@ World filling_world(const PelletCrush& test, const Grains& grains) {
   return world;
 }
 
-void take_grains(const World& world, Grains& grains) {
+void take_grains(const World& world, LooseGrains& grains) {
   grains = {};
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     grains.centres.push_back(world.particles.motion[i].position);
@@ -61,7 +61,7 @@ void let_sink(const PelletCrush& test, const RunOptions& options, FilledDie& fil
 
 /// The rest closes up where its neighbours are gone.
 void strike_off(const PelletCrush& test, const RunOptions& options, FilledDie& filled) {
-  Grains kept;
+  LooseGrains kept;
   for (std::size_t i = 0; i < filled.grains.centres.size(); ++i) {
     if (filled.grains.centres[i].z > test.fill_height_m - kScrape * filled.grains.radii[i]) continue;
     kept.centres.push_back(filled.grains.centres[i]);

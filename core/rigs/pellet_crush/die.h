@@ -9,7 +9,7 @@ namespace pastefit {
 
 /// Granules in the die, struck off level and at rest; or why it could not be filled.
 struct FilledDie {
-  Grains grains;
+  LooseGrains grains;
   RunSummary run;
   std::optional<Failure> failure;
 };

@@ -94,7 +94,7 @@ class Pressing {
                    -1,
                    fallen_share(),
                    kMostFallen,
-                   "the pellet does not stand without its die; give more surface energy or friction, or press it more"};
+                   "the pellet does not stand without its die; give more surface energy, or press it more"};
   }
 
   std::optional<Failure> crush() {

@@ -42,8 +42,8 @@ double inner_radius(const Mould& mould, double z) {
 
 /// Loose grains in mould and hopper, until enough is poured.
 void pour(const SlumpTest& test, Packing& packing) {
-  Grains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), test.mould.base_radius_m,
-                       [&](double z) { return inner_radius(test.mould, z); });
+  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), test.mould.base_radius_m,
+                            [&](double z) { return inner_radius(test.mould, z); });
   packing.centres = std::move(poured.centres);
   packing.radii = std::move(poured.radii);
   packing.solid_volume_m3 = poured.solid_volume_m3;
