@@ -71,11 +71,12 @@ class Pressing {
   std::optional<Failure> withdraw_punch() {
     const double speed = test_.press_speedup * test_.punch_speed_m_s;
     punch().velocity = {0, 0, speed};
-    const auto clear = [&](const World& world) {
-      return world.step % kStepsPerLook == 0 &&
-             height_of_punch() > highest_point(world.particles) + test_.grains.radius_m;
-    };
-    if (auto problem = runner_.run({"withdraw", {}, clear}, 2 * test_.fill_height_m / speed)) return problem;
+    const auto is_clear = [&] { return height_of_punch() > highest_point(world_.particles) + test_.grains.radius_m; };
+    const auto done = [&](const World& world) { return world.step % kStepsPerLook == 0 && is_clear(); };
+    if (auto problem = runner_.run({"withdraw", {}, done}, 2 * test_.fill_height_m / speed)) return problem;
+    if (!is_clear())
+      return apart("withdraw", highest_point(world_.particles), height_of_punch(),
+                   "granules stick to the punch and leave the die with it; give the tools a smaller cohesion_factor");
     punch().velocity = {};
     return runner_.settle({"withdraw"}, kRestCap);
   }
@@ -87,14 +88,12 @@ class Pressing {
     if (auto problem = runner_.settle({"release", {}, fallen}, kRestCap)) return problem;
     pellet_height_ = highest_point(world_.particles);
     if (!fell_apart()) return {};
-    return Failure{FailureReason::fell_apart,
-                   "release",
-                   world_.step,
-                   world_.time,
-                   -1,
-                   fallen_share(),
-                   kMostFallen,
-                   "the pellet does not stand without its die; give more surface energy, or press it more"};
+    return apart("release", fallen_share(), kMostFallen,
+                 "the pellet does not stand without its die; give more surface energy, or press it more");
+  }
+
+  Failure apart(const char* phase, double value, double limit, const char* message) const {
+    return {FailureReason::fell_apart, phase, world_.step, world_.time, -1, value, limit, message};
   }
 
   std::optional<Failure> crush() {

@@ -101,6 +101,16 @@ TEST_CASE("granules that do not stick make no pellet, and that is what the failu
   CHECK_FALSE(outcome.observables.find("pellet.dynamic_yield_strength_pa"));
 }
 
+TEST_CASE("a pellet that the punch takes along is no pellet") {
+  PelletCrush test = small(2.0);
+  test.tools.cohesion_factor = 3;
+  const Outcome outcome = simulate(test);
+  REQUIRE(outcome.failure);
+  CHECK(outcome.failure->reason == FailureReason::fell_apart);
+  CHECK(outcome.failure->phase == "withdraw");
+  CHECK_THAT(outcome.failure->message, Catch::Contains("stick to the punch"));
+}
+
 TEST_CASE("a pellet is the stronger the more its granules stick, and springs back when the punch is withdrawn") {
   const PelletCrush weak = small(0.5), strong = small(2.0);
   const Outcome of_weak = done(weak), of_strong = done(strong);
