@@ -45,6 +45,12 @@ bool ObjectReader::has(std::string_view key) const {
   return object_.contains(key);
 }
 
+void ObjectReader::former(std::string_view key, std::string instead) {
+  if (!has(key)) return;
+  known_.insert(std::string(key));
+  fault(key, "is a key of earlier programs", std::move(instead));
+}
+
 std::string ObjectReader::place(std::string_view key) const {
   return joined(place_, key);
 }

@@ -59,6 +59,8 @@ class ObjectReader {
   ObjectReader& operator=(const ObjectReader&) = delete;
 
   bool has(std::string_view key) const;
+  /// A key of earlier programs is a fault that says what stands in its place.
+  void former(std::string_view key, std::string instead);
   /// Names a key that was read elsewhere.
   void known(std::string_view key) { known_.emplace(key); }
   Faults& faults() { return faults_; }

@@ -144,7 +144,7 @@ struct Rescaling {
 };
 
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
-/// comes from. File format "pastefit-card-4", `data/schema/card.schema.json`.
+/// comes from. File format "pastefit-card-5", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
   Material material;

@@ -92,8 +92,73 @@ void from_3(json& card) {
   card.erase("conditions");
 }
 
+/// The member as an object; nothing if there is none.
+json* object_in(json& from, const char* key) {
+  const auto found = from.is_object() ? from.find(key) : from.end();
+  return found != from.end() && found->is_object() ? &*found : nullptr;
+}
+
+/// The bridge ends where its shells meet at most: what an offset did beyond that.
+void bound_offset(json& holder, double reach, double radius_m) {
+  json* const contact = object_in(holder, "contact");
+  json* const bridge = contact ? object_in(*contact, "bridge") : nullptr;
+  if (!bridge || bridge->value("shape", json()) == "none" || !number_in(*bridge, "offset_m")) return;
+  if (bridge->value("formation", json()) == "touch" || bridge->at("offset_m").get<double>() > 0.5 * reach * radius_m)
+    (*bridge)["offset_m"] = 0.5 * reach * radius_m;
+}
+
+bool is_touch(json& material) {
+  json* const contact = object_in(material, "contact");
+  json* const bridge = contact ? object_in(*contact, "bridge") : nullptr;
+  return bridge && bridge->value("formation", json()) == "touch";
+}
+
+void from_4(json& card) {
+  constexpr auto before = "offset_ratio", now = "formation_ratio", gap_key = "rupture_gap_ratio";
+  json* const material = object_in(card, "material");
+  json* const parameters = material ? object_in(*material, "parameters") : nullptr;
+  if (!parameters) return;
+  const double offset = number_in(*parameters, before).value_or(0.15);
+  double gap = number_in(*parameters, gap_key).value_or(0.3);
+  parameters->erase(before);
+  if (is_touch(*material)) (*parameters)[gap_key] = gap = std::min(gap, 2 * offset);
+  const auto ratio = [gap](double of_offset) { return gap > 0 ? std::min(1.0, 2 * of_offset / gap) : 1.0; };
+  if (!is_touch(*material)) (*parameters)[now] = ratio(offset);
+
+  const auto radius_of = [](json& holder) {
+    json* const grains = object_in(holder, "grains");
+    return grains ? number_in(*grains, "radius_m") : std::nullopt;
+  };
+  const double radius_m = radius_of(*material).value_or(0);
+  bound_offset(*material, gap, radius_m);
+  if (const auto tests = card.find("tests"); tests != card.end() && tests->is_array())
+    for (json& entry : *tests)
+      if (json* const test = object_in(entry, "test")) bound_offset(*test, gap, radius_of(*test).value_or(radius_m));
+
+  const auto rename = [&](json* object) {
+    if (!object || !object->contains(before)) return;
+    if (!is_touch(*material)) (*object)[now] = std::move((*object)[before]);
+    object->erase(before);
+  };
+  json* const free = object_in(*material, "free");
+  json* const intervals = object_in(card, "intervals");
+  for (json* bounds : {free, intervals ? object_in(*intervals, "parameters") : nullptr}) {
+    rename(bounds);
+    json* const own = bounds ? object_in(*bounds, now) : nullptr;
+    for (const char* end : {"lower", "upper"})
+      if (const auto bound = own ? number_in(*own, end) : std::nullopt) (*own)[end] = ratio(*bound);
+    if (own) own->erase("prior");
+    if (own && bounds == free && own->value("lower", json()) == own->value("upper", json())) (*own)["lower"] = 0;
+  }
+  rename(object_in(card, "not_identified"));
+  if (json* const correlation = object_in(card, "correlation")) {
+    rename(correlation);
+    for (auto& [first, row] : correlation->items()) rename(row.is_object() ? &row : nullptr);
+  }
+}
+
 /// The n-th step leads from version n + 1 to the next one.
-constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1, from_2, from_3};
+constexpr std::array<void (*)(json&), kCardVersion - 1> kSteps{from_1, from_2, from_3, from_4};
 
 /// The number after the prefix; 0 if it is none.
 int version_of(const std::string& format) {

@@ -61,7 +61,9 @@ int export_to_folder(const ExportOptions& options) {
 
   const auto test = test_to_export(card.value(), *exporter, options.test);
   if (!test.ok()) return report(test.faults());
-  const auto written = export_test(card.value(), test.value(), *exporter, options.packing);
+  const auto scene = export_scene(card.value(), test.value(), options.packing);
+  if (!scene.ok()) return report(scene.faults(), kFailed);
+  const auto written = exporter->write(scene.value());
   if (!written.ok()) return report(written.faults());
 
   std::vector<std::string> names{kNotes};

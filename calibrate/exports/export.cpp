@@ -65,6 +65,11 @@ Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, cons
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing) {
   ExportScene scene;
   scene.title = title_of(card, test);
+  scene.test_of_card = test.test;
+  if (!has_deck(test)) {
+    scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(specimen_of(test.test).bulk_density_kg_m3);
+    return scene;
+  }
   scene.test = std::get<SlumpTest>(test.test);
   scene.test.packing_seed = packing.value_or(scene.test.packing_seed);
   scene.test_of_card = scene.test;
@@ -77,18 +82,6 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   scene.grain_density_kg_m3 = grain_density(scene.test, scene.packing);
   scene.sizes = size_classes(scene.packing.radii);
   return scene;
-}
-
-Result<Export> export_test(const Card& card, const CardTest& test, const Exporter& exporter,
-                           std::optional<std::uint64_t> packing) {
-  if (!has_deck(test)) {
-    const double bulk_density = specimen_of(test.test).bulk_density_kg_m3;
-    const double grain_density = card.material.grain_density_kg_m3.value_or(bulk_density);
-    return exporter.law({title_of(card, test), test.test, grain_density});
-  }
-  const auto scene = export_scene(card, test, packing);
-  if (!scene.ok()) return scene.faults();
-  return exporter.write(scene.value());
 }
 
 }  // namespace pastefit

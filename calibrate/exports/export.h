@@ -21,7 +21,8 @@ struct ExportLaw {
   Packing packing = {};  ///< the filled mould of a slump test; empty for other tests
 };
 
-/// What a deck is written from: a slump test of a card, and the mould filled by pastefit.
+/// What a deck is written from: a slump test of a card, and the mould filled by pastefit. Other tests have the law
+/// alone.
 struct ExportScene : ExportLaw {
   SlumpTest test = {};
   SizeClasses sizes = {};
@@ -47,6 +48,7 @@ struct Exporter {
   Result<Export> (*deck)(const ExportScene& scene);
   Result<Export> (*law)(const ExportLaw& law) = nullptr;
 
+  /// Requirement: the scene's test is from `test_to_export`.
   Result<Export> write(const ExportScene& scene) const { return deck ? deck(scene) : law(scene); }
 };
 
@@ -58,14 +60,9 @@ std::string title_of(const Card& card, const CardTest& test);
 /// of it.
 Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, const std::string& name);
 
-/// The scene of a slump test in this packing, or in the test's own. Errors: the mould cannot be filled.
+/// A card's test for any target: with the mould filled by this packing, or by the test's own, if it is a slump test;
+/// else the law alone. Errors: the mould cannot be filled.
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);
-
-/// The test for a target: a deck with the given packing; or, for a target that only writes the law, the law, beside the
-/// filled mould if it is a slump test's. Requirement: `test` is from `test_to_export`. Errors: those of `export_scene`
-/// and of the target.
-Result<Export> export_test(const Card& card, const CardTest& test, const Exporter& exporter,
-                           std::optional<std::uint64_t> packing);
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
 std::span<const Exporter> exporters();

@@ -43,8 +43,8 @@ constexpr std::string_view lab_text =
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {
-    "step1.slump_mm": {"repeats": [148, 155, 151], "standard_deviation": 5},  // beside repeats: the least deviation
-    "step1.spread_mm": {"value": 380, "standard_deviation": 25}
+    "step1.slump_mm": {"repeats": [158, 165, 163], "standard_deviation": 7.5},  // beside repeats: the least deviation
+    "step1.spread_mm": {"value": 320, "standard_deviation": 25}
   }
 }
 )";
@@ -61,7 +61,7 @@ constexpr std::string_view study_text =
 
   // normal: hertz, or jkr (grains that stick where they touch). attraction across a gap: polynomial, linear, exponential,
   // capillary or none. A law has parameters of its own: what no chosen law has is refused.
-  // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (the offset then bounds the gap).
+  // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (there is no formation_ratio).
   // rolling_model: spring_dashpot, constant_torque or none.
   // friction_basis: elastic (cohesion strengthens friction) or total (of the whole normal force).
   "contact": {"normal": "hertz", "attraction": "polynomial", "formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
@@ -70,25 +70,26 @@ constexpr std::string_view study_text =
   // Known, but not for sure: {"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0.05}}.
   // Parameters that are not named have their usual value. R is the mean grain radius.
   "parameters": {
-    "strength_pa": {"free": [300, 40000], "scale": "log"},  // attraction at touch over R^2
+    "strength_pa": {"free": [10, 40000], "scale": "log"},  // attraction at touch over R^2
     "rupture_force_ratio": {"free": [0, 0.5]},   // share of it left when the bridge ruptures
     "curvature": {"free": [-0.5, 1]},            // decay: -1 flat at touch, 0 straight, 1 flat at rupture
-    "rupture_gap_ratio": {"free": [0.3, 1]},     // gap at rupture over R
-    "offset_ratio": {"free": [0.1, 0.5]},        // liquid shell over R
-    "friction": {"value": 0.15},
-    "rolling_friction": {"value": 0.02}
+    "rupture_gap_ratio": {"free": [0.05, 1], "scale": "log"},  // gap at rupture over R
+    "formation_ratio": {"free": [0, 1]},         // gap at which a bridge forms over the one at which it ruptures
+    "friction": {"free": [0.05, 0.8]},           // between grains; where the spread is not fitted: {"value": 0.15}
+    "rolling_friction": {"free": [0, 1]}         // the same: {"value": 0.02}
     // "adhesion_pa": {"free": [100, 10000]}  // of jkr: surface energy over R
   },
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
-  "weights": {"step1.height_mm": 1, "step1.spread_mm": 0},
+  "weights": {"step1.height_mm": 1, "step1.spread_mm": 1},
   // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
-  // deviation of the laboratory: "tolerances": {"step1.spread_mm": 15},
+  // deviation of the laboratory.
+  "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25},
 
   "search": {
     "strategy": "default",
     "screening": 8,              // candidates spread over the bounds at the start
-    "budget_simulations": 80,    // in all, confirmation included
+    "budget_simulations": 150,   // in all, confirmation included
     "packings": 2,               // random packings on which candidates are tried in turn
     "lag": 0,                    // candidates under way when the next is proposed; 1 saves time and costs simulations
     "confirmation_packings": 8,  // fresh packings for the best candidate

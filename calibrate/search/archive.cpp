@@ -97,6 +97,12 @@ double Archive::allowance(std::size_t reading) const {
   return factor * objective_.allowance(reading);
 }
 
+double Archive::allowed_misfit() const {
+  double squares = 0;
+  for (int k = 0; k < readings(); ++k) squares += std::pow(allowance(static_cast<std::size_t>(k)), 2);
+  return 0.5 * squares;
+}
+
 void Archive::weigh(Response& response) const {
   if (factors_.size() == 0 || !is_feasible(response)) return;
   response.residuals.array() *= factors_.array();

@@ -31,6 +31,8 @@ class Archive : public Objective {
   int simulations_each() const override { return objective_.simulations_each(); }
   double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
   double allowance(std::size_t reading) const override;
+  /// The misfit of a candidate each of whose fitted readings is off by its tolerance.
+  double allowed_misfit() const;
   MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;

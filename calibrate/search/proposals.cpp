@@ -14,13 +14,13 @@ constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, 
 
 }  // namespace
 
-std::optional<UnitPoint> Proposals::next(const Prospects& prospects, double good) {
+std::optional<UnitPoint> Proposals::next(const Prospects& prospects) {
   Surrogate model = prospects.surrogate();
   imagine_answers(model);
   double least = prospects.least_misfit();
   for (const Archive::Asked& asked : archive_.under_way()) least = std::min(least, model.outlook(asked.point).mean());
   const Improvement best = most_promising(model, least, prospects.least());
-  if (best.expected < worthwhile * good) return std::nullopt;
+  if (best.expected < worthwhile * archive_.allowed_misfit()) return std::nullopt;
   const UnitPoint proposal = tried_with_coarse_grains(best.point);
   const auto is_same = [&](const auto& asked) {
     return (asked.point - proposal).template lpNorm<Eigen::Infinity>() < same_point;

@@ -28,9 +28,8 @@ class Proposals {
   Proposals(Archive& archive, Objective* coarse, const SearchOptions& options)
       : archive_(archive), coarse_(coarse), options_(options) {}
 
-  /// `good`: misfit of a candidate that just meets the laboratory. None if nothing promises more than a fiftieth of it,
-  /// or before the next answer.
-  std::optional<UnitPoint> next(const Prospects& prospects, double good);
+  /// None if nothing promises more than a fiftieth of the misfit that is allowed, or before the next answer.
+  std::optional<UnitPoint> next(const Prospects& prospects);
 
  private:
   UnitPoint tried_with_coarse_grains(UnitPoint proposal);

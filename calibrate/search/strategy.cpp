@@ -23,6 +23,7 @@ namespace {
 constexpr double goal_share = 0.6;             // of the tolerances: what a candidate should be within, to be confirmed
 constexpr double hardly_likely = 0.1;          // its probability with which a confirmation is broken off
 constexpr double likely_enough = 0.5;          // and with which it is begun
+constexpr double all_but_certain = 0.9;        // or with which all is within the tolerances, at the edge of what can be
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
@@ -104,13 +105,9 @@ class Search {
 
   /// True if the best candidate is more likely than not to do.
   bool goal_is_met(const Prospects& prospects) const {
-    return prospects.best().size() > 0 && prospects.chance_of(prospects.best(), goal_share) >= likely_enough;
-  }
-
-  /// The misfit of a candidate that misses by so many tolerances, by the ratio of both in the best simulation.
-  double misfit_of_miss(double miss) const {
-    const auto best = archive_.best_single();
-    return best && best->miss > 0 ? best->misfit * std::pow(miss / best->miss, 2) : 0;
+    if (prospects.best().size() == 0) return false;
+    return prospects.chance_of(prospects.best(), goal_share) >= likely_enough ||
+           prospects.chance_of(prospects.best(), 1) >= all_but_certain;
   }
 
   /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
@@ -122,7 +119,8 @@ class Search {
     if (options_.strategy == "default") {
       propose_and_try();
     } else if (const auto trust_region = trust_region_of(options_.strategy)) {
-      descend(*trust_region, std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size())));
+      descend(*trust_region, archive_.best_point(common_),
+              std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size())));
     } else {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
@@ -139,19 +137,16 @@ class Search {
   /// the answers up to k - 1 - lag, of the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
     Proposals proposals(archive_, coarse_, options_);
-    bool enough = false;  // until the next answer
     while (true) {
       const Prospects known = prospects();
-      enough = enough || !may_go_on() || goal_is_met(known);
-      if (!enough && std::ssize(archive_.under_way()) <= options_.lag) {
-        const std::optional<UnitPoint> proposal = proposals.next(known, misfit_of_miss(1));
-        if (proposal) archive_.begin(*proposal, packing_for(*proposal));
-        enough = !proposal;
-        continue;
+      const bool enough = goal_is_met(known);
+      while (!enough && may_go_on() && std::ssize(archive_.under_way()) <= options_.lag) {
+        const std::optional<UnitPoint> proposal = proposals.next(known);
+        if (!proposal) break;
+        archive_.begin(*proposal, packing_for(*proposal));
       }
       if (archive_.under_way().empty()) return;
       const Response response = archive_.next_answer();
-      enough = false;
       // What it misses at least does not rule it out: its other readings decide.
       if (is_feasible(response) && response.ended_early && response.misfit < known.misfit_of_best() && may_go_on())
         (void)archive_.evaluate({&response.point, 1}, response.packings);
@@ -200,12 +195,14 @@ class Search {
 
   /// Descends where the surrogate sees no better candidate and none that will do, unless what is left is luck.
   void refine() {
-    if (!may_go_on() || goal_is_met(prospects()) || noise() > misfit_of_miss(1)) return;
+    if (!may_go_on() || noise() > archive_.allowed_misfit()) return;
+    const Prospects known = prospects();
+    if (goal_is_met(known)) return;
     archive_.enter("refinement");
-    descend(TrustRegion::levenberg_marquardt, CeresOptions{}.evaluations);
+    descend(TrustRegion::levenberg_marquardt, known.best(), CeresOptions{}.evaluations);
   }
 
-  void descend(TrustRegion trust_region, int evaluations) {
+  void descend(TrustRegion trust_region, const UnitPoint& start, int evaluations) {
     CeresOptions ceres;
     ceres.trust_region = trust_region;
     ceres.evaluations = evaluations;
@@ -213,15 +210,7 @@ class Search {
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
-    search_ceres(archive_, common_, archive_.best_point(common_), ceres);
-  }
-
-  /// The packings that a point was simulated on to its end.
-  std::vector<std::uint64_t> packings_of(const UnitPoint& point) const {
-    std::vector<std::uint64_t> packings;
-    for (const Response& one : archive_.singles())
-      if (one.point == point && is_whole(one)) packings.push_back(one.packings.front());
-    return packings;
+    search_ceres(archive_, common_, start, ceres);
   }
 
   /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
@@ -230,7 +219,6 @@ class Search {
     archive_.enter("confirmation");
     archive_.hold_back(0);
     const UnitPoint candidate = prospects().best();
-    const std::vector<std::uint64_t> tried = packings_of(candidate);
     const auto all = static_cast<std::size_t>(options_.confirmation_packings);
     std::vector<std::uint64_t> fresh = fresh_packings(static_cast<int>((all + 3) / 4));
     Response confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
@@ -245,32 +233,43 @@ class Search {
     }
     if (archive_.stop_requested()) return false;
     ++result_.rounds;
-    std::vector<std::uint64_t> joined = tried;
-    joined.insert(joined.end(), fresh.begin(), fresh.end());
-    const Response evidence = archive_.evaluate({&candidate, 1}, joined).at(0);
-    const bool holds = verdict == Verdict::holds;
-    if (holds || result_.confirmation.point.size() == 0 || is_better(evidence, result_.best)) {
-      result_.best = evidence;
-      result_.search = archive_.evaluate({&candidate, 1}, tried).at(0);
-      result_.confirmation = confirmation;
-    }
-    confirmed_ = holds;
-    if (!holds) refuted_.push_back(candidate);
+    confirmed_ = verdict == Verdict::holds;
+    if (!confirmed_) refuted_.push_back(candidate);
+    report(confirmation);
     archive_.hold_back(options_.confirmation_packings);
-    return holds;
+    return confirmed_;
   }
 
-  /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them.
+  /// The result is this candidate, judged on fresh packings, if no better one was.
+  void report(const Response& confirmation) {
+    std::vector<std::uint64_t> tried;  // before it was judged
+    for (const Response& one : archive_.singles())
+      if (one.point == confirmation.point && is_whole(one) &&
+          std::ranges::count(confirmation.packings, one.packings.front()) == 0)
+        tried.push_back(one.packings.front());
+    std::vector<std::uint64_t> joined = tried;
+    std::ranges::copy(confirmation.packings, std::back_inserter(joined));
+    const Response evidence = archive_.evaluate({&confirmation.point, 1}, joined).at(0);
+    const bool first = result_.confirmation.point.size() == 0 || result_.confirmation.point == confirmation.point;
+    if (!confirmed_ && !first && !is_better(evidence, result_.best)) return;
+    result_.best = evidence;
+    result_.search = archive_.evaluate({&confirmation.point, 1}, tried).at(0);
+    result_.confirmation = confirmation;
+  }
+
+  /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them. They may prove
+  /// wrong what broke it off.
   void finish_confirmation() {
     archive_.hold_back(0);
-    const std::size_t asked = result_.confirmation.packings.size();
-    const auto all = static_cast<std::size_t>(options_.confirmation_packings);
-    if (asked == 0 || asked >= all || !affordable(all - asked) || archive_.stop_requested()) return;
-    const UnitPoint point = result_.confirmation.point;
     std::vector<std::uint64_t> fresh = result_.confirmation.packings;
-    std::ranges::copy(fresh_packings(static_cast<int>(all - asked)), std::back_inserter(fresh));
-    const Response confirmation = archive_.evaluate({&point, 1}, fresh).at(0);
-    if (!archive_.stop_requested()) result_.confirmation = confirmation;
+    const auto all = static_cast<std::size_t>(options_.confirmation_packings);
+    if (fresh.empty() || fresh.size() >= all || !affordable(all - fresh.size()) || archive_.stop_requested()) return;
+    const UnitPoint candidate = result_.confirmation.point;
+    std::ranges::copy(fresh_packings(static_cast<int>(all - fresh.size())), std::back_inserter(fresh));
+    const Response confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
+    if (archive_.stop_requested()) return;
+    confirmed_ = verdict_on(confirmation) == Verdict::holds;
+    report(confirmation);
   }
 
   Calibration conclude() {

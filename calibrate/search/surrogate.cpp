@@ -51,13 +51,9 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
     Response response;
     response.point = point;
     response.residuals.resize(residuals());
-    double variance = 0;
-    for (std::size_t k = 0; k < models_.size(); ++k) {
-      const auto prediction = models_[k] ? models_[k]->predict(point) : GaussianProcess::Prediction{};
-      response.residuals[static_cast<Eigen::Index>(k)] = prediction.mean;
-      variance += prediction.variance;
-    }
-    response.misfit = 0.5 * (response.residuals.squaredNorm() + variance) + failing(point) * worst_;
+    for (std::size_t k = 0; k < models_.size(); ++k)
+      response.residuals[static_cast<Eigen::Index>(k)] = models_[k] ? models_[k]->predict(point).mean : 0;
+    response.misfit = outlook(point).mean();
     responses.push_back(std::move(response));
   }
   return responses;

@@ -8,16 +8,13 @@
 
 namespace pastefit {
 
-/// The simulations' stand-in: answers in microseconds what the residuals of a
-/// point are likely to be. The misfit is the expected one, half the sum of
-/// squared means and variances, plus the largest misfit seen times the likely
-/// share of failures, so that its minimum lies where something is known and
-/// little fails. It never fails. Each residual is learnt from the simulations
-/// that took its reading; one that none took is expected to be met.
+/// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
+/// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
+/// something is known and little fails. It never fails. Each residual is learnt from the simulations that took its
+/// reading; one that none took is expected to be met.
 class Surrogate : public Objective {
  public:
-  /// `seen`: finished simulations, each on one packing, at least one of them
-  /// feasible.
+  /// `seen`: finished simulations, each on one packing, at least one of them feasible.
   explicit Surrogate(std::span<const Response> seen);
 
   int parameters() const override { return parameters_; }
@@ -38,7 +35,7 @@ class Surrogate : public Objective {
    private:
     double mean_, variance_;
   };
-  /// With what a point far from the middle of the bounds has to make up for (a weak prior).
+  /// Its mean includes failures and what a point far from the middle of the bounds has to make up for (a weak prior).
   Outlook outlook(const UnitPoint& point) const;
 
   /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
@@ -50,8 +47,7 @@ class Surrogate : public Objective {
   /// them.
   Eigen::VectorXd imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck);
 
-  /// Likely misfit of a point and of the noise of one simulation: half the sum
-  /// of the noise variances.
+  /// Misfit that the noise of one simulation is likely to cause: half the sum of the noise variances.
   double noise() const;
 
  private:

@@ -20,7 +20,8 @@ constexpr std::array<ParameterKind, 16> kinds{{
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
     {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
     {"rupture_gap_ratio", 1e-3, 1, 0.3, linear, "gap at which the bridge ruptures over the mean grain radius, -d_c/R"},
-    {"offset_ratio", 0, 1, 0.15, linear, "thickness of the liquid shell over the mean grain radius"},
+    {"formation_ratio", 0, 1, 1, linear,
+     "gap at which a bridge forms over the one at which it ruptures, 2 offset/-d_c"},
     {"friction", 0, 2, 0.5, linear, "sliding friction between grains"},
     {"rolling_friction", 0, 1, 0.1, linear, "rolling friction between grains"},
     {"restitution", 0.01, 1, 0.3, linear, "rebound speed over impact speed between grains, without attraction"},
@@ -126,15 +127,24 @@ std::array<Choice, 3> choices_of(const ContactModel& laws, std::string_view para
           choice_of("rolling_model", RollingLaws{}, laws.rolling, parameter)};
 }
 
+/// Bridges that form by touch ask nothing of a film.
+bool lacks_film(const ContactModel& laws, std::string_view parameter) {
+  return parameter == AcrossGap::film_parameter && laws.bridge.formation == BridgeFormation::touch;
+}
+
 }  // namespace
 
 bool has_parameter(const ContactModel& laws, std::string_view name) {
+  if (lacks_film(laws, name)) return false;
   const auto choices = choices_of(laws, name);
   return std::ranges::any_of(choices, &Choice::had) ||
          std::ranges::all_of(choices, [](const Choice& choice) { return choice.having.empty(); });
 }
 
 Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name) {
+  if (lacks_film(laws, name))
+    return {std::move(place), "belongs to formation \"film\"; chosen is formation \"touch\"",
+            "leave it out, or choose \"contact\": {\"formation\": \"film\"}"};
   std::string owners, chosen, remedy;
   for (const Choice& choice : choices_of(laws, name)) {
     if (choice.having.empty()) continue;

@@ -73,6 +73,8 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
     parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
   document.object("parameters", Need::required, [&](ObjectReader& reader) {
     bool any_free = false;
+    reader.former("offset_ratio",
+                  "\"formation_ratio\": 2 offset_ratio/rupture_gap_ratio, at most 1; free: {\"free\": [0, 1]}");
     for (Parameter& parameter : parameters) {
       const ParameterKind& kind = parameter_kinds()[static_cast<std::size_t>(&parameter - parameters.data())];
       reader.object(kind.name, Need::optional, [&](ObjectReader& one) { read_parameter(one, kind, parameter); });
@@ -121,15 +123,6 @@ void choose(const ContactModel& laws, Test& test) {
   contact.friction_basis = laws.friction_basis;
 }
 
-/// A grain whose bridge must form by touch has one only if the liquid shell has some thickness.
-void check_touch(ObjectReader& document, const Study& study, const ContactModel& laws) {
-  if (laws.bridge.formation != BridgeFormation::touch || !has_parameter(laws, "offset_ratio")) return;
-  const auto offset = std::ranges::find(study.parameters, "offset_ratio", &Parameter::name);
-  if ((offset->free ? offset->lower : offset->value) > 0) return;
-  document.fault("parameters.offset_ratio", "may be 0, but with \"formation\": \"touch\" it bounds the rupture gap",
-                 "a lower bound (or value) above 0; half the rupture_gap_ratio leaves that gap as it is");
-}
-
 /// The point of the bounds' cube where everything free is at its upper bound, but the stiffness at its lower one: the
 /// grains that are pressed into each other most.
 Eigen::VectorXd most_squeezed(const Study& study) {
@@ -174,7 +167,6 @@ Result<Study> read_study(const std::filesystem::path& file) {
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
     study.parameters = read_parameters(reader, laws);
     read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
-    check_touch(reader, study, laws);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);
   for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));

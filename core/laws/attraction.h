@@ -43,11 +43,13 @@ struct NoAttraction {
   static void set(PairConstants&, const Bridge&, double, double) {}
 };
 
-/// What all attractions are made of: c/R^2, -d_c/R, offset/R and the cohesion over c. In touch formation the offset
-/// bounds the bridge: -d_c = R min(rupture_gap_ratio, 2 offset_ratio).
+/// What all attractions are made of: c/R^2, -d_c/R, 2 offset/-d_c and the cohesion over c. The shells of two grains
+/// meet across twice the offset; beyond the rupture gap that acts on nothing. Touch formation has no formation_ratio:
+/// the shells then reach as far as the bridge, whatever holds it.
 struct AcrossGap {
-  static constexpr std::array<std::string_view, 5> parameters{"strength_pa", "rupture_gap_ratio", "offset_ratio",
+  static constexpr std::array<std::string_view, 5> parameters{"strength_pa", "rupture_gap_ratio", "formation_ratio",
                                                               "cohesion_ratio", "cohesion_factor"};
+  static constexpr std::string_view film_parameter = "formation_ratio";
   static constexpr bool present = true;
 
  protected:
@@ -59,11 +61,11 @@ struct AcrossGap {
   static Ends begin(ContactModel& contact, BridgeShape shape, double radius, const Value& value) {
     const BridgeFormation formation = contact.bridge.formation;
     const double c = value("strength_pa") * radius * radius;
-    double gap = value("rupture_gap_ratio");
-    if (formation == BridgeFormation::touch) gap = std::min(gap, 2 * value("offset_ratio"));
-    contact.bridge = {.shape = shape, .formation = formation, .offset_m = value("offset_ratio") * radius};
+    const double gap = value("rupture_gap_ratio") * radius;
+    const double reach = formation == BridgeFormation::film ? value(film_parameter) : 1;
+    contact.bridge = {.shape = shape, .formation = formation, .offset_m = 0.5 * reach * gap};
     contact.cohesion_n = value("cohesion_ratio") * c;
-    return {c, gap * radius};
+    return {c, gap};
   }
 };
 
@@ -87,7 +89,7 @@ struct PolynomialAttraction : GivenEnds {
   static constexpr BridgeShape choice = BridgeShape::polynomial;
   static constexpr std::string_view word = "polynomial";
   static constexpr std::array<std::string_view, 7> parameters{
-      "strength_pa",     "rupture_gap_ratio",   "offset_ratio", "cohesion_ratio",
+      "strength_pa",     "rupture_gap_ratio",   "formation_ratio", "cohesion_ratio",
       "cohesion_factor", "rupture_force_ratio", "curvature"};
 
   template <class Value>

@@ -21,13 +21,15 @@ MIXES = {
     2: "did not move",
     4: "slump small",
     20: "slump middle",
+    50: "slump large",
     66: "slump large",
     79: "slump middle",
+    85: "slump large",
     89: "slump low to middle",
     103: "nearly flowed away",
 }
-# Height and spread are fitted together; of the others the height alone (data/studies/README.md).
-BOTH_FITTED = {79}
+# Of these the height alone is fitted: no convex heap has both readings, or there is nothing to fit (data/studies/README.md).
+HEIGHT_FITTED = {2, 20, 103}
 MOULD_HEIGHT_MM = 300
 HEIGHT_DEVIATION_MM = 7.5
 SPREAD_DEVIATION_MM = 25
@@ -69,7 +71,7 @@ def lab_file(row, kind):
 
 def study_file(row, kind):
     mix = int(row[0])
-    both = mix in BOTH_FITTED
+    both = mix not in HEIGHT_FITTED
     fitted = "height and spread" if both else "the height"
     study = {
         "format": "pastefit-study-1",
@@ -81,9 +83,9 @@ def study_file(row, kind):
             "rupture_force_ratio": {"free": [0, 0.5]},
             "curvature": {"free": [-0.5, 1]},
             "rupture_gap_ratio": {"free": [0.05, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
-            "offset_ratio": {"free": [0.05 if both else 0.1, 0.5]},
+            "formation_ratio": {"free": [0, 1]},
             "friction": {"free": [0.05, 0.8]} if both else {"value": 0.15},
-            "rolling_friction": {"free": [0, 0.6]} if both else {"value": 0.02},
+            "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
         },
         "weights": {"step1.height_mm": 1, "step1.spread_mm": 1 if both else 0},
     }

@@ -20,7 +20,6 @@ TRUTH = {
     "friction": 0.08,
     "strength_pa": 1,
     "rupture_gap_ratio": 0.001,
-    "offset_ratio": 0.001,
     "rolling_friction": 0,
     "youngs_modulus_pa": 5e10,
 }

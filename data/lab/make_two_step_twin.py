@@ -20,7 +20,7 @@ TRUTH = {  # scale-free, so the same material at every grain size
     "rupture_force_ratio": 0.2,
     "curvature": 0.3,
     "rupture_gap_ratio": 0.7,
-    "offset_ratio": 0.35,
+    "formation_ratio": 1,
     "friction": 0.15,
     "rolling_friction": 0.02,
 }

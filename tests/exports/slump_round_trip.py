@@ -41,8 +41,8 @@ def variant(card, factor, representable, both_steps):
         contact["cohesion_n"] *= factor
     material["parameters"]["strength_pa"] *= factor
     if representable:
-        bridge["offset_m"] = -0.5 * bridge["d_c_m"] * 1.001
-        material["parameters"]["offset_ratio"] = bridge["offset_m"] / material["grains"]["radius_m"]
+        bridge["offset_m"] = -0.5 * bridge["d_c_m"]
+        material["parameters"]["formation_ratio"] = 1
         bridge["formation"] = "film"
         contact["friction_basis"] = "elastic"
     if not both_steps:

@@ -13,7 +13,7 @@ import unittest
 import xml.etree.ElementTree as xml
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-CARD = SOURCE / "tests/calibrate/card/versions/card-4.json"
+CARD = SOURCE / "tests/calibrate/card/versions/card-5.json"
 SEVERAL = CARD.with_name("card-3-several.json")
 TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
@@ -56,7 +56,7 @@ class CardCommands(unittest.TestCase):
             self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited", "unknown"))
         text = CARD.read_text()
         cut.write_text(text[: len(text) // 2])
-        newer.write_text(text.replace("pastefit-card-4", "pastefit-card-7"))
+        newer.write_text(text.replace("pastefit-card-5", "pastefit-card-7"))
         card = json.loads(text)
         card["material"]["contact"]["bridge"]["b_n_m"] = -3
         impossible.write_text(json.dumps(card))

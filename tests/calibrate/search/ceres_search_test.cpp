@@ -10,8 +10,6 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-const std::vector<std::uint64_t> one_packing{1};
-
 CeresOptions fine_options() {
   CeresOptions options;
   options.difference_step = 1e-6;

@@ -10,8 +10,6 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-const std::vector<std::uint64_t> one_packing{1};
-
 UnitPoint point_of(std::initializer_list<double> coordinates) {
   UnitPoint point(static_cast<Eigen::Index>(coordinates.size()));
   std::copy(coordinates.begin(), coordinates.end(), point.begin());

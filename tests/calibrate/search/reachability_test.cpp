@@ -33,7 +33,7 @@ Synthetic too_stiff(std::uint64_t seed) {
 
 const std::vector<std::string> reading{"step1.height_mm"};
 const std::vector<std::string> parameters{"strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio",
-                                          "offset_ratio"};
+                                          "formation_ratio"};
 
 }  // namespace
 

@@ -15,6 +15,8 @@
 
 namespace pastefit::synthetic {
 
+inline const std::vector<std::uint64_t> one_packing{1};
+
 /// A number in [0, 1) from a seed and a counter.
 inline double uniform(std::uint64_t seed, std::uint64_t counter) {
   return std::ldexp(static_cast<double>(hash_of(seed, counter) >> 11), -53);

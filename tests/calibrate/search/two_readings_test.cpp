@@ -2,6 +2,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "calibrate/search/strategy.h"
@@ -43,7 +44,9 @@ TEST_CASE("height and spread of real mixes are met together, each within its tol
     }
   }
   std::sort(simulations.begin(), simulations.end());
-  INFO("median of simulations " << simulations[simulations.size() / 2]);
+  INFO("median of simulations " << simulations[simulations.size() / 2] << ", mean "
+                                << std::accumulate(simulations.begin(), simulations.end(), 0.0) /
+                                       static_cast<double>(simulations.size()));
   CHECK(confirmed >= 0.95 * seeds * mixes.size());
   CHECK(right >= 0.9 * confirmed);
   CHECK(simulations[simulations.size() / 2] <= 30);

@@ -1,0 +1,48 @@
+"""A user at the command line: the program, shipped files and a folder of his own. Reads PROGRAM and SOURCE_DIR from the
+command line of the test."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+STUDY = SOURCE / "data/studies/concrete-mix-20.json"
+CARD = SOURCE / "data/cards/concrete-mix-66.json"
+LAB = SOURCE / "data/lab/concrete-mix-20.json"
+RIG = SOURCE / "data/rigs/abrams.json"
+TWO = str(min(2, len(os.sched_getaffinity(0))))  # threads
+COARSE = ["--set", "grains.radius_mm=12"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+
+
+class Desk(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.out = self.folder / "out"
+
+    def study(self, budget=4, screening=2, radius_mm=12, **changes):
+        """A study of coarse grains with few simulations, beside its laboratory file."""
+        lab = json.loads(LAB.read_text())
+        lab["grains"] = {"distribution": "mono", "radius_mm": radius_mm}
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        study = json.loads(STUDY.read_text())
+        study["lab"] = "lab.json"
+        study["search"].update(screening=screening, budget_simulations=budget, packings=1, confirmation_packings=1)
+        study.update(changes)
+        file = self.folder / "study.json"
+        file.write_text(json.dumps(study))
+        return file
+
+    def fails(self, result, status, *words):
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)

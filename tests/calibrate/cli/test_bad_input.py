@@ -1,0 +1,118 @@
+"""Bad input gets one message that names every fault, exit status 2, and nothing is written.
+
+usage: test_bad_input.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import os
+import sys
+import time
+import unittest
+
+from desk import STUDY, CARD, LAB, RIG, Desk, run
+
+
+class BadInput(Desk):
+    def test_unknown_verbs_and_options_are_bad_input(self):
+        self.fails(run(), 2)
+        self.fails(run("simulat", STUDY), 2, "did you mean 'simulate'")
+        self.fails(run("simulate"), 2, "FILE")
+        self.fails(run("simulate", RIG, "--sed", "3"), 2, "--sed")
+        self.fails(run("calibrate", STUDY), 2, "--out")
+        self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
+        self.assertFalse(self.out.exists())
+
+    def test_threads_that_are_not_there_are_bad_input(self):
+        for threads in ("0", "-3", "two", "1.5", str(os.cpu_count() + 1), "99999999999999999999"):
+            for verb in (["calibrate", STUDY, "--out", self.out], ["compare-optimisers", STUDY, "--out", self.out],
+                         ["check", CARD], ["rescale", CARD, "--radius", "7"], ["simulate", RIG]):
+                self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "processors")
+        self.assertFalse(self.out.exists())
+
+    def test_a_scene_beyond_the_memory_is_refused_before_anything_is_computed(self):
+        start = time.monotonic()
+        self.fails(run("simulate", RIG, "--set", "grains.radius_mm=0.02", "--out", self.out), 2, "grains", "GB", "larger")
+        lab = json.loads(LAB.read_text())
+        lab["grains"] = {"distribution": "mono", "radius_mm": 0.02}
+        study = self.study()
+        (self.folder / "lab.json").write_text(json.dumps(lab))
+        for verb in ("calibrate", "compare-optimisers"):
+            self.fails(run(verb, study, "--out", self.out), 2, "grains", "GB", "larger")
+        self.fails(run("rescale", CARD, "--radius", "0.02"), 2, "grains", "GB", "larger")
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertFalse(self.out.exists())
+
+    def test_every_fault_of_a_study_is_listed_and_nothing_is_written(self):
+        study = self.study(tittle="x", parameters={"strength_pa": {"free": [5, 1]}, "frction": {"value": 1}})
+        result = run("calibrate", study, "--out", self.out)
+        self.fails(result, 2, "tittle", "strength_pa", "did you mean \"friction\"")
+        self.assertEqual(result.stdout, "")
+        self.assertFalse(self.out.exists())
+
+    def test_parameters_of_laws_that_were_not_chosen_are_bad_input(self):
+        study = self.study(contact={"normal": "jkr", "attraction": "exponential"},
+                           parameters={"strength_pa": {"free": [300, 40000]}, "curvature": {"free": [-0.5, 1]},
+                                       "rupture_force_ratio": {"value": 0}, "adhesion_pa": {"free": [100, 10000]}})
+        for verb in (["calibrate", study, "--out", self.out], ["simulate", study]):
+            result = run(*verb)
+            self.fails(result, 2, "study.json: parameters.curvature: belongs to attraction \"polynomial\"",
+                       "study.json: parameters.rupture_force_ratio: belongs to attraction \"polynomial\"",
+                       "chosen is attraction \"exponential\"", "\"contact\": {\"attraction\": \"polynomial\"}")
+            self.assertNotIn("strength_pa", result.stderr)
+            self.assertNotIn("adhesion_pa", result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.assertFalse(self.out.exists())
+        for file in (CARD, LAB, RIG):
+            self.fails(run("simulate", file, "--set", "parameters.adhesion_pa=500"), 2,
+                       "--set parameters.adhesion_pa", "belongs to normal \"jkr\"")
+
+    def test_a_missing_file_and_a_file_that_is_no_json_are_bad_input(self):
+        broken = self.folder / "broken.json"
+        broken.write_text("{,}")
+        for file in (self.folder / "missing.json", broken):
+            for verb in (["calibrate", file, "--out", self.out], ["simulate", file]):
+                self.fails(run(*verb), 2, file.name)
+        self.assertFalse(self.out.exists())
+
+    def test_an_impossible_budget_is_bad_input(self):
+        self.fails(run("calibrate", self.study(), "--out", self.out, "--budget", "1"), 2, "budget")
+        self.assertFalse(self.out.exists())
+
+    def test_a_folder_that_cannot_be_made_is_reported_before_anything_runs(self):
+        blocked = self.folder / "file"
+        blocked.write_text("x")
+        self.fails(run("calibrate", self.study(), "--out", blocked / "out"), 2, "--out")
+        self.fails(run("calibrate", self.study(), "--out", "/proc/pastefit"), 2, "--out")
+        self.fails(run("simulate", RIG, "--out", blocked), 2, "--out")
+
+    def test_an_earlier_result_is_left_alone(self):
+        self.out.mkdir()
+        card = self.out / "card.json"
+        card.write_text("precious")
+        self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result", "--resume", "--force")
+        self.fails(run("calibrate", self.study(title=3), "--out", self.out, "--force"), 2, "title")
+        self.assertEqual(card.read_text(), "precious")
+        self.assertEqual(os.listdir(self.out), ["card.json"])
+
+    def test_a_store_that_is_damaged_or_of_another_study_is_left_alone(self):
+        self.out.mkdir()
+        store = self.out / "evaluations.sqlite"
+        store.write_text("not a database" * 100)
+        self.fails(run("calibrate", self.study(), "--out", self.out, "--resume"), 2, "evaluations.sqlite")
+        self.assertEqual(store.read_text(), "not a database" * 100)
+
+    # settings
+
+    def test_faults_of_settings_name_the_setting(self):
+        result = run("simulate", STUDY, "--set", "parameters.frction=1", "--set", "parameters.friction=9", "--set",
+                     "nonsense", "--set", "grains.radus_mm=6")
+        self.fails(result, 2, "did you mean \"friction\"", "a number from 0 to 2", "path=value", "radius_mm")
+        self.fails(run("simulate", RIG, "--set", "title.x=1"), 2, "title.x")
+        self.fails(run("simulate", RIG, "--set", "apparatus.mould.height_mm=-1"), 2, "height_mm")
+
+    def test_vtk_needs_a_folder(self):
+        self.fails(run("simulate", RIG, "--vtk", "0.1"), 2, "--out")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
