@@ -1,7 +1,9 @@
 #include "core/rigs/pellet_crush/pellet_crush.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/laws/constants.h"
 #include "core/rigs/field_checker.h"
