@@ -22,6 +22,8 @@ std::string_view name_of(FailureReason reason) {
       return "never_settled";
     case FailureReason::packing_failed:
       return "packing_failed";
+    case FailureReason::fell_apart:
+      return "fell_apart";
     case FailureReason::step_limit:
       return "step_limit";
     case FailureReason::stopped:

@@ -48,6 +48,7 @@ enum class FailureReason {
   step_collapse,      ///< the stable time step shrinks without end
   never_settled,      ///< the heap is not at rest when the time allowed is over
   packing_failed,     ///< the mould could not be filled
+  fell_apart,         ///< the specimen does not hold together
   step_limit,         ///< the bound on the number of steps was reached
   stopped             ///< the caller asked to stop (time limit or interrupt)
 };

@@ -9,6 +9,7 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
@@ -38,6 +39,7 @@ struct SimulateOptions {
 };
 
 const std::string kResult = "outcome.json";
+const std::string kCurve = "curve.csv";
 
 /// The ParaView series that a scene may be shown in, and the one that a moment of it belongs to.
 std::vector<std::string> names_of_series(const Scene& scene) {
@@ -130,6 +132,21 @@ nlohmann::ordered_json json_of(const Outcome& outcome, const nlohmann::ordered_j
   return out;
 }
 
+/// One line for each point, below the names of the axes.
+std::string csv_of(const Curve& curve) {
+  std::string out = curve.x + "," + curve.y + "\n";
+  for (const CurvePoint& point : curve.points) out += format("%.6g,%.6g\n", point.x, point.y);
+  return out;
+}
+
+/// Readings, and the curve of a test that draws one.
+Faults write_results(const OutputFolder& folder, const std::string& text, const Outcome& outcome) {
+  folder.clear({kCurve});
+  auto faults = write_atomically(folder.file(kResult), text);
+  if (faults.empty() && outcome.curve) faults = write_atomically(folder.file(kCurve), csv_of(*outcome.curve));
+  return faults;
+}
+
 void print_table(const Outcome& outcome, double wall_s) {
   for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
@@ -171,7 +188,7 @@ int simulate_file(const SimulateOptions& options) {
   std::optional<Pictures> pictures;
   if (!options.out.empty()) {
     const auto series = names_of_series(test);
-    std::vector<std::string> results{kResult};
+    std::vector<std::string> results{kResult, kCurve};
     for (const std::string& name : series) results.push_back(name + ".pvd");
     auto opened = OutputFolder::open(options.out, results,
                                      options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
@@ -209,9 +226,9 @@ int simulate_file(const SimulateOptions& options) {
   else
     print_table(outcome, wall_s);
   if (folder) {
-    if (const auto faults = write_atomically(folder->file(kResult), text); !faults.empty())
-      return report(faults, kFailed);
+    if (const auto faults = write_results(*folder, text, outcome); !faults.empty()) return report(faults, kFailed);
     if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
+    if (!options.json && outcome.curve) std::printf("wrote %s\n", folder->file(kCurve).c_str());
     if (!options.json && pictures)
       for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
   }
@@ -240,7 +257,9 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--test", options->test, "which test of a study or card that has several; without it the first")
       ->type_name("NAME");
   verb.add_option("--seed", options->seed, "seed of the random packing");
-  verb.add_option("--out", options->out, "folder for " + kResult + " and the ParaView series")->type_name("DIR");
+  verb.add_option("--out", options->out,
+                  "folder for " + kResult + ", " + kCurve + " of a test that draws one, and the ParaView series")
+      ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace an earlier result in DIR");
   verb.add_option("--time-step", options->time_step_s,
                   "fixed time step of the test; without it the step follows from the scene")

@@ -1,9 +1,11 @@
 #include "core/rigs/specimen.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/laws/constants.h"
+#include "core/random.h"
 #include "core/rigs/field_checker.h"
 
 namespace pastefit {
@@ -38,10 +40,37 @@ void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
                 "choose a, b, c, d_c with a d_c^2 + b d_c + c >= 0");
 }
 
+/// Of a normal distribution.
+double share_between_bounds(const GrainSizes& sizes) {
+  const auto below = [&](double radius) {
+    return 0.5 * std::erfc((sizes.radius_m - radius) / (sizes.standard_deviation_m * std::numbers::sqrt2));
+  };
+  return below(sizes.largest_m) - below(sizes.smallest_m);
+}
+
 }  // namespace
 
 double largest_radius(const GrainSizes& sizes) {
   return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
+}
+
+double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
+  switch (sizes.distribution) {
+    case SizeDistribution::mono:
+      return sizes.radius_m;
+    case SizeDistribution::uniform:
+      return RandomStream(seed, "grain-radius").uniform(n, sizes.smallest_m, sizes.largest_m);
+    case SizeDistribution::normal: {
+      const RandomStream draws(seed, "grain-radius");
+      constexpr std::uint64_t kTries = 1000;
+      for (std::uint64_t t = 0; t < kTries; ++t) {
+        const double r = sizes.radius_m + sizes.standard_deviation_m * draws.normal(kTries * n + t);
+        if (r >= sizes.smallest_m && r <= sizes.largest_m) return r;
+      }
+      return std::clamp(sizes.radius_m, sizes.smallest_m, sizes.largest_m);
+    }
+  }
+  return sizes.radius_m;
 }
 
 void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name) {
@@ -64,8 +93,14 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
     check.require(sizes.largest_m <= 20 * sizes.smallest_m, "grains",
                   "the largest grain is more than 20 times the smallest", "narrow the distribution");
   }
-  if (sizes.distribution == SizeDistribution::normal)
+  if (sizes.distribution == SizeDistribution::normal) {
     check.range("grains.standard_deviation_m", sizes.standard_deviation_m, 1e-6 * radius, radius, "m");
+    constexpr double kFewest = 0.01;
+    const double left = share_between_bounds(sizes);
+    check.require(!(left < kFewest), "grains.standard_deviation_m",
+                  "leaves " + FieldChecker::text(100 * left) + " % of the grains between smallest and largest",
+                  "widen the bounds, narrow the distribution, or give \"mono\" or \"uniform\"");
+  }
   check.range("bulk_density_kg_m3", specimen.bulk_density_kg_m3, 100, 20000, "kg/m^3");
 
   const ContactModel& contact = specimen.contact;

@@ -17,4 +17,7 @@ struct Specimen {
 /// The radius of the largest grain that these sizes allow.
 double largest_radius(const GrainSizes& sizes);
 
+/// Radius of grain n of a scene, from the stream "grain-radius". Pure function of its arguments.
+double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n);
+
 }  // namespace pastefit

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/observe/observables.h"
 #include "core/result.h"
@@ -64,9 +65,20 @@ struct RunSummary {
   double asleep_share = 0;             ///< of the particle steps after the fill; `StepOptions::sleep`
 };
 
+struct CurvePoint {
+  double x = 0, y = 0;
+};
+
+/// What a test draws besides its readings, e.g. stress over strain.
+struct Curve {
+  std::string name, x, y;  ///< of the curve and its axes, with their units
+  std::vector<CurvePoint> points;
+};
+
 /// Readings of a run, or the reason why there are none.
 struct Outcome {
   Observables observables;
+  std::optional<Curve> curve;  ///< of a test that draws one, and came so far
   RunSummary run;
   std::optional<Failure> failure;
 };

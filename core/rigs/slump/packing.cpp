@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/laws/constants.h"
 #include "core/observe/heap.h"
-#include "core/random.h"
+#include "core/rigs/pour.h"
 #include "core/step/runner.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr double kLoosest = 2.15;   // spacing of the starting lattice over the largest radius
 constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
 constexpr double kLidSpeed = 0.2;    // [m/s]
@@ -29,10 +29,6 @@ constexpr double kSqueezeStep = 0.005;
 // hard that the column rises by 1 % when it is taken off.
 constexpr double kScrape = 0.7;
 
-double sphere_volume(double r) {
-  return 4.0 / 3.0 * std::numbers::pi * r * r * r;
-}
-
 /// Solid volume that is poured.
 double poured_volume(const Mould& mould) {
   return kOverfill * kSolidFraction * volume_m3(mould);
@@ -44,34 +40,13 @@ double inner_radius(const Mould& mould, double z) {
   return mould.base_radius_m + share * (mould.top_radius_m - mould.base_radius_m);
 }
 
-/// Loose grains on a jittered lattice in mould and hopper, from the bottom up, until enough is poured.
+/// Loose grains in mould and hopper, until enough is poured.
 void pour(const SlumpTest& test, Packing& packing) {
-  const double largest = largest_radius(test.grains);
-  const double spacing = kLoosest * largest;
-  const double jitter = 0.5 * spacing - largest;
-  const double enough = poured_volume(test.mould);
-  const RandomStream place(test.packing_seed, "pour-position");
-  const int across = static_cast<int>(test.mould.base_radius_m / spacing) + 1;
-  std::uint64_t n = 0;
-  for (int layer = 0; packing.solid_volume_m3 < enough; ++layer) {
-    const double z = spacing * (layer + 0.5);
-    const double room =
-        std::min(inner_radius(test.mould, z - jitter), inner_radius(test.mould, z + jitter)) - 1.01 * largest;
-    for (int iy = -across; iy <= across; ++iy)
-      for (int ix = -across; ix <= across; ++ix) {
-        if (packing.solid_volume_m3 >= enough) continue;
-        const double shift = layer % 2 == 0 ? 0.0 : 0.5;
-        const Vec3 p{spacing * (ix + shift) + place.uniform(3 * n, -jitter, jitter),
-                     spacing * (iy + shift) + place.uniform(3 * n + 1, -jitter, jitter),
-                     z + place.uniform(3 * n + 2, -jitter, jitter)};
-        if (p.x * p.x + p.y * p.y > room * room) continue;
-        const double r = draw_radius(test.grains, test.packing_seed, n);
-        packing.centres.push_back(p);
-        packing.radii.push_back(r);
-        packing.solid_volume_m3 += sphere_volume(r);
-        ++n;
-      }
-  }
+  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), test.mould.base_radius_m,
+                            [&](double z) { return inner_radius(test.mould, z); });
+  packing.centres = std::move(poured.centres);
+  packing.radii = std::move(poured.radii);
+  packing.solid_volume_m3 = poured.solid_volume_m3;
 }
 
 /// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
@@ -106,7 +81,7 @@ void take_grains(const World& world, Packing& packing) {
   for (std::int32_t i = 0; i < n; ++i) {
     packing.centres[i] = world.particles.motion[i].position;
     packing.radii[i] = world.particles.motion[i].radius;
-    packing.solid_volume_m3 += sphere_volume(packing.radii[i]);
+    packing.solid_volume_m3 += sphere_volume_m3(packing.radii[i]);
   }
 }
 
@@ -193,31 +168,12 @@ double poured_grains(const SlumpTest& test) {
   constexpr int kDraws = 1000;
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)
-    volume += sphere_volume(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
+    volume += sphere_volume_m3(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
   return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).squeeze, 3);
 }
 
 double grain_density(const SlumpTest& test, const Packing& packing) {
   return test.bulk_density_kg_m3 * volume_m3(test.mould) / packing.solid_volume_m3;
-}
-
-double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
-  switch (sizes.distribution) {
-    case SizeDistribution::mono:
-      return sizes.radius_m;
-    case SizeDistribution::uniform:
-      return RandomStream(seed, "grain-radius").uniform(n, sizes.smallest_m, sizes.largest_m);
-    case SizeDistribution::normal: {
-      const RandomStream draws(seed, "grain-radius");
-      constexpr std::uint64_t kTries = 1000;
-      for (std::uint64_t t = 0; t < kTries; ++t) {
-        const double r = sizes.radius_m + sizes.standard_deviation_m * draws.normal(kTries * n + t);
-        if (r >= sizes.smallest_m && r <= sizes.largest_m) return r;
-      }
-      return std::clamp(sizes.radius_m, sizes.smallest_m, sizes.largest_m);
-    }
-  }
-  return sizes.radius_m;
 }
 
 Filling filling_of(const SlumpTest& test) {

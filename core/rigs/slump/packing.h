@@ -58,7 +58,4 @@ double grain_density(const SlumpTest& test, const Packing& packing);
 /// the mean volume of a grain. Some of them are struck off.
 double poured_grains(const SlumpTest& test);
 
-/// Radius of grain n of a scene, from the stream "grain-radius". Pure function of its arguments.
-double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n);
-
 }  // namespace pastefit

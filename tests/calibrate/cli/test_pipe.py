@@ -15,7 +15,7 @@ import unittest
 import jsonschema
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-LAWS = ("csv", "edem-notes", "mercurydpm")
+LAWS = ("edem-notes", "csv", "mercurydpm")  # the first has every law
 FEW = {"screening": 6, "budget_simulations": 40, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
 
 
@@ -57,6 +57,8 @@ class Pipe(unittest.TestCase):
         lab, study = template(word + "lab"), template(word + "study")
         if is_slump(kind):
             lab["grains"]["radius_mm"] = 14
+        if kind == "pellet":
+            lab["grains"] = {"distribution": "mono", "radius_mm": 1.8}
         jsonschema.validate(lab, schema("lab"))
         study["search"].update(FEW)
         jsonschema.validate(study, schema("study"))
@@ -79,10 +81,12 @@ class Pipe(unittest.TestCase):
                 readings = document["tests"][0]["baseline"]["readings"]
                 self.assertEqual({name: values[0] for name, values in readings.items()}, again["observables"])
                 self.assertTrue((out / "film/grains.pvd").exists())
-                for target in LAWS:
+                sticks = json.loads((self.folder / "study.json").read_text())["contact"].get("normal") == "jkr"
+                for target in LAWS[:1] if sticks else LAWS:
                     self.done("export", card, "--to", target, "--out", out / target)
                     self.assertTrue((out / target / "parameters.csv").read_text().startswith("name,value,meaning"))
-                self.assertEqual((out / "csv/grains.csv").exists(), is_slump(kind))
+                self.assertEqual((out / LAWS[0] / "grains.csv").exists(), is_slump(kind))
+                self.assertEqual((out / "film/curve.csv").exists(), kind == "pellet")
                 resumed = self.done("calibrate", self.folder / "study.json", "--out", out, "--resume")
                 self.assertEqual(json.loads(card.read_text()), document, resumed)
 

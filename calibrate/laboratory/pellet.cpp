@@ -1,0 +1,208 @@
+#include "calibrate/laboratory/pellet.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/object_writer.h"
+#include "calibrate/laboratory/specimen_json.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double mm = 1000;  // millimetres in a metre
+constexpr std::array<std::string_view, 2> series{"filling", "grains"};
+constexpr Range any;  // the test's own `validate` knows the ranges
+constexpr Need required = Need::required;
+
+constexpr std::string_view lab_text =
+    R"(// What a laboratory measured in a pellet crush: wet granules are pressed in a die, and the pellet is crushed between two
+// plates. Lines like this one are comments; the unit is in each key.
+{
+  "format": "pastefit-lab-1",
+  "test": "pellet",
+  "title": "my granules, batch 1",
+
+  // Where the data come from; it is carried through to the material card.
+  "provenance": {
+    "source": "laboratory, person, date",
+    "licence": "",
+    "notes": "",
+    "twin": false  // true: not measured, but made by a simulation with known parameters
+  },
+
+  "apparatus": {
+    "die_diameter_mm": 25,
+    "fill_height_mm": 29,       // granules are poured in and struck off at this height
+    "pressed_height_mm": 22,    // of the bed when the punch turns round
+    "punch_speed_mm_s": 1.5,
+    "press_speedup": 50,        // the simulation presses so many times as fast as that, and waits for rest
+    "platen_speed_mm_s": 100,
+    "final_strain": 0.2         // of the pellet, at which the platen stops
+    // How the granules arrive in the die decides how densely they lie: "pour_speed_mm_s": 1000
+    // Polished steel, to which nothing sticks: "tools": {"friction": 0, "rolling_friction": 0, "restitution": 0.2, "cohesion_factor": 0}
+  },
+
+  // Of a granule, not of the bed: how much of the die the granules fill is a reading.
+  "material": {"bulk_density_kg_m3": 1000},
+
+  // Granules may be coarser than the laboratory's: forces keep their share of R^2. At least six across the pellet.
+  "grains": {"distribution": "normal", "radius_mm": 1.05, "standard_deviation_mm": 0.315, "smallest_mm": 1.05, "largest_mm": 1.5},
+
+  // Either value and standard deviation of one reading, or all repeats. The strength is the peak of force over the die's
+  // area. Besides: die.mass_g, of the granules that fill the die; pellet.height_mm, when the die is away;
+  // pellet.strain_at_peak.
+  "measurements": {
+    "pellet.dynamic_yield_strength_pa": {"value": 3000, "standard_deviation": 300}
+  }
+}
+)";
+
+constexpr std::string_view study_text =
+    R"(// Which contact parameters are fitted to a pellet crush, and how. Lines like this one are comments.
+{
+  "format": "pastefit-study-1",
+  "title": "surface energy of my granules",
+  "lab": "lab.json",  // path as seen from this file
+
+  // Granules that stick where they touch. More laws: `pastefit template study`.
+  "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
+
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  "parameters": {
+    "adhesion_pa": {"free": [800, 12000]},  // surface energy over R, the mean radius
+    "friction": {"value": 0.4},
+    "rolling_friction": {"value": 0.01},
+    "restitution": {"value": 0.2},
+    "youngs_modulus_pa": {"value": 2400000},
+    "poissons_ratio": {"value": 0.2}
+  },
+
+  "search": {
+    "screening": 6,              // candidates spread over the bounds at the start
+    "budget_simulations": 40,    // in all, confirmation included
+    "packings": 2,               // random packings on which candidates are tried in turn
+    "confirmation_packings": 6,  // fresh packings for the best candidate
+    "examination_simulations": 6,
+    "tolerance_mm": 1,           // good enough, for heights; for a strength the laboratory's deviation
+    "seed": 1
+  }
+}
+)";
+
+template <class Fields, class Test>
+void describe_test(Fields& fields, Test& test) {
+  fields.number("die_diameter_m", test.die_diameter_m, any, required);
+  fields.number("fill_height_m", test.fill_height_m, any, required);
+  fields.number("pour_speed_m_s", test.pour_speed_m_s, any, required);
+  fields.number("pressed_height_m", test.pressed_height_m, any, required);
+  fields.number("punch_speed_m_s", test.punch_speed_m_s, any, required);
+  fields.number("press_speedup", test.press_speedup, any, required);
+  fields.number("platen_speed_m_s", test.platen_speed_m_s, any, required);
+  fields.number("final_strain", test.final_strain, any, required);
+  describe_specimen(fields, test);
+  fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
+}
+
+}  // namespace
+
+std::vector<Surface> surfaces_of(PelletCrush&) {
+  return {};
+}
+
+double grains_needed(const PelletCrush& test) {
+  return poured_grains(test);
+}
+
+void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need) {
+  constexpr Range length{0, 1000, true}, speed{0, 10000, true}, factor{0, 10};
+  constexpr Need optional = Need::optional;
+  apparatus.number("die_diameter_mm", test.die_diameter_m, length, need, mm);
+  apparatus.number("fill_height_mm", test.fill_height_m, length, need, mm);
+  apparatus.number("pour_speed_mm_s", test.pour_speed_m_s, speed, optional, mm);
+  apparatus.number("pressed_height_mm", test.pressed_height_m, length, need, mm);
+  apparatus.number("punch_speed_mm_s", test.punch_speed_m_s, speed, need, mm);
+  apparatus.number("press_speedup", test.press_speedup, {1, 1e6}, optional);
+  apparatus.number("platen_speed_mm_s", test.platen_speed_m_s, speed, need, mm);
+  apparatus.number("final_strain", test.final_strain, {0.01, 0.8}, optional);
+  apparatus.object("tools", optional, [&](ObjectReader& tools) {
+    tools.number("friction", test.tools.friction, factor, optional);
+    tools.number("rolling_friction", test.tools.rolling_friction, factor, optional);
+    tools.number("restitution", test.tools.restitution, {0.001, 1}, optional);
+    tools.number("cohesion_factor", test.tools.cohesion_factor, factor, optional);
+  });
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const PelletCrush&) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> places{
+      {{"die_diameter_m", "apparatus.die_diameter_mm"},
+       {"fill_height_m", "apparatus.fill_height_mm"},
+       {"pour_speed_m_s", "apparatus.pour_speed_mm_s"},
+       {"pressed_height_m", "apparatus.pressed_height_mm"},
+       {"punch_speed_m_s", "apparatus.punch_speed_mm_s"},
+       {"press_speedup", "apparatus.press_speedup"},
+       {"platen_speed_m_s", "apparatus.platen_speed_mm_s"},
+       {"final_strain", "apparatus.final_strain"},
+       {"tools", "apparatus.tools"}}};
+  return places;
+}
+
+nlohmann::json to_json(const PelletCrush& test) {
+  nlohmann::json document;
+  ObjectWriter writer(document);
+  describe_test(writer, test);
+  return document;
+}
+
+PelletCrush usual_test(const PelletCrush&) {
+  return {};
+}
+
+void read_test(ObjectReader& reader, PelletCrush& test) {
+  describe_test(reader, test);
+}
+
+Templates templates_of(const PelletCrush&) {
+  return {lab_text, study_text};
+}
+
+std::span<const std::string_view> series_of(const PelletCrush&) {
+  return series;
+}
+
+std::size_t series_at(const PelletCrush&, const Moment& moment) {
+  return moment.phase.starts_with("fill.") ? 0 : 1;
+}
+
+std::optional<double> grain_density_of(const PelletCrush& test, const Observables&) {
+  return test.bulk_density_kg_m3;
+}
+
+nlohmann::ordered_json conditions_of(const PelletCrush& test) {
+  return {{"pressed_share", test.pressed_height_m / test.fill_height_m},
+          {"platen_speed_m_s", test.platen_speed_m_s},
+          {"press_speedup", test.press_speedup}};
+}
+
+std::string conditions_in_words(const PelletCrush& test) {
+  return format(
+             "  die                      %g mm across, filled to %g mm, pressed to %g mm at %g mm/s (simulated %g "
+             "times "
+             "as fast)\n",
+             mm * test.die_diameter_m, mm * test.fill_height_m, mm * test.pressed_height_m, mm * test.punch_speed_m_s,
+             test.press_speedup) +
+         format("  platen                   %g mm/s\n", mm * test.platen_speed_m_s);
+}
+
+std::string remarks_on(const PelletCrush& test, std::span<const Observables> runs) {
+  constexpr double close = 0.95;
+  const auto rising = std::ranges::count_if(runs, [&](const Observables& run) {
+    return run.find("pellet.strain_at_peak").value_or(0) > close * test.final_strain;
+  });
+  if (rising == 0) return {};
+  return format("the stress of %d of %zu pellets still rose at the final strain of %g: their strength is not a peak",
+                static_cast<int>(rising), runs.size(), test.final_strain);
+}
+
+}  // namespace pastefit
