@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
@@ -11,6 +12,7 @@
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
@@ -96,16 +98,16 @@ std::string notes_on_readings(const Study& study) {
   return out;
 }
 
-/// Card and summary, to the folder and to the person.
+/// Card and summary, to the folder and to the person. Only a confirmed material is what was asked for.
 int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
-  auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
+  auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
-  std::printf("\n%s", summary.c_str());
+  print("\n%s", summary.c_str());
   if (!faults.empty()) return report(faults, kFailed);
-  std::printf("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
-              folder.file(kStore).c_str());
-  return kDone;
+  print("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
+        folder.file(kStore).c_str());
+  return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
 int calibrate(const CalibrateOptions& options) {
@@ -148,10 +150,12 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())
     return report(faults);
 
-  std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
-              budget, store.value().size());
-  std::printf("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
-              warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
+  print("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
+        budget, store.value().size());
+  for (const auto& remark : store.value().remarks())
+    print("%s: %s.\n", folder.value().file(kStore).c_str(), remark.c_str());
+  print("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
+        warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
   ProgressLine line(budget, misfit_unit_of(study));
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;

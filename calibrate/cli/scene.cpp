@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
@@ -49,7 +50,7 @@ void read_parameter(const Setting& setting, Settings& settings, Faults& faults) 
   const Range range{kind->smallest, kind->largest};
   const double value = setting.value.is_number() ? setting.value.get<double>() : 0;
   if (!setting.value.is_number() || !(value >= range.smallest && value <= range.largest))
-    faults.push_back({where, "is " + setting.value.dump(), text_of(range)});
+    faults.push_back({where, "is " + text_of(setting.value), text_of(range)});
   else
     settings.parameters.emplace_back(static_cast<std::size_t>(kind - kinds.begin()), value);
 }
@@ -60,6 +61,10 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
     const auto sign = text.find('=');
     if (sign == std::string::npos || sign == 0) {
       faults.push_back({"--set " + text, "is not path=value", "e.g. --set parameters.strength_pa=3000"});
+      continue;
+    }
+    if (one_line(text) != text) {
+      faults.push_back({"--set " + text, "holds a control character, or bytes that are no text", "plain UTF-8"});
       continue;
     }
     Setting setting{text.substr(0, sign), json::parse(text.substr(sign + 1), nullptr, false)};

@@ -9,10 +9,12 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/scene.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
@@ -131,13 +133,12 @@ nlohmann::ordered_json json_of(const Outcome& outcome, const nlohmann::ordered_j
 }
 
 void print_table(const Outcome& outcome, double wall_s) {
-  for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
+  for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
-  std::printf(
-      "%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
-      static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
-      run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
-      run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
+  print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+        static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
+        run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+        run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
 }
 
 /// What the program thinks of a step the user has set.
@@ -203,17 +204,17 @@ int simulate_file(const SimulateOptions& options) {
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
   if (outcome.failure) outlines.clear();
-  const auto text = json_of(outcome, to_json(outlines), wall_s).dump(2) + "\n";
+  const auto text = json_text(json_of(outcome, to_json(outlines), wall_s));
   if (options.json)
-    std::fputs(text.c_str(), stdout);
+    print("%s", text.c_str());
   else
     print_table(outcome, wall_s);
   if (folder) {
     if (const auto faults = write_atomically(folder->file(kResult), text); !faults.empty())
       return report(faults, kFailed);
-    if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
+    if (!options.json) print("wrote %s\n", folder->file(kResult).c_str());
     if (!options.json && pictures)
-      for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
+      for (const auto& file : pictures->indices()) print("wrote %s\n", file.c_str());
   }
   if (of_lab)
     if (const auto remarks = remarks_on(*of_lab, {&outcome.observables, 1}); !remarks.empty())
