@@ -10,6 +10,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
 #include "calibrate/cli/standard_output.h"
@@ -92,9 +93,11 @@ std::string changes_in(const Study& study, const Store& store) {
 /// What the laboratories' readings look like, taken together.
 std::string notes_on_readings(const Study& study) {
   std::string out;
-  for (const StudyTest& test : study.tests)
+  for (const StudyTest& test : study.tests) {
+    if (!test.lab.note.empty()) out += test.lab_file + ": " + test.lab.note + ".\n";
     for (const std::string& note : doubts_about(test.lab.test, test.lab.measurements).notes)
       out += test.lab_file + ": " + note + ".\n";
+  }
   return out;
 }
 
@@ -120,8 +123,13 @@ int calibrate(const CalibrateOptions& options) {
   auto for_the_search = search_options;
   for_the_search.budget_simulations -= hold_out_simulations(study, search_options);
   const auto fitted_tests = static_cast<int>(tests_of(study, false).size());
-  if (const auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty())
-    return report(in_file(faults, options.study));
+  if (auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty()) {
+    faults = in_file(std::move(faults), options.study);
+    // What the option says instead of the file is the option's fault.
+    for (Fault& fault : faults)
+      if (options.budget > 0 && fault.where.ends_with("search.budget_simulations")) fault.where = "--budget";
+    return report(faults);
+  }
 
   if (const auto faults = validate_memory(study, options.threads); !faults.empty())
     return report(in_file(faults, options.study));
@@ -206,15 +214,16 @@ Command add_calibrate(CLI::App& verb) {
   add_threads(verb, options->threads);
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--wall-budget", options->wall_budget_s, "end after this time with the best so far; --resume goes on")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--core-budget", options->core_budget_s,
                   "the same for the processor time of all simulations together")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");
+      ->check(positive_number());
+  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
+      ->check(whole_number());
   return [options] { return calibrate(*options); };
 }
 

@@ -11,6 +11,7 @@
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
 
@@ -103,7 +104,7 @@ Command add_check(CLI::App& verb) {
   verb.add_flag("--bits", options->check.bits, "other bits are a disagreement, whatever program made the card");
   verb.add_option("--false-alarm", options->check.false_alarm,
                   "probability to call a card wrong although nothing changed")
-      ->check(CLI::Range(1e-9, 0.5))
+      ->check(number_from(1e-9, 0.5))
       ->capture_default_str();
   add_threads(verb, options->check.threads);
   auto* against = verb.add_option("--against", options->against,
@@ -120,7 +121,7 @@ Command add_check(CLI::App& verb) {
   verb.add_option("--why", options->why, "the reason for a new baseline")->needs(rebaseline)->type_name("TEXT");
   verb.add_option("--packings", options->packings, "packings of the new baseline, if more than before")
       ->needs(rebaseline)
-      ->check(CLI::Range(2, 1000));
+      ->check(whole_number(2, 1000));
   return [options] { return options->rebaseline ? rebaseline_all(*options) : check_all(*options); };
 }
 

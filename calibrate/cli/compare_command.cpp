@@ -8,6 +8,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/misfit_figure.h"
@@ -172,13 +173,13 @@ Command add_compare_optimisers(CLI::App& verb) {
       ->type_name("NAMES");
   verb.add_option("--seeds", options->seeds, "trials of each strategy; default: 1")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   verb.add_option("--budget", options->budget, "simulations of each trial, instead of the study's")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--judge-packings", options->judge_packings, "on which every result is judged; default: 8")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   add_threads(verb, options->threads);
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);

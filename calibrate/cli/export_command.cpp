@@ -8,6 +8,7 @@
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/exports/export.h"
@@ -98,7 +99,8 @@ Command add_export(CLI::App& verb) {
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
       ->type_name("NAME");
-  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own");
+  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
+      ->check(whole_number());
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_to_folder(*options); };
 }

@@ -9,6 +9,7 @@
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
@@ -63,13 +64,13 @@ Command add_rescale(CLI::App& verb) {
   verb.add_option("CARD", options->card, "card file")->required();
   verb.add_option("--radius", options->radius_mm, "mean radius of the new grains in mm")
       ->required()
-      ->check(CLI::Range(0.01, 1000.0))
+      ->check(number_from(0.01, 1000))
       ->type_name("MM");
   verb.add_option("--out", options->out, "file for the new card")->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE");
   verb.add_option("--packings", options->packings,
                   "simulations with either size that measure the bias; 0: carry over without measuring")
-      ->check(CLI::IsMember({0}) | CLI::Range(2, 1000))
+      ->check(whole_number(0, 0) | whole_number(2, 1000))
       ->capture_default_str();
   add_threads(verb, options->check.threads);
   return [options] { return rescale(*options); };

@@ -289,13 +289,15 @@ Faults Store::add(const StoredEvaluation& evaluation) {
     state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
                          {std::to_string(state_->written + 1)});
     if (!state_->begun) add_inputs(state_->database, state_->epoch, state_->identity.inputs);
+    // SQLite goes on writing to a file that nobody will find again.
+    if (!std::filesystem::exists(state_->file)) throw std::runtime_error("the file is gone");
     transaction.commit();
     state_->begun = true;
     ++state_->sequence;
     ++state_->written;
   } catch (const std::exception& error) {
     return {{state_->file, std::string("the evaluation could not be stored: ") + error.what(),
-             "free space on the disk and go on with --resume"}};
+             "a folder that stays, on a disk with free space; go on with --resume"}};
   }
   state_->index.emplace(evaluation.key, state_->evaluations.size());
   state_->evaluations.push_back(evaluation);

@@ -8,8 +8,10 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 import unittest
 import xml.etree.ElementTree as xml
 
@@ -110,6 +112,11 @@ class HostileInput(Desk):
         result = run("simulate", STUDY, "--set", "parameters.youngs_modulus_pa=100000")
         self.fails(result, 1, "the simulation failed: excessive_overlap")
 
+    def test_grains_that_are_no_objects_are_bad_input(self):
+        case = SOURCE / "tests/cases/free-fall.json"
+        self.fails(run("verify", self.changed(case, "case.json", lambda one: one["scene"].update(grains=[0.1]))), 2,
+                   "grains[0]")
+
     # files that are there
 
     def test_no_verb_replaces_a_file_that_is_there_without_force(self):
@@ -133,6 +140,125 @@ class HostileInput(Desk):
         (self.out / "card.json").write_text("precious")
         self.fails(run("calibrate", STUDY, "--out", self.out, "--resume"), 2, "card.json", "evaluations.sqlite")
         self.assertEqual((self.out / "card.json").read_text(), "precious")
+
+    # numbers and paths
+
+    def with_lab(self, change):
+        return self.changed(LAB, "lab.json", change)
+
+    def test_options_take_no_more_and_no_less_than_a_number_in_its_range(self):
+        calibrate, export = ["calibrate", STUDY, "--out", self.out], ["export", CARD, "--to", "csv", "--out", self.out]
+        for verb, option in ((calibrate, "--wall-budget"), (calibrate, "--core-budget"), (calibrate, "--seed"),
+                             (calibrate, "--budget"), (["simulate", RIG], "--seed"), (["simulate", RIG], "--time-step"),
+                             (["simulate", RIG, "--out", self.out], "--vtk"), (["check", CARD], "--false-alarm"),
+                             (["rescale", CARD], "--radius"), (export, "--packing")):
+            for value in ("nan", "-nan", "inf", "-1", "1e999", "0x10", "7x", "9" * 300):
+                with self.subTest(f"{verb[0]} {option} {value[:9]}"):
+                    result = run(*verb, f"{option}={value}")
+                    self.fails(result, 2, option, "give")
+                    self.assertLess(max(map(len, result.stderr.split("\n"))), 200)
+        self.assertFalse(self.out.exists())
+
+    def test_a_budget_that_is_too_small_is_blamed_on_the_option(self):
+        result = run("calibrate", STUDY, "--out", self.out, "--budget", "2")
+        self.fails(result, 2, "--budget: 2; at least")
+        self.assertNotIn(STUDY.name, result.stderr)
+
+    def test_a_deviation_without_a_size_is_bad_input(self):
+        def height(**reading):
+            return self.with_lab(lambda lab: lab["measurements"].update({"step1.height_mm": reading}))
+        self.fails(run("simulate", height(value=150, standard_deviation=1e-300)), 2, "a number from 1e-06 to 10000")
+        self.fails(run("simulate", height(repeats=[150, 150.0000000001])), 2, "repeats are all the same")
+
+    def test_bytes_behind_the_end_of_a_file_are_bad_input(self):
+        for tail in ("{}", "x", "\0", "\0\0 {}"):
+            file = self.folder / "lab.json"
+            file.write_text(LAB.read_text() + tail)
+            self.fails(run("simulate", file), 2, "not JSON")
+
+    def test_faults_speak_in_the_unit_and_the_quantity_of_the_key(self):
+        def mould(**size):
+            return self.changed(RIG, "rig.json", lambda rig: rig["apparatus"]["mould"].update(size))
+        self.fails(run("simulate", mould(base_diameter_mm=5000)), 2,
+                   "apparatus.mould.base_diameter_mm: is 5000 mm; give a number from 2 to 4000 mm",
+                   "apparatus.table_length_mm: is 900 mm; give a number from 5000 to 10000 mm")
+        self.fails(run("simulate", mould(height_mm=3000)), 2, "is 3000 mm; give a number from 1 to 2000 mm")
+
+    def test_paths_that_lead_nowhere_are_called_what_they_are(self):
+        circle = self.folder / "circle.json"
+        circle.symlink_to(self.folder / "other.json")
+        (self.folder / "other.json").symlink_to(circle)
+        self.fails(run("simulate", circle), 2, "a symbolic link that goes in a circle")
+        study = self.changed(STUDY, "study.json", lambda study: study.update(lab=f"{LAB}\0x"))
+        self.fails(run("calibrate", study, "--out", self.out), 2, "holds a null byte")
+
+    # where an apparatus comes from
+
+    def test_a_preset_beside_the_laboratory_file_is_named(self):
+        (self.folder / "rigs").mkdir()
+        rig = json.loads(RIG.read_text())
+        rig["grains"] = {"distribution": "mono", "radius_mm": 14}
+        own = self.folder / "rigs" / "abrams.json"
+        own.write_text(json.dumps(rig))
+        (self.folder / "mine").mkdir()
+
+        def lab_of(document):
+            document["apparatus"] = {"preset": "abrams"}
+            document.pop("grains", None)
+        lab = self.changed(LAB, "mine/lab.json", lab_of)
+        told = f"the preset abrams is {own}, not the shipped one"
+        self.assertIn(told, run("simulate", lab).stderr)
+        study = self.small_study()
+        study.write_text(study.read_text().replace("lab.json", "mine/lab.json"))
+        self.assertIn(told, self.calibrates(study).stdout)
+        self.assertIn(told, json.loads((self.out / "card.json").read_text())["tests"][0]["lab"]["notes"])
+        shutil.rmtree(self.folder / "rigs")
+        self.assertNotIn("preset", run("simulate", lab, "--set", "grains.radius_mm=14").stderr)
+
+    # signals
+
+    def signalled(self, command, name, when):
+        process = subprocess.Popen([PROGRAM, *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 60
+        while not when() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        process.send_signal(name)
+        start = time.monotonic()
+        output = process.communicate(timeout=30)
+        self.assertLess(time.monotonic() - start, 5)
+        return process.returncode, *output
+
+    def test_a_stiff_simulation_gives_a_sign_of_life_and_ends_with_a_word(self):
+        start = time.monotonic()
+        status, _, errors = self.signalled(["simulate", RIG, "--set", "parameters.youngs_modulus_pa=100000000000"],
+                                           signal.SIGINT, lambda: time.monotonic() - start > 4)
+        self.assertEqual(status, 1, errors)
+        self.assertRegex(errors, r"s simulated, step \d+, \d+ s gone")
+        self.assertIn("the run was asked to stop", errors)
+
+    def test_a_hangup_ends_a_calibration_with_the_best_so_far(self):
+        study = self.small_study(budget_simulations=400, screening=4, tolerance_mm=0.001)
+        log = self.out / "evaluations.sqlite-wal"
+        status, output, errors = self.signalled(["calibrate", study, "--out", self.out], signal.SIGHUP,
+                                                lambda: log.exists() and log.stat().st_size > 100_000)
+        self.assertEqual(status, 1, errors)
+        self.assertEqual(json.loads((self.out / "card.json").read_text())["search"]["status"], "stopped")
+
+    def test_an_output_folder_that_goes_away_is_seen_at_once(self):
+        study = self.small_study(budget_simulations=400, screening=4, tolerance_mm=0.001)
+        process = subprocess.Popen([PROGRAM, "calibrate", study, "--out", self.out], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        while not (self.out / "evaluations.sqlite-wal").exists() and process.poll() is None:
+            time.sleep(0.05)
+        shutil.rmtree(self.out)
+        start = time.monotonic()
+        _, errors = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertIn("gone", errors)
 
     # exit status
 
