@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,11 +10,18 @@
 
 namespace pastefit {
 
+/// A number that is not in its range, bounds included.
+struct OutOfRange {
+  double value = 0, smallest = 0, largest = 0;
+  std::string unit;
+};
+
 /// One thing that is wrong in what the user gave: where it stands, what is wrong, and what would be right.
 struct Fault {
   std::string where;   ///< place in the file, e.g. "apparatus.mould.height_mm", or an option's name
   std::string what;    ///< what is wrong, with the value
   std::string remedy;  ///< what would be right
+  std::optional<OutOfRange> range = std::nullopt;  ///< what `what` and `remedy` say, where that is all there is to say
 };
 
 using Faults = std::vector<Fault>;

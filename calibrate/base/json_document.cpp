@@ -111,6 +111,11 @@ class SyntaxCheck final : public nlohmann::json_sax<json> {
 }  // namespace
 
 std::optional<json> parse_json(std::string_view text, Faults& faults) {
+  // The parser takes a null byte for the end.
+  if (const auto null = text.find('\0'); null != std::string_view::npos) {
+    faults.push_back({line_and_column(text, null + 1), "not JSON: a null byte", "correct the text there"});
+    return std::nullopt;
+  }
   SyntaxCheck check(text, faults);
   if (!json::sax_parse(text.begin(), text.end(), &check, json::input_format_t::json, true, true)) return std::nullopt;
   return json::parse(text.begin(), text.end(), nullptr, false, true);
@@ -118,8 +123,14 @@ std::optional<json> parse_json(std::string_view text, Faults& faults) {
 
 std::optional<json> read_json(const std::filesystem::path& file, Faults& faults) {
   std::error_code error;
+  if (file.native().find('\0') != std::string::npos) {
+    faults.push_back({file.string(), "holds a null byte", "the path of a file"});
+    return std::nullopt;
+  }
   if (!std::filesystem::exists(file, error)) {
-    faults.push_back({file.string(), "there is no such file", "check the path"});
+    const bool circle = error == std::errc::too_many_symbolic_link_levels;
+    faults.push_back({file.string(), circle ? "is a symbolic link that goes in a circle" : "there is no such file",
+                      "check the path"});
     return std::nullopt;
   }
   std::ifstream stream(file, std::ios::binary);

@@ -105,6 +105,7 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   out.lab_file = test.lab_file;
   out.lab_hash = test.lab.hash;
   out.lab = test.lab.provenance;
+  if (!test.lab.note.empty()) out.lab.notes += (out.lab.notes.empty() ? "" : "; ") + test.lab.note;
   out.test = test_with(test.lab.test, values, packings.at(0));
   const auto runs = runs_of(study, index, values, packings, store);
   if (runs.empty()) return out;

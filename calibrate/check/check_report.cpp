@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 
 namespace pastefit {
@@ -15,35 +16,11 @@ auto count_of(const std::vector<CheckedFile>& checked, CheckVerdict verdict) {
   return std::ranges::count_if(checked, [&](const auto& one) { return one.check.verdict == verdict; });
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char byte : text) switch (byte) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(byte) < 0x20 ? ' ' : byte;  // XML 1.0 has no place for control characters
-    }
-  return out;
-}
-
 }  // namespace
 
 std::string text_of(const CheckedFile& checked) {
   const auto& check = checked.check;
-  std::string out = checked.file.string() + ": " + check.card + "\n";
+  std::string out = checked.file.string() + ": " + one_line(check.card) + "\n";
   if (!check.readings.empty())
     out += format("  %-34s %12s %12s %12s %12s\n", "reading", "card", "now", "difference", "band");
   for (const auto& reading : check.readings)
@@ -53,7 +30,7 @@ std::string text_of(const CheckedFile& checked) {
     out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
                   std::string(name_of(check.bits)).c_str(), check.false_alarm);
   out += "  " + std::string(name_of(check.verdict));
-  return out + (check.reason.empty() ? "" : ": " + check.reason) + "\n";
+  return out + lines_of(check.reason.empty() ? "" : ": " + check.reason) + "\n";
 }
 
 ordered_json to_json(const std::vector<CheckedFile>& checked) {
@@ -86,12 +63,12 @@ std::string junit_of(const std::vector<CheckedFile>& checked) {
                 static_cast<long>(count_of(checked, CheckVerdict::disagrees)),
                 static_cast<long>(count_of(checked, CheckVerdict::not_checked)));
   for (const auto& one : checked) {
-    out += "  <testcase classname=\"pastefit.check\" name=\"" + escaped(one.file.string()) + "\">\n";
+    out += "  <testcase classname=\"pastefit.check\" name=\"" + xml_text(one.file.string()) + "\">\n";
     const auto tag = one.check.verdict == CheckVerdict::disagrees     ? "failure"
                      : one.check.verdict == CheckVerdict::not_checked ? "error"
                                                                       : "";
-    if (*tag) out += "    <" + std::string(tag) + " message=\"" + escaped(one.check.reason) + "\"/>\n";
-    out += "    <system-out>" + escaped(text_of(one)) + "</system-out>\n  </testcase>\n";
+    if (*tag) out += "    <" + std::string(tag) + " message=\"" + xml_text(one.check.reason) + "\"/>\n";
+    out += "    <system-out>" + xml_text(text_of(one)) + "</system-out>\n  </testcase>\n";
   }
   return out + "</testsuite>\n";
 }

@@ -4,13 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
@@ -90,22 +93,24 @@ std::string changes_in(const Study& study, const Store& store) {
 /// What the laboratories' readings look like, taken together.
 std::string notes_on_readings(const Study& study) {
   std::string out;
-  for (const StudyTest& test : study.tests)
+  for (const StudyTest& test : study.tests) {
+    if (!test.lab.note.empty()) out += test.lab_file + ": " + test.lab.note + ".\n";
     for (const std::string& note : doubts_about(test.lab.test, test.lab.measurements).notes)
       out += test.lab_file + ": " + note + ".\n";
+  }
   return out;
 }
 
-/// Card and summary, to the folder and to the person.
+/// Card and summary, to the folder and to the person. Only a confirmed material is what was asked for.
 int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
-  auto faults = write_atomically(folder.file(kCard), to_json(card).dump(2) + "\n");
+  auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
-  std::printf("\n%s", summary.c_str());
+  print("\n%s", summary.c_str());
   if (!faults.empty()) return report(faults, kFailed);
-  std::printf("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
-              folder.file(kStore).c_str());
-  return kDone;
+  print("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
+        folder.file(kStore).c_str());
+  return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
 int calibrate(const CalibrateOptions& options) {
@@ -118,8 +123,13 @@ int calibrate(const CalibrateOptions& options) {
   auto for_the_search = search_options;
   for_the_search.budget_simulations -= hold_out_simulations(study, search_options);
   const auto fitted_tests = static_cast<int>(tests_of(study, false).size());
-  if (const auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty())
-    return report(in_file(faults, options.study));
+  if (auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty()) {
+    faults = in_file(std::move(faults), options.study);
+    // What the option says instead of the file is the option's fault.
+    for (Fault& fault : faults)
+      if (options.budget > 0 && fault.where.ends_with("search.budget_simulations")) fault.where = "--budget";
+    return report(faults);
+  }
 
   if (const auto faults = validate_memory(study, options.threads); !faults.empty())
     return report(in_file(faults, options.study));
@@ -148,10 +158,12 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())
     return report(faults);
 
-  std::printf("%s\n%d free parameters, at most %d simulations, %zu known\n", study.title.c_str(), free_count(study),
-              budget, store.value().size());
-  std::printf("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
-              warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
+  print("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
+        budget, store.value().size());
+  for (const auto& remark : store.value().remarks())
+    print("%s: %s.\n", folder.value().file(kStore).c_str(), remark.c_str());
+  print("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
+        warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
   ProgressLine line(budget, misfit_unit_of(study));
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
@@ -202,15 +214,16 @@ Command add_calibrate(CLI::App& verb) {
   add_threads(verb, options->threads);
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--wall-budget", options->wall_budget_s, "end after this time with the best so far; --resume goes on")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--core-budget", options->core_budget_s,
                   "the same for the processor time of all simulations together")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's");
+      ->check(positive_number());
+  verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
+      ->check(whole_number());
   return [options] { return calibrate(*options); };
 }
 

@@ -6,10 +6,14 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
 
 namespace pastefit {
 
@@ -19,7 +23,7 @@ struct CheckCommand {
   std::vector<std::string> cards;
   CheckOptions check;
   std::string against, junit, why;
-  bool json = false, rebaseline = false;
+  bool json = false, rebaseline = false, force = false;
   int packings = 0;
 };
 
@@ -42,12 +46,12 @@ int rebaseline_all(const CheckCommand& options) {
     card = std::move(changed).value();
   }
   for (std::size_t i = 0; i < cards.size(); ++i) {
-    if (const auto unwritten = write_atomically(options.cards[i], to_json(cards[i]).dump(2) + "\n"); !unwritten.empty())
+    if (const auto unwritten = write_atomically(options.cards[i], json_text(to_json(cards[i]))); !unwritten.empty())
       return report(unwritten, kFailed);
     const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
-    std::printf("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
+    print("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
     for (const auto& moved : cards[i].rebaselined.back().moved)
-      std::printf("  %-26s %12.6g -> %.6g\n", moved.observable.c_str(), moved.before, moved.after);
+      print("  %-26s %12.6g -> %.6g\n", moved.observable.c_str(), moved.before, moved.after);
   }
   return kDone;
 }
@@ -62,6 +66,9 @@ int status_of(const std::vector<CheckedFile>& checked) {
 }
 
 int check_all(const CheckCommand& options) {
+  if (!options.junit.empty())
+    if (const auto faults = output_file_faults("--junit", options.junit, options.force); !faults.empty())
+      return report(faults);
   std::optional<Lab> lab;
   if (!options.against.empty()) {
     auto read = read_lab(options.against);
@@ -78,12 +85,13 @@ int check_all(const CheckCommand& options) {
     } else {
       one.check = lab ? check_against(card.value(), *lab, options.check) : check(card.value(), options.check);
     }
-    if (!options.json) std::fputs(text_of(one).c_str(), stdout);
+    if (!options.json) print("%s", text_of(one).c_str());
     checked.push_back(std::move(one));
   }
-  if (options.json) std::printf("%s\n", to_json(checked).dump(2).c_str());
+  if (options.json) print("%s", json_text(to_json(checked)).c_str());
   if (!options.junit.empty())
-    if (const auto faults = write_atomically(options.junit, junit_of(checked)); !faults.empty()) return report(faults);
+    if (const auto faults = write_atomically(options.junit, junit_of(checked)); !faults.empty())
+      return report(faults, kFailed);
   return status_of(checked);
 }
 
@@ -96,7 +104,7 @@ Command add_check(CLI::App& verb) {
   verb.add_flag("--bits", options->check.bits, "other bits are a disagreement, whatever program made the card");
   verb.add_option("--false-alarm", options->check.false_alarm,
                   "probability to call a card wrong although nothing changed")
-      ->check(CLI::Range(1e-9, 0.5))
+      ->check(number_from(1e-9, 0.5))
       ->capture_default_str();
   add_threads(verb, options->check.threads);
   auto* against = verb.add_option("--against", options->against,
@@ -104,6 +112,7 @@ Command add_check(CLI::App& verb) {
                       ->type_name("LAB");
   auto* json = verb.add_flag("--json", options->json, "print the answers as JSON");
   auto* junit = verb.add_option("--junit", options->junit, "write the answers as JUnit XML")->type_name("FILE");
+  verb.add_flag("--force", options->force, "replace FILE")->needs(junit);
   auto* rebaseline = verb.add_flag("--rebaseline", options->rebaseline,
                                    "take what the engine gives now as the cards' baseline, and record why")
                          ->excludes(against)
@@ -112,7 +121,7 @@ Command add_check(CLI::App& verb) {
   verb.add_option("--why", options->why, "the reason for a new baseline")->needs(rebaseline)->type_name("TEXT");
   verb.add_option("--packings", options->packings, "packings of the new baseline, if more than before")
       ->needs(rebaseline)
-      ->check(CLI::Range(2, 1000));
+      ->check(whole_number(2, 1000));
   return [options] { return options->rebaseline ? rebaseline_all(*options) : check_all(*options); };
 }
 

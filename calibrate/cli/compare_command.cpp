@@ -8,7 +8,9 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/misfit_figure.h"
 #include "calibrate/search/comparison.h"
 #include "calibrate/search/evaluator.h"
@@ -58,17 +60,17 @@ std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit
   return out;
 }
 
-void print(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
-  std::printf("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
-              unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
+void print_table(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+  print("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
+        unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
   for (const auto& row : rows) {
-    std::printf("%-22s %6d of %d %12.0f", row.strategy.c_str(), row.confirmed, row.trials, row.simulations);
+    print("%-22s %6d of %d %12.0f", row.strategy.c_str(), row.confirmed, row.trials, row.simulations);
     if (row.judged >= 0)
-      std::printf(" %18.2f %12.2f\n", unit.of(row.judged), unit.of(row.worst_judged));
+      print(" %18.2f %12.2f\n", unit.of(row.judged), unit.of(row.worst_judged));
     else
-      std::printf(" %18s %12s\n", "-", "-");
+      print(" %18s %12s\n", "-", "-");
   }
-  std::printf(
+  print(
       "Medians over the seeds; confirmed: within %s on packings that the search had not seen; judged on others,"
       " the same for all.\n",
       unit.tolerance_mm ? unit.words(1, "%g").c_str() : "the tolerances");
@@ -122,6 +124,8 @@ int compare(const CompareOptions& options) {
   if (options.force) folder.value().clear(kComparison);
   auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
+  for (const auto& remark : store.value().remarks())
+    std::fprintf(stderr, "pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
 
   const auto& stop = listen_for_stop();
   const auto objective = [&](int budget) -> std::unique_ptr<Objective> {
@@ -132,28 +136,28 @@ int compare(const CompareOptions& options) {
     return std::make_unique<SimulationObjective>(study, store.value(), evaluator);
   };
   const auto trials = compare_strategies(objective, comparison, [&](const StrategyTrial& trial) {
-    std::printf("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
-                static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(),
-                trial.simulations, trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
+    print("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
+          static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(), trial.simulations,
+          trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
     std::fflush(stdout);
   });
   if (trials.empty()) {
     std::fprintf(stderr, "pastefit: stopped before the first strategy was through; go on with --resume\n");
     return kFailed;
   }
-  if (trials.size() < comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds))
-    std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
+  const bool all = trials.size() == comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds);
+  if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
   const auto rows = summary_of(trials);
-  print(rows, unit);
+  print_table(rows, unit);
   const std::vector<std::pair<std::string, std::string>> files{{kTable, table_of(trials, unit)},
                                                                {kCourse, course_of(trials, unit)},
                                                                {kFigure, misfit_figure(rows, unit, study.title)}};
   for (const auto& [name, content] : files) {
     if (const auto faults = write_atomically(folder.value().file(name), content); !faults.empty())
       return report(faults, kFailed);
-    std::printf("wrote %s\n", folder.value().file(name).c_str());
+    print("wrote %s\n", folder.value().file(name).c_str());
   }
-  return kDone;
+  return all ? kDone : kFailed;
 }
 
 }  // namespace
@@ -169,13 +173,13 @@ Command add_compare_optimisers(CLI::App& verb) {
       ->type_name("NAMES");
   verb.add_option("--seeds", options->seeds, "trials of each strategy; default: 1")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   verb.add_option("--budget", options->budget, "simulations of each trial, instead of the study's")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--judge-packings", options->judge_packings, "on which every result is judged; default: 8")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   add_threads(verb, options->threads);
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);

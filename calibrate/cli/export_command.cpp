@@ -6,8 +6,11 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/exports/export.h"
 
 namespace pastefit {
@@ -33,7 +36,8 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
 }
 
 std::string notes_text(const Exporter& exporter, const Card& card, const CardTest& test, const Export& written) {
-  std::string out = title_of(card, test) + "\n" + std::string(exporter.meaning) + "\n\n" + choice_text(card, test);
+  std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
+                    lines_of(choice_text(card, test));
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
@@ -79,8 +83,8 @@ int export_to_folder(const ExportOptions& options) {
     if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
       return report(unwritten, kFailed);
   }
-  for (const auto& file : files) std::printf("wrote %s\n", folder.value().file(file.name).c_str());
-  std::fputs(files.back().content.c_str(), stdout);
+  for (const auto& file : files) print("wrote %s\n", folder.value().file(file.name).c_str());
+  print("%s", files.back().content.c_str());
   return kDone;
 }
 
@@ -95,7 +99,8 @@ Command add_export(CLI::App& verb) {
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
   verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
       ->type_name("NAME");
-  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own");
+  verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
+      ->check(whole_number());
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_to_folder(*options); };
 }

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
@@ -64,6 +66,8 @@ int infer(const InferOptions& options) {
   if (const auto faults = differences(card, study.value(), card_file); !faults.empty()) return report(faults);
   const auto store = Store::read(store_file);
   if (!store.ok()) return report(store.faults());
+  for (const auto& remark : store.value().remarks())
+    std::fprintf(stderr, "pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
   const std::string& simulated_by = store.value().identity().program;
   const auto record = everything_of(study.value(), store.value());
   const UnitPoint recommended = point_of(card);
@@ -94,12 +98,12 @@ int infer(const InferOptions& options) {
     card.inference.method += ", by " + program_identity();
   }
   const std::string summary = summary_of(card, findings);
-  std::fputs(summary.c_str(), stdout);
+  print("%s", summary.c_str());
   if (!folder) return kDone;
-  auto faults = write_atomically(folder->file(kResults[0]), to_json(card).dump(2) + "\n");
+  auto faults = write_atomically(folder->file(kResults[0]), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder->file(kResults[1]), summary);
   if (!faults.empty()) return report(faults, kFailed);
-  std::printf("\nwrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
+  print("\nwrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
   return kDone;
 }
 

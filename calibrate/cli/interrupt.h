@@ -4,8 +4,8 @@
 
 namespace pastefit {
 
-/// Becomes true at the first Ctrl-C or SIGTERM, so that a run ends with the best so far; the second one kills, as
-/// usual. Call once, before threads are started.
+/// Becomes true at the first Ctrl-C, SIGTERM or SIGHUP, so that a run ends with the best so far; the second one kills,
+/// as usual. Call once, before threads are started.
 const std::atomic<bool>& listen_for_stop();
 
 }  // namespace pastefit

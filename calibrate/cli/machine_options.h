@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/machine.h"
+#include "calibrate/cli/option_checks.h"
 
 namespace pastefit {
 
@@ -14,10 +16,9 @@ inline void add_threads(CLI::App& verb, int& threads,
       ->type_name("N")
       ->check(CLI::Validator(
           [](std::string& text) -> std::string {
-            int asked = 0;
-            if (CLI::detail::lexical_cast(text, asked) && asked >= 1 && asked <= processors()) return {};
-            return "is " + text + "; this machine has " + std::to_string(processors()) + " processors: give 1 to " +
-                   std::to_string(processors()) + ", or leave it out";
+            if (whole_number(1, static_cast<std::uint64_t>(processors()))(text).empty()) return {};
+            return "is " + in_quotes(text) + "; this machine has " + std::to_string(processors()) +
+                   " processors: give 1 to " + std::to_string(processors()) + ", or leave it out";
           },
           ""));
 }

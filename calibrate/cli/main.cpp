@@ -3,8 +3,10 @@
 #include <set>
 #include <string>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"
 
@@ -13,7 +15,7 @@ namespace pastefit {
 int report(const Faults& faults, int status) {
   std::fprintf(stderr, "pastefit: %s\n%s\n",
                faults.size() == 1 ? "one fault" : (std::to_string(faults.size()) + " faults").c_str(),
-               message_of(faults).c_str());
+               lines_of(message_of(faults)).c_str());
   return status;
 }
 
@@ -76,7 +78,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return pastefit::run(argc, argv);
+    pastefit::guard_standard_streams();
+    return pastefit::after_output(pastefit::run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
     return 70;

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -19,6 +20,17 @@ std::vector<std::string> with_store(std::vector<std::string> names) {
   return names;
 }
 
+Faults output_file_faults(const std::string& option, const fs::path& file, bool force) {
+  const std::string where = option + " " + file.string();
+  std::error_code error;
+  if (fs::is_directory(file, error)) return {{where, "is a folder", "the name of a file"}};
+  if (const fs::path folder = file.parent_path(); !folder.empty() && !fs::is_directory(folder, error))
+    return {{where, "there is no folder " + folder.string(), "make it, or choose another"}};
+  if (!force && fs::exists(file, error))
+    return {{where, "is there already", "choose another name, or replace it with --force"}};
+  return {};
+}
+
 Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vector<std::string>& results,
                                         EarlierResult earlier, std::uintmax_t space_bytes) {
   const std::string where = "--out " + folder.string();
@@ -31,6 +43,13 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vecto
       if (fs::exists(folder / name, error))
         return Fault{where, "holds an earlier result (" + name + ")",
                      "choose another folder, go on with --resume where there is one, or replace it with --force"};
+
+  const bool with_store = std::ranges::find(results, kStore) != results.end();
+  if (earlier == EarlierResult::resume && with_store && !fs::exists(folder / kStore, error))
+    for (const auto& name : results)
+      if (fs::exists(folder / name, error))
+        return Fault{where, "holds " + name + ", but no " + kStore + " to go on with",
+                     "choose another folder, or replace what is there with --force"};
 
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock < 0) return Fault{where, std::strerror(errno), "choose a folder that can be read and written"};

@@ -20,6 +20,10 @@ std::vector<std::string> with_store(std::vector<std::string> names);
 /// What to do with the result that a folder already holds.
 enum class EarlierResult { refuse, resume, replace };
 
+/// What keeps `file`, given as `option`, from being written: it is there and may not be replaced, or it is a folder, or
+/// its own folder is not there. To be asked before anything runs.
+Faults output_file_faults(const std::string& option, const std::filesystem::path& file, bool force);
+
 /// A folder that was checked before anything runs: it exists, can be written, has space, and belongs to this process
 /// until the object is gone. Nothing in it is changed by opening.
 class OutputFolder {

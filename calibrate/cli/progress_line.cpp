@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/cli/standard_output.h"
 
 namespace pastefit {
 
@@ -24,16 +26,16 @@ void ProgressLine::show(const Progress& progress) {
   const bool new_phase = progress.phase != phase_;
   phase_ = progress.phase;
   best_miss_ = progress.best_miss;
-  print(new_phase);
+  rewrite(new_phase);
   if (progress.note.empty()) return;
-  std::printf("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
+  print("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
   std::fflush(stdout);
 }
 
 void ProgressLine::show(const EvaluationCounts& counts) {
   const std::lock_guard lock(mutex_);
   counts_ = counts;
-  print(false);
+  rewrite(false);
 }
 
 std::string ProgressLine::text() const {
@@ -52,7 +54,7 @@ std::string ProgressLine::text() const {
   return line;
 }
 
-void ProgressLine::print(bool now) {
+void ProgressLine::rewrite(bool now) {
   const auto time = Clock::now();
   if (!now && time - printed_ < (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain))) return;
   const auto line = text();
@@ -60,15 +62,15 @@ void ProgressLine::print(bool now) {
   printed_ = time;
   last_ = line;
   if (terminal_)
-    std::printf("\r%s\033[K", line.c_str());
+    std::printf("\r%s\033[K", one_line(line).c_str());
   else
-    std::printf("%s\n", line.c_str());
+    print("%s\n", line.c_str());
   std::fflush(stdout);
 }
 
 void ProgressLine::end() {
   const std::lock_guard lock(mutex_);
-  print(true);
+  rewrite(true);
   if (terminal_ && !last_.empty()) std::printf("\n");
   std::fflush(stdout);
 }

@@ -19,7 +19,7 @@ class ProgressLine {
   void end();                                 ///< ends the rewritten line
 
  private:
-  void print(bool now);
+  void rewrite(bool now);
   std::string text() const;
 
   using Clock = std::chrono::steady_clock;

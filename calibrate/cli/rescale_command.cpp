@@ -4,10 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/search/memory.h"
 
@@ -19,6 +23,7 @@ struct RescaleOptions {
   std::string card, out;
   double radius_mm = 0;
   int packings = 4;
+  bool force = false;
   CheckOptions check;
 };
 
@@ -30,6 +35,9 @@ double work_ratio(double from_m, double to_m) {
 int rescale(const RescaleOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
+  if (!options.out.empty())
+    if (const auto faults = output_file_faults("--out", options.out, options.force); !faults.empty())
+      return report(faults);
   const double radius = options.radius_mm / 1e3, old_radius = card.value().material.grains.radius_m;
   auto result = rescaled(card.value(), radius);
   if (!result.ok()) return report(result.faults());
@@ -41,11 +49,11 @@ int rescale(const RescaleOptions& options) {
     result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
     if (!result.ok()) return report(result.faults(), kFailed);
   }
-  std::fputs(text_of(result.value()).c_str(), stdout);
+  print("%s", text_of(result.value()).c_str());
   if (options.out.empty()) return kDone;
-  if (const auto faults = write_atomically(options.out, to_json(result.value()).dump(2) + "\n"); !faults.empty())
-    return report(faults);
-  std::printf("wrote %s\n", options.out.c_str());
+  if (const auto faults = write_atomically(options.out, json_text(to_json(result.value()))); !faults.empty())
+    return report(faults, kFailed);
+  print("wrote %s\n", options.out.c_str());
   return kDone;
 }
 
@@ -56,12 +64,13 @@ Command add_rescale(CLI::App& verb) {
   verb.add_option("CARD", options->card, "card file")->required();
   verb.add_option("--radius", options->radius_mm, "mean radius of the new grains in mm")
       ->required()
-      ->check(CLI::Range(0.01, 1000.0))
+      ->check(number_from(0.01, 1000))
       ->type_name("MM");
   verb.add_option("--out", options->out, "file for the new card")->type_name("FILE");
+  verb.add_flag("--force", options->force, "replace FILE");
   verb.add_option("--packings", options->packings,
                   "simulations with either size that measure the bias; 0: carry over without measuring")
-      ->check(CLI::IsMember({0}) | CLI::Range(2, 1000))
+      ->check(whole_number(0, 0) | whole_number(2, 1000))
       ->capture_default_str();
   add_threads(verb, options->check.threads);
   return [options] { return rescale(*options); };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_versions.h"
@@ -49,7 +50,7 @@ void read_parameter(const Setting& setting, Settings& settings, Faults& faults) 
   const Range range{kind->smallest, kind->largest};
   const double value = setting.value.is_number() ? setting.value.get<double>() : 0;
   if (!setting.value.is_number() || !(value >= range.smallest && value <= range.largest))
-    faults.push_back({where, "is " + setting.value.dump(), text_of(range)});
+    faults.push_back({where, "is " + text_of(setting.value), text_of(range)});
   else
     settings.parameters.emplace_back(static_cast<std::size_t>(kind - kinds.begin()), value);
 }
@@ -60,6 +61,10 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
     const auto sign = text.find('=');
     if (sign == std::string::npos || sign == 0) {
       faults.push_back({"--set " + text, "is not path=value", "e.g. --set parameters.strength_pa=3000"});
+      continue;
+    }
+    if (one_line(text) != text) {
+      faults.push_back({"--set " + text, "holds a control character, or bytes that are no text", "plain UTF-8"});
       continue;
     }
     Setting setting{text.substr(0, sign), json::parse(text.substr(sign + 1), nullptr, false)};
@@ -138,8 +143,8 @@ std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, F
   return std::nullopt;
 }
 
-std::optional<Test> study_scene(const Settings& settings, const std::string& name, const std::filesystem::path& file,
-                                Faults& faults) {
+std::optional<FoundScene> study_scene(const Settings& settings, const std::string& name,
+                                      const std::filesystem::path& file, Faults& faults) {
   const auto study = read_study(file);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
@@ -161,11 +166,11 @@ std::optional<Test> study_scene(const Settings& settings, const std::string& nam
     specimen_of(test).contact = contact;
   }
   const UnitPoint middle = UnitPoint::Constant(free_count(study.value()), 0.5);
-  return with_parameters(test, values_at(study.value(), middle), settings, faults);
+  return FoundScene{with_parameters(test, values_at(study.value(), middle), settings, faults), of_study.lab.note};
 }
 
-std::optional<Test> card_scene(const json& document, const Settings& settings, const std::string& name,
-                               const std::filesystem::path& file, Faults& faults) {
+std::optional<FoundScene> card_scene(const json& document, const Settings& settings, const std::string& name,
+                                     const std::filesystem::path& file, Faults& faults) {
   // Settings are of the form that this program writes, whatever version the card is of.
   const auto upgraded = upgraded_card(document);
   if (!upgraded.ok()) {
@@ -177,12 +182,12 @@ std::optional<Test> card_scene(const json& document, const Settings& settings, c
   const auto place = chosen(card.value().tests, name, faults);
   if (!place) return std::nullopt;
   const Test& test = card.value().tests[*place].test;
-  if (settings.parameters.empty()) return test;
-  return with_parameters(test, values_of(card.value().material), settings, faults);
+  if (settings.parameters.empty()) return FoundScene{test, ""};
+  return FoundScene{with_parameters(test, values_of(card.value().material), settings, faults), ""};
 }
 
-std::optional<Test> test_scene(const json& document, const Settings& settings, const std::string& name,
-                               const std::filesystem::path& file, Faults& faults) {
+std::optional<FoundScene> test_scene(const json& document, const Settings& settings, const std::string& name,
+                                     const std::filesystem::path& file, Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
   if (format == "pastefit-study-1") return study_scene(settings, name, file, faults);
   if (is_card(document)) return card_scene(document, settings, name, file, faults);
@@ -190,12 +195,13 @@ std::optional<Test> test_scene(const json& document, const Settings& settings, c
   if (format == "pastefit-lab-1") {
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
-    if (lab.ok()) return with_parameters(lab.value().test, usual_values(), settings, faults);
+    if (lab.ok())
+      return FoundScene{with_parameters(lab.value().test, usual_values(), settings, faults), lab.value().note};
     return std::nullopt;
   }
   if (format == "pastefit-rig-1") {
     const auto rig = read_with(document, settings, file, faults, rig_from_json);
-    if (rig.ok()) return with_parameters(rig.value().test, usual_values(), settings, faults);
+    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, usual_values(), settings, faults), ""};
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),
@@ -206,8 +212,8 @@ std::optional<Test> test_scene(const json& document, const Settings& settings, c
 
 }  // namespace
 
-Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
-                         const std::string& name) {
+Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
+                              const std::string& name) {
   Faults faults;
   const auto settings = read_settings(texts, faults);
   const auto document = read_json(file, faults);
@@ -218,12 +224,12 @@ Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<st
     if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
     const auto impact = read_with(*document, settings, file, faults, impact_from_json);
     if (!faults.empty()) return faults;
-    return Scene(impact.value());
+    return FoundScene{impact.value(), ""};
   }
-  const auto test = test_scene(*document, settings, name, file, faults);
-  if (test && faults.empty()) faults = in_file(validate_in_file_words(*test), file);
+  auto found = test_scene(*document, settings, name, file, faults);
+  if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);
   if (!faults.empty()) return faults;
-  return Scene(*test);
+  return std::move(*found);
 }
 
 }  // namespace pastefit

@@ -14,6 +14,12 @@ namespace pastefit {
 /// A test that can be simulated.
 using Scene = std::variant<Test, Impact>;
 
+/// A scene of a file, and what a person should know of where it comes from; mostly nothing.
+struct FoundScene {
+  Scene scene;
+  std::string note;
+};
+
 /// The test that a file stands for: that of a study (free parameters in the middle of their bounds), a card,
 /// a laboratory or a rig file, or the few bodies of an impact file, told apart by "format". Of the tests of a study or
 /// a card the one named `test`; the first, if that is empty.
@@ -22,7 +28,7 @@ using Scene = std::variant<Test, Impact>;
 /// `parameters.NAME=number` sets a parameter of `parameter_kinds` in every file of a laboratory test. In a study any
 /// other path is one of its laboratory file's, e.g. grains.radius_mm=6. A value that is not JSON is a text.
 /// Errors: every fault of the file and of the settings; there is no such test.
-Result<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings,
-                         const std::string& test);
+Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                              const std::string& test);
 
 }  // namespace pastefit

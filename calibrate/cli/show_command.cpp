@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
 
 namespace pastefit {
@@ -11,7 +12,7 @@ namespace {
 int show(const std::string& file) {
   const auto card = read_card(file);
   if (!card.ok()) return report(card.faults());
-  std::fputs(text_of(card.value()).c_str(), stdout);
+  print("%s", text_of(card.value()).c_str());
   return kDone;
 }
 

@@ -9,11 +9,16 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/scene.h"
+#include "calibrate/cli/sign_of_life.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/outcome_json.h"
@@ -148,13 +153,12 @@ Faults write_results(const OutputFolder& folder, const std::string& text, const 
 }
 
 void print_table(const Outcome& outcome, double wall_s) {
-  for (const auto& [name, value] : outcome.observables.all()) std::printf("%-26s %12.6g\n", name.c_str(), value);
+  for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
-  std::printf(
-      "%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
-      static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
-      run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
-      run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
+  print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+        static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
+        run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+        run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
 }
 
 /// What the program thinks of a step the user has set.
@@ -170,9 +174,10 @@ void judge_step(double given_s, double advised_s) {
 }
 
 int simulate_file(const SimulateOptions& options) {
-  auto scene = read_scene(options.file, options.settings, options.test);
-  if (!scene.ok()) return report(scene.faults());
-  auto test = std::move(scene).value();
+  auto found = read_scene(options.file, options.settings, options.test);
+  if (!found.ok()) return report(found.faults());
+  if (!found.value().note.empty()) std::fprintf(stderr, "pastefit: %s\n", found.value().note.c_str());
+  Scene test = std::move(found).value().scene;
   if (options.seed) {
     auto* of_lab = std::get_if<Test>(&test);
     if (!of_lab) return report({{"--seed", "an impact has no random packing", "leave it out"}});
@@ -197,9 +202,6 @@ int simulate_file(const SimulateOptions& options) {
     if (options.vtk_interval_s) pictures.emplace(options.out, series);
   }
 
-  if (options.time_step_s && !(*options.time_step_s >= 1e-9 && *options.time_step_s <= 0.01))
-    return report({{"--time-step", "is not between 1e-9 and 0.01 s", "leave it out: the step follows from the scene"}});
-
   RunOptions run;
   run.steps.fixed_step_s = options.time_step_s;
   run.steps.threads = options.threads;
@@ -214,23 +216,30 @@ int simulate_file(const SimulateOptions& options) {
     if (pictures) unwritten = pictures->add(moment, series_at(test, moment));
     return unwritten.empty();
   };
+  const auto& stop = listen_for_stop();
+  std::optional<SignOfLife> sign(std::in_place);
+  run.pulse = [&](const Moment& moment) {
+    sign->show(moment);
+    return !stop;
+  };
   const auto start = std::chrono::steady_clock::now();
   const auto outcome = std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test);
+  sign.reset();
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
 
   if (outcome.failure) outlines.clear();
-  const auto text = json_of(outcome, to_json(outlines), wall_s).dump(2) + "\n";
+  const auto text = json_text(json_of(outcome, to_json(outlines), wall_s));
   if (options.json)
-    std::fputs(text.c_str(), stdout);
+    print("%s", text.c_str());
   else
     print_table(outcome, wall_s);
   if (folder) {
     if (const auto faults = write_results(*folder, text, outcome); !faults.empty()) return report(faults, kFailed);
-    if (!options.json) std::printf("wrote %s\n", folder->file(kResult).c_str());
-    if (!options.json && outcome.curve) std::printf("wrote %s\n", folder->file(kCurve).c_str());
+    if (!options.json) print("wrote %s\n", folder->file(kResult).c_str());
+    if (!options.json && outcome.curve) print("wrote %s\n", folder->file(kCurve).c_str());
     if (!options.json && pictures)
-      for (const auto& file : pictures->indices()) std::printf("wrote %s\n", file.c_str());
+      for (const auto& file : pictures->indices()) print("wrote %s\n", file.c_str());
   }
   if (of_lab)
     if (const auto remarks = remarks_on(*of_lab, {&outcome.observables, 1}); !remarks.empty())
@@ -256,14 +265,15 @@ Command add_simulate(CLI::App& verb) {
       ->take_all();
   verb.add_option("--test", options->test, "which test of a study or card that has several; without it the first")
       ->type_name("NAME");
-  verb.add_option("--seed", options->seed, "seed of the random packing");
+  verb.add_option("--seed", options->seed, "seed of the random packing")->check(whole_number());
   verb.add_option("--out", options->out,
                   "folder for " + kResult + ", " + kCurve + " of a test that draws one, and the ParaView series")
       ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace an earlier result in DIR");
   verb.add_option("--time-step", options->time_step_s,
                   "fixed time step of the test; without it the step follows from the scene")
-      ->type_name("SECONDS");
+      ->type_name("SECONDS")
+      ->check(number_from(1e-9, 0.01));
   add_threads(verb, options->threads,
               "threads that share the grains of the simulation (1); the result does not change");
   verb.add_flag("--sleep", options->sleep,
@@ -271,7 +281,7 @@ Command add_simulate(CLI::App& verb) {
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   return [options] { return simulate_file(*options); };
 }
 

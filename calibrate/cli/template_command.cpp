@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/laboratory/test.h"
 
 namespace pastefit {
@@ -14,7 +15,7 @@ Command add_template(CLI::App& verb) {
   return [name, names] {
     const auto text = template_text(*name);
     if (!text) return report({{"template " + *name, "there is no such starting file", "one of " + names}});
-    std::fputs(text->c_str(), stdout);
+    print("%s", text->c_str());
     return kDone;
   };
 }

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {
@@ -33,23 +35,22 @@ fs::path file_of(const std::string& name, const std::vector<fs::path>& shipped) 
 }
 
 void print_header() {
-  std::printf("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance",
-              "", "at");
+  print("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance", "",
+        "at");
 }
 
 void print_row(const std::string& name, const CheckRow& row, std::size_t points) {
   std::string at = row.point;
   if (points > 1) at += " (worst of " + std::to_string(points) + ")";
-  std::printf("%-23s %-28s %s%13.6g %14.6g %9.2e %9.0e  %-5s %s\n", name.c_str(), row.reading.c_str(),
-              row.bound ? "<" : " ", row.expected, row.got, row.error, row.tolerance,
-              std::string(name_of(row.verdict)).c_str(), at.c_str());
+  print("%-23s %-28s %s%13.6g %14.6g %9.2e %9.0e  %-5s %s\n", name.c_str(), row.reading.c_str(), row.bound ? "<" : " ",
+        row.expected, row.got, row.error, row.tolerance, std::string(name_of(row.verdict)).c_str(), at.c_str());
 }
 
 /// The reasons for what is not a pass, each once.
 void print_notes(const std::vector<CheckRow>& rows) {
   std::set<std::string> told;
   for (const CheckRow& row : rows)
-    if (!row.note.empty() && told.insert(row.note).second) std::printf("  %s\n", row.note.c_str());
+    if (!row.note.empty() && told.insert(row.note).second) print("  %s\n", row.note.c_str());
 }
 
 void print_table(const std::vector<VerifiedCase>& cases, bool every_point) {
@@ -82,7 +83,7 @@ nlohmann::ordered_json json_of(const VerifiedCase& verified) {
 int verify_cases(const VerifyOptions& options) {
   if (options.formulas) {
     for (const Formula& formula : formulas())
-      std::printf("%-22s %s\n", std::string(formula.name).c_str(), std::string(formula.meaning).c_str());
+      print("%-22s %s\n", std::string(formula.name).c_str(), std::string(formula.meaning).c_str());
     return kDone;
   }
   const auto shipped = shipped_cases();
@@ -119,10 +120,10 @@ int verify_cases(const VerifyOptions& options) {
   if (options.json) {
     nlohmann::ordered_json out{{"checks", checks}, {"failed", failed}, {"known_deviations", known}};
     for (const VerifiedCase& verified : cases) out["cases"].push_back(json_of(verified));
-    std::printf("%s\n", out.dump(2).c_str());
+    print("%s", json_text(out).c_str());
   } else {
     print_table(cases, options.points);
-    std::printf("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), checks, failed, known);
+    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), checks, failed, known);
   }
   return failed == 0 ? kDone : kFailed;
 }

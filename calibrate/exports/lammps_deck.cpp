@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
@@ -28,9 +29,9 @@ unfix        over
 const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
-  std::string out = "# " + scene.title + "\n# written by " + program_identity() + " from a material card\n";
+  std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
   if (!notes.empty()) out += "#\n# What is lost or changed:\n";
-  for (const auto& note : notes) out += "# - " + note + "\n";
+  for (const auto& note : notes) out += deck_comment("- " + note);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
@@ -68,10 +69,10 @@ std::string properties(const ExportScene& scene, const SoulieFit* fit) {
 }
 
 std::string begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
-  std::string out = "# " + scene.title + "\n# " + what + "; written by " + program_identity() + "\n";
+  std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
   out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
   out += "# takes grains softer than 5 MPa.\n";
-  for (const auto& note : notes) out += "# - " + note + "\n";
+  for (const auto& note : notes) out += deck_comment("- " + note);
   return out + R"(
 units        lj
 atom_style   granular

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
@@ -208,7 +209,8 @@ std::string module_of(const ExportScene& scene) {
   const bool rolls = contact.rolling == RollingModel::spring_dashpot;
   const double lever = contact.rolling_friction * pair.effective_radius_m();
 
-  std::string out = "\"\"\"" + scene.title + "\n\nWritten by " + program_identity() + " for Yade. SI units.\n\"\"\"\n";
+  std::string out =
+      "\"\"\"Written by " + program_identity() + " for Yade.\n\nSI units.\n\"\"\"\n" + deck_comment(scene.title);
   out +=
       "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
   out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/rigs/field_checker.h"
+
 namespace pastefit {
 namespace {
 
@@ -117,6 +119,23 @@ Faults validate(const Test& test) {
   return std::visit([](const auto& one) { return validate(one); }, test);
 }
 
+namespace {
+
+/// The same fault of a field in SI for the key of a file: in millimetres, where the key is, and of a diameter.
+Fault in_unit_of(std::string_view field, Fault fault) {
+  const std::string& key = fault.where;
+  if (!fault.range) return fault;
+  const bool in_mm = key.find("_mm") != std::string::npos && field.find("_mm") == std::string_view::npos;
+  const bool doubled = key.find("diameter") != std::string::npos && field.find("radius") != std::string_view::npos;
+  const double scale = (in_mm ? 1000 : 1) * (doubled ? 2 : 1);
+  OutOfRange range = *fault.range;
+  for (double* number : {&range.value, &range.smallest, &range.largest}) *number *= scale;
+  if (in_mm) range.unit = "m" + range.unit;
+  return FieldChecker::fault_of(key, std::move(range));
+}
+
+}  // namespace
+
 Faults validate_in_file_words(const Test& test) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> specimen{
       {{"bulk_density_kg_m3", "material.bulk_density_kg_m3"},
@@ -129,7 +148,9 @@ Faults validate_in_file_words(const Test& test) {
     for (const auto& [ours, theirs] : places) {
       if (!fault.where.starts_with(ours)) continue;
       if (fault.where.size() > ours.size() && fault.where[ours.size()] != '.') continue;
+      const std::string field = fault.where;
       fault.where.replace(0, ours.size(), theirs);
+      fault = in_unit_of(field, std::move(fault));
       return true;
     }
     return false;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/report/summary.h"
 
@@ -43,11 +44,11 @@ std::string origin_lines(const Card& card) {
   std::string out = "From\n";
   for (const auto& test : card.tests) {
     const std::string laboratory = test.name.empty() ? "laboratory" : "laboratory of " + test.name;
-    out += format("  %-24s ", laboratory.c_str()) + test.lab_file + " (" + test.lab_hash + ")\n";
-    if (!test.lab.source.empty()) out += "  its source               " + test.lab.source + "\n";
+    out += format("  %-24s ", laboratory.c_str()) + one_line(test.lab_file + " (" + test.lab_hash) + ")\n";
+    if (!test.lab.source.empty()) out += "  its source               " + one_line(test.lab.source) + "\n";
   }
-  out += "  study                    " + from.study_file + " (" + from.study_hash + ")\n";
-  return out + "  program                  " + from.program + "\n";
+  out += "  study                    " + one_line(from.study_file + " (" + from.study_hash) + ")\n";
+  return out + "  program                  " + one_line(from.program) + "\n";
 }
 
 std::string baseline_lines(const Card& card) {
@@ -61,7 +62,7 @@ std::string baseline_lines(const Card& card) {
       out += format("%zu packings, ", baseline.runs.size()) + baseline.program + ", " + baseline.machine + "\n";
   }
   for (const auto& change : card.rebaselined) {
-    out += "  changed: " + change.why + "\n";
+    out += "  changed: " + one_line(change.why) + "\n";
     for (const auto& moved : change.moved)
       out += format("    %-24s %12.5g -> %.5g\n", moved.observable.c_str(), moved.before, moved.after);
   }
@@ -86,7 +87,7 @@ std::string text_of(const Card& card) {
   std::string out = summary_of(card);
   for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
                            baseline_lines(card), rescaling_lines(card)})
-    if (!part.empty()) out += "\n" + part;
+    if (!part.empty()) out += "\n" + lines_of(part);
   return out;
 }
 

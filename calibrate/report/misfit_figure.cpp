@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 
 namespace pastefit {
@@ -44,7 +45,8 @@ Axes axes_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
 }
 
 std::string text(double x, double y, const std::string& words, const char* anchor, const char* colour = "#222") {
-  return format("<text x='%.1f' y='%.1f' text-anchor='%s' fill='%s'>", x, y, anchor, colour) + words + "</text>\n";
+  return format("<text x='%.1f' y='%.1f' text-anchor='%s' fill='%s'>", x, y, anchor, colour) + xml_text(words) +
+         "</text>\n";
 }
 
 std::string frame(const Axes& axes, const MisfitUnit& unit) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
@@ -110,7 +111,25 @@ std::string remark_lines(const Card& card) {
 
 }  // namespace
 
-std::string verdict_of(const Card& card) {
+namespace {
+
+/// What the laboratory measured and the search did not look at, with how far it is off.
+std::string unfitted_words(const Card& card) {
+  std::string out;
+  for (const auto& test : card.tests)
+    for (const auto& one : test.observables) {
+      if (!one.measured || one.weight > 0 || test.hold_out) continue;
+      const double off = one.simulated - *one.measured;
+      out += " " + (test.name.empty() ? "" : test.name + "/") + one.name + " was not fitted and is " +
+             format("%.3g%s off", std::abs(off), is_length(one.name) ? " mm" : "");
+      if (one.standard_deviation > 0)
+        out += format(", %.2g standard deviations", std::abs(off) / one.standard_deviation);
+      out += ".";
+    }
+  return out;
+}
+
+std::string verdict_on_fitted(const Card& card) {
   const auto& confirmation = card.confirmation;
   const MisfitUnit unit = misfit_unit_of(card);
   const auto misfit = unit.words(confirmation.misfit, "%.2f") +
@@ -124,15 +143,21 @@ std::string verdict_of(const Card& card) {
   return "The material does not meet the laboratory: " + misfit + ". " + card.search.reason;
 }
 
+}  // namespace
+
+std::string verdict_of(const Card& card) {
+  return verdict_on_fitted(card) + unfitted_words(card);
+}
+
 std::string summary_of(const Card& card, const std::string& findings) {
-  std::string out = card.title + "\n\n" + law_lines(card.material) + "\n" + parameter_lines(card.material) + "\n" +
-                    reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
+  std::string out = one_line(card.title) + "\n\n" + law_lines(card.material) + "\n" + parameter_lines(card.material) +
+                    "\n" + reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
-  out += ". Strategy " + card.search.strategy + ": " + card.search.status + ".\n";
-  return out + remark_lines(card) + hold_out_lines(card) + verdict_of(card) + "\n";
+  out += ". Strategy " + one_line(card.search.strategy + ": " + card.search.status) + ".\n";
+  return lines_of(out + remark_lines(card) + hold_out_lines(card)) + one_line(verdict_of(card)) + "\n";
 }
 
 }  // namespace pastefit

@@ -215,7 +215,7 @@ void SimulationObjective::run(Task& task) {
   const auto start = Clock::now();
   const double core_start = thread_seconds();
   options.watch_interval_s = kWatchInterval;
-  options.watch = [&](const Moment&) {
+  options.watch = options.pulse = [&](const Moment&) {
     by_user = by_user || stop_requested();
     return !by_user && seconds_since(start) < options_.wall_limit_s;
   };
@@ -269,7 +269,9 @@ std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, c
       const auto start = Clock::now();
       RunOptions options = options_.run;
       options.watch_interval_s = kWatchInterval;
-      options.watch = [&](const Moment&) { return !stop_requested() && seconds_since(start) < options_.wall_limit_s; };
+      options.watch = options.pulse = [&](const Moment&) {
+        return !stop_requested() && seconds_since(start) < options_.wall_limit_s;
+      };
       promise.set_value(options_.engine.prepare(test, options));
     } catch (...) {
       promise.set_exception(std::current_exception());

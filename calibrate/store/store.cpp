@@ -15,7 +15,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kSchemaVersion = 3;
+constexpr int kSchemaVersion = 4;
+const std::string kCountSetAside = "SELECT count(*) FROM set_aside";
 constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
 
 std::string text_of(const std::vector<double>& numbers) {
@@ -30,16 +31,39 @@ std::vector<double> numbers_of(const std::string& text) {
   return numbers;
 }
 
+/// Of all that a row holds but its last column, the checksum itself. A row is text, whatever SQLite makes of it.
+std::string checksum_of(const Row& row) {
+  std::string content;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) content += std::to_string(row[i].size()) + ":" + row[i];
+  return content_hash(content);
+}
+
+Row with_checksum(Row row) {
+  row.emplace_back();
+  row.back() = checksum_of(row);
+  return row;
+}
+
+bool is_whole(const Row& row) {
+  return row.back() == checksum_of(row);
+}
+
+void add_inputs(Database& database, int epoch, const std::string& inputs) {
+  database.run("INSERT INTO inputs VALUES (?, ?, ?)", with_checksum({std::to_string(epoch), inputs}));
+}
+
 void create(Database& database, const StoreIdentity& identity) {
   Transaction transaction(database);
   database.run("CREATE TABLE identity (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
   database.run(
-      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE, epoch INTEGER NOT NULL,"
+      "CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY, key TEXT NOT NULL, epoch INTEGER NOT NULL,"
       " point TEXT NOT NULL, parameter_values TEXT NOT NULL, packing TEXT NOT NULL, observables TEXT NOT NULL,"
-      " failure TEXT NOT NULL, run TEXT NOT NULL)");
-  database.run("CREATE TABLE inputs (epoch INTEGER PRIMARY KEY, content TEXT NOT NULL)");
+      " failure TEXT NOT NULL, run TEXT NOT NULL, checksum TEXT NOT NULL)");
+  database.run("CREATE TABLE set_aside AS SELECT * FROM evaluations");
+  database.run("CREATE TABLE inputs (epoch INTEGER PRIMARY KEY, content TEXT NOT NULL, checksum TEXT NOT NULL)");
   database.run("INSERT INTO identity VALUES ('program', ?)", {identity.program});
-  database.run("INSERT INTO inputs VALUES (1, ?)", {identity.inputs});
+  database.run("INSERT INTO identity VALUES ('evaluations', '0')");
+  add_inputs(database, 1, identity.inputs);
   database.run("PRAGMA application_id = " + std::to_string(kApplicationId));
   database.run("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   transaction.commit();
@@ -102,14 +126,14 @@ std::vector<std::string> changes_of(const std::string& before, const std::string
 
 StoredEvaluation evaluation_of(const Row& row) {
   StoredEvaluation out;
-  out.key = row.at(0);
-  out.epoch = std::stoi(row.at(1));
-  out.point = numbers_of(row.at(2));
-  out.values = parameters_from_json(nlohmann::json::parse(row.at(3)));
-  out.packing = std::stoull(row.at(4));
-  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(5)));
-  out.failure = failure_from_json(nlohmann::json::parse(row.at(6)));
-  const auto run = nlohmann::json::parse(row.at(7));
+  out.key = row.at(1);
+  out.epoch = std::stoi(row.at(2));
+  out.point = numbers_of(row.at(3));
+  out.values = parameters_from_json(nlohmann::json::parse(row.at(4)));
+  out.packing = std::stoull(row.at(5));
+  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(6)));
+  out.failure = failure_from_json(nlohmann::json::parse(row.at(7)));
+  const auto run = nlohmann::json::parse(row.at(8));
   out.run = run_from_json(run);
   out.wall_s = number_from_json(run.at("wall_s"));
   return out;
@@ -132,23 +156,52 @@ struct Store::State {
   StoreIdentity identity;
   Database database;
   int epoch = 1;
-  bool begun = true;  // the epoch has its row
-  std::vector<std::string> changes;
+  bool begun = true;                 // the epoch has its row
+  long long sequence = 0;            // of the last evaluation
+  int written = 0;                   // evaluations since the store was made
+  std::vector<std::string> damaged;  // rows that do not agree with their checksum, by their sequence
+  std::vector<std::string> changes, remarks;
   mutable std::mutex mutex;
   std::vector<StoredEvaluation> evaluations;
   std::unordered_map<std::string, std::size_t> index;
 
-  /// Takes what the file holds; answers its last inputs.
+  /// Takes what the file holds and is as it was written; answers its last inputs.
   std::string load() {
-    for (const auto& row : database.run("SELECT key, epoch, point, parameter_values, packing, observables, failure,"
-                                        " run FROM evaluations ORDER BY sequence")) {
+    for (const auto& row : database.run("SELECT * FROM evaluations ORDER BY sequence")) {
+      if (!is_whole(row)) {
+        damaged.push_back(row.at(0));
+        continue;
+      }
+      sequence = std::stoll(row.at(0));
       auto evaluation = evaluation_of(row);
       index.emplace(evaluation.key, evaluations.size());
       evaluations.push_back(std::move(evaluation));
     }
-    const auto last = database.run("SELECT epoch, content FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
+    const int known = static_cast<int>(evaluations.size() + damaged.size()) + database.number(kCountSetAside);
+    const auto added = database.run("SELECT value FROM identity WHERE name = 'evaluations'");
+    written = std::stoi(added.at(0).at(0));
+    if (known != written)
+      remarks.push_back("of " + std::to_string(written) + " evaluations that were written, " + std::to_string(known) +
+                        " are there");
+    std::string numbers;
+    for (const auto& one : damaged) numbers += (numbers.empty() ? "" : ", ") + one;
+    if (!damaged.empty())
+      remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + numbers);
+    const auto last = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
+    if (!is_whole(last)) throw std::runtime_error("its record of the study is damaged");
     epoch = std::stoi(last.at(0));
     return last.at(1);
+  }
+
+  /// Moves what is damaged out of the way of what is simulated in its place.
+  void set_damaged_aside() {
+    if (damaged.empty()) return;
+    Transaction transaction(database);
+    for (const auto& one : damaged) {
+      database.run("INSERT INTO set_aside SELECT * FROM evaluations WHERE sequence = ?", {one});
+      database.run("DELETE FROM evaluations WHERE sequence = ?", {one});
+    }
+    transaction.commit();
   }
 };
 
@@ -159,6 +212,7 @@ Store::~Store() = default;
 
 Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity& identity) {
   try {
+    const bool was_there = std::filesystem::exists(file);
     auto state = std::make_unique<State>(file, identity);
     auto& database = state->database;
     const bool fresh =
@@ -170,11 +224,13 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
     database.run("PRAGMA journal_mode = WAL");
     database.run("PRAGMA synchronous = FULL");
     if (fresh) create(database, identity);
+    if (fresh && was_there) state->remarks.push_back("was empty: the search starts from the beginning");
     if (const std::string before = state->load(); before != identity.inputs) {
       state->changes = changes_of(before, identity.inputs);
       ++state->epoch;
       state->begun = false;
     }
+    state->set_damaged_aside();
     return Store(std::move(state));
   } catch (const std::exception& error) {
     return Fault{file.string(), std::string("cannot be used as the store of evaluations: ") + error.what(),
@@ -208,6 +264,10 @@ const std::vector<std::string>& Store::changes() const {
   return state_->changes;
 }
 
+const std::vector<std::string>& Store::remarks() const {
+  return state_->remarks;
+}
+
 std::optional<StoredEvaluation> Store::find(std::string_view key) const {
   const std::lock_guard lock(state_->mutex);
   const auto found = state_->index.find(std::string(key));
@@ -221,20 +281,23 @@ Faults Store::add(const StoredEvaluation& evaluation) {
   try {
     Transaction transaction(state_->database);
     state_->database.run(
-        "INSERT INTO evaluations (key, epoch, point, parameter_values, packing, observables, failure, run)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-        {evaluation.key, std::to_string(state_->epoch), text_of(evaluation.point),
-         parameters_to_json(evaluation.values).dump(), std::to_string(evaluation.packing),
-         to_json(evaluation.observables).dump(), to_json(evaluation.failure).dump(),
-         to_json(evaluation.run, evaluation.wall_s).dump()});
-    if (!state_->begun)
-      state_->database.run("INSERT INTO inputs VALUES (?, ?)",
-                           {std::to_string(state_->epoch), state_->identity.inputs});
+        "INSERT INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
+                       text_of(evaluation.point), parameters_to_json(evaluation.values).dump(),
+                       std::to_string(evaluation.packing), to_json(evaluation.observables).dump(),
+                       to_json(evaluation.failure).dump(), to_json(evaluation.run, evaluation.wall_s).dump()}));
+    state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
+                         {std::to_string(state_->written + 1)});
+    if (!state_->begun) add_inputs(state_->database, state_->epoch, state_->identity.inputs);
+    // SQLite goes on writing to a file that nobody will find again.
+    if (!std::filesystem::exists(state_->file)) throw std::runtime_error("the file is gone");
     transaction.commit();
     state_->begun = true;
+    ++state_->sequence;
+    ++state_->written;
   } catch (const std::exception& error) {
     return {{state_->file, std::string("the evaluation could not be stored: ") + error.what(),
-             "free space on the disk and go on with --resume"}};
+             "a folder that stays, on a disk with free space; go on with --resume"}};
   }
   state_->index.emplace(evaluation.key, state_->evaluations.size());
   state_->evaluations.push_back(evaluation);

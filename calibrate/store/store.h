@@ -45,9 +45,10 @@ std::string evaluation_key(std::string_view program, const Test& test);
 /// machine. Safe to use from several threads; for one process at a time.
 ///
 /// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
-/// failure, run; point to run as JSON text with doubles that read back bit for bit, the parameters by name, those only
-/// that do not have their usual value. Table `identity`: the program. Table `inputs`: epoch, content; one row for each
-/// change of the study or its laboratory files.
+/// failure, run, checksum; point to run as JSON text with doubles that read back bit for bit, the parameters by name,
+/// those only that do not have their usual value; the checksum is of all before it. Table `set_aside`: rows that were
+/// found not to agree with theirs. Table `identity`: the program, and how many evaluations were ever written. Table
+/// `inputs`: epoch, content, checksum; one row for each change of the study or its laboratory files.
 ///
 /// A search that goes on after such a change knows the evaluations of earlier epochs from the start; those of its own
 /// epoch only answer when it asks for them again, so that a run that was killed takes the same way.
@@ -72,6 +73,10 @@ class Store {
   /// What has changed in the inputs since the store was last opened, as places in them ("study.parameters.friction");
   /// empty if nothing has.
   const std::vector<std::string>& changes() const;
+
+  /// What the store has lost since it was written: rows that do not agree with their checksum, that are missing, or all
+  /// of them; empty if nothing. What is damaged is set aside, and answers nothing.
+  const std::vector<std::string>& remarks() const;
 
   /// The evaluation with this key, if it is known.
   std::optional<StoredEvaluation> find(std::string_view key) const;

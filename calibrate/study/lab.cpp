@@ -34,6 +34,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
       for (Fault& fault : doubts_about(lab.test, lab.measurements).faults) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) return faults;
+  if (preset) lab.note = note_on_preset(*preset);
   const std::string rig = preset ? preset->content : "";
   lab.content = nlohmann::json{{"laboratory", document}, {"preset", rig}}.dump();
   lab.hash = content_hash(document.dump() + rig);

@@ -8,6 +8,10 @@
 namespace pastefit {
 namespace {
 
+/// Standard deviations of a reading, in its unit; what is smaller is a slip, and would make a weight of it without
+/// bound.
+constexpr Range deviations{1e-6, 10000};
+
 std::string advice_on_deviation(const ReadingKind& kind) {
   const std::string advice = "give the standard deviation of one reading, or at least 2 repeats that differ";
   return advice + "; " +
@@ -34,10 +38,10 @@ void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measur
     reader.number("value", measurement.value, range, Need::required);
 
   double least = 0;
-  const bool stated = reader.number("standard_deviation", least, {0, 10000, true}, Need::optional);
+  const bool stated = reader.number("standard_deviation", least, deviations, Need::optional);
   measurement.standard_deviation = std::max(measurement.standard_deviation, least);
   const bool tried = reader.has("standard_deviation") || (reader.has("repeats") && repeats.empty());
-  if (!stated && !tried && measurement.standard_deviation == 0)
+  if (!stated && !tried && measurement.standard_deviation < deviations.smallest)
     reader.fault("standard_deviation", repeats.empty() ? "is missing" : "is missing, and the repeats are all the same",
                  advice_on_deviation(kind));
 }
@@ -100,7 +104,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
       const auto read = [&](ObjectReader& one) {
         if (!kind.from_outline) return read_one(one, kind, measurement);
         read_outline(one, kind, test);
-        one.number("standard_deviation", measurement.standard_deviation, {0, 10000, true}, Need::required);
+        one.number("standard_deviation", measurement.standard_deviation, deviations, Need::required);
       };
       if (!reader.object(kind.key, Need::optional, read)) continue;
       if (!measurements.empty() && measurements.back().observable == kind.measure)

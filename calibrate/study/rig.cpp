@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
@@ -26,7 +27,7 @@ std::optional<Rig> read_preset(const std::string& name, const fs::path& folder, 
     for (const fs::directory_entry& entry : fs::directory_iterator(candidate, error)) {
       if (entry.path().extension() != ".json") continue;
       if (entry.path().stem() == name) {
-        Result<Rig> rig = read_rig(entry.path());
+        Result<Rig> rig = read_rig(entry.path().lexically_normal());
         if (rig) return std::move(rig).value();
         faults.insert(faults.end(), rig.faults().begin(), rig.faults().end());
         return std::nullopt;
@@ -44,6 +45,18 @@ std::optional<Rig> read_preset(const std::string& name, const fs::path& folder, 
 }
 
 }  // namespace
+
+std::string note_on_preset(const Rig& preset) {
+  std::vector<fs::path> shipped = rig_folders({});
+  shipped.erase(shipped.begin());
+  const auto is_here = [&](const fs::path& folder) {
+    std::error_code error;
+    return fs::equivalent(folder, preset.file.parent_path(), error);
+  };
+  if (std::ranges::any_of(shipped, is_here)) return {};
+  return "the preset " + one_line(preset.file.stem().string()) + " is " + one_line(preset.file.string()) +
+         ", not the shipped one";
+}
 
 std::vector<fs::path> rig_folders(const fs::path& folder) {
   std::vector<fs::path> folders{folder / ".." / "rigs"};
@@ -153,6 +166,7 @@ Result<Rig> read_rig(const fs::path& file) {
   const std::optional<json> document = read_json(file, faults);
   if (!document) return faults;
   Result<Rig> rig = rig_from_json(*document);
+  if (rig.ok()) rig.value().file = file;
   if (rig.ok() && faults.empty()) return rig;
   if (!rig.ok())
     for (Fault& fault : in_file(rig.faults(), file)) faults.push_back(std::move(fault));

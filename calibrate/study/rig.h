@@ -14,8 +14,9 @@ namespace pastefit {
 struct Rig {
   std::string title;
   Provenance provenance;
-  Test test;            ///< contact parameters have their usual values
-  std::string content;  ///< of the file, without comments and white space; part of the hash of whoever uses it
+  Test test;                   ///< contact parameters have their usual values
+  std::filesystem::path file;  ///< empty if it was read from no file
+  std::string content;         ///< of the file, without comments and white space; part of the hash of whoever uses it
 };
 
 /// A rig file's content as a `Rig`. Errors: every fault of the content, each with its place.
@@ -23,6 +24,10 @@ Result<Rig> rig_from_json(const nlohmann::json& document);
 
 /// Reads a rig file ("format": "pastefit-rig-1"). Errors: every fault of the file, each with the file's name.
 Result<Rig> read_rig(const std::filesystem::path& file);
+
+/// What a person should know of a preset that lies beside the file which names it: "the preset abrams is
+/// /mine/rigs/abrams.json, not the shipped one"; empty for one that is shipped.
+std::string note_on_preset(const Rig& preset);
 
 /// The folders in which presets are looked for, in order: `../rigs` seen from `folder`, where the naming file lies;
 /// `rigs` in the folder that the environment variable PASTEFIT_DATA_DIR names; the source's; the installed one.

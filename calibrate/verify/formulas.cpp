@@ -343,8 +343,8 @@ constexpr Formula kFormulas[] = {
     {"collision_velocity", collision_velocity,
      "after a collision with impulse (1+e) m* v_n and gross sliding mu (1+e) m* v_n"},
     {"collision_spin", collision_spin, "w + 5/(2 m R) n x impulse, gross sliding"},
-    {"initial_velocity", initial_velocity, "as at the start"},
-    {"initial_spin", initial_spin, "as at the start"},
+    {"initial_velocity", initial_velocity, "as at the start", FormulaNeeds::grain},
+    {"initial_spin", initial_spin, "as at the start", FormulaNeeds::grain},
     {"cohesive_overlap", cohesive_overlap, "at rest: (3 F_coh/(4 E* sqrt(R*)))^(2/3)"},
     {"bridge_force", bridge_force, "F(d) at a gap, zero beyond the rupture"},
     {"bridge_work", bridge_work, "integral of F from touch to rupture"},
@@ -355,19 +355,40 @@ constexpr Formula kFormulas[] = {
     {"jkr_pull_off", jkr_pull_off, "3 pi gamma R*"},
     {"jkr_loop_area", jkr_loop_area, "integral of JKR's force from touch to the end of the contact"},
     {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
-    {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls"},
-    {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan"},
-    {"sliding_speed", sliding_speed, "v + g (sin - mu cos) t"},
-    {"spin_after_decay", spin_after_decay, "w - 5 mu_r g t/(2 r)"},
-    {"rotor_speed", rotor_speed, "sqrt(3 g sin(angle)/L) for a plate hinged at its edge"},
-    {"rotor_time", rotor_time, "integral of d(angle)/w"},
-    {"loaded_rotor_speed", loaded_rotor_speed, "the same with the first grain on the plate, its contact stiff"},
-    {"loaded_rotor_time", loaded_rotor_time, "the same with the first grain on the plate, its contact stiff"},
+    {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls",
+     FormulaNeeds::wall},
+    {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan", FormulaNeeds::wall},
+    {"sliding_speed", sliding_speed, "v + g (sin - mu cos) t", FormulaNeeds::wall},
+    {"spin_after_decay", spin_after_decay, "w - 5 mu_r g t/(2 r)", FormulaNeeds::wall},
+    {"rotor_speed", rotor_speed, "sqrt(3 g sin(angle)/L) for a plate hinged at its edge", FormulaNeeds::rotor},
+    {"rotor_time", rotor_time, "integral of d(angle)/w", FormulaNeeds::rotor},
+    {"loaded_rotor_speed", loaded_rotor_speed, "the same with the first grain on the plate, its contact stiff",
+     FormulaNeeds::rotor},
+    {"loaded_rotor_time", loaded_rotor_time, "the same with the first grain on the plate, its contact stiff",
+     FormulaNeeds::rotor},
     {"caged_decay_rate", caged_decay_rate, "sum of the neighbours' dampers at their first overlap along v, over 2 m"},
-    {"falling_velocity", falling_velocity, "v - g t"},
+    {"falling_velocity", falling_velocity, "v - g t", FormulaNeeds::grain},
 };
 
+std::string_view what_lacks(FormulaNeeds needs, const Impact& scene) {
+  if (needs == FormulaNeeds::pair && scene.grains.size() < 2 && scene.walls.empty())
+    return "the first grain has no partner, neither a second grain nor a wall";
+  if (needs == FormulaNeeds::wall && scene.walls.empty()) return "there is no wall";
+  const auto is_rotor = [](const ImpactWall& wall) {
+    return std::holds_alternative<Plate>(wall.shape) && wall.rotor_mass_kg;
+  };
+  if (needs == FormulaNeeds::rotor && (scene.walls.empty() || !is_rotor(scene.walls[0])))
+    return "the first wall is no plate with a rotor_mass_kg";
+  return {};
+}
+
 }  // namespace
+
+Result<double> value_of(const Formula& formula, const Impact& scene, const FormulaArguments& arguments) {
+  if (const auto lack = what_lacks(formula.needs, scene); !lack.empty()) return outside(std::string(lack));
+  if (arguments.grain >= scene.grains.size()) return outside("there is no grain " + std::to_string(arguments.grain));
+  return formula.value(scene, arguments);
+}
 
 std::span<const Formula> formulas() {
   return kFormulas;

@@ -16,14 +16,20 @@ struct FormulaArguments {
   double gap_m = 0;
 };
 
-/// A closed form of a few-body test; all it needs is the scene. Errors: the scene is outside of its validity.
-///
-/// "The pair" is the first grain with its partner: the second grain, or else the first wall.
+/// What a closed form reads off the scene besides its first grain. "The pair" is the first grain with its partner: the
+/// second grain, or else the first wall. A rotor is a plate, the first wall, that turns freely about a hinge.
+enum class FormulaNeeds { grain, pair, wall, rotor };
+
+/// A closed form of a few-body test; all it needs is the scene.
 struct Formula {
   std::string_view name;
   Result<double> (*value)(const Impact& scene, const FormulaArguments& arguments);
   std::string_view meaning;  ///< one line with the formula and its limits
+  FormulaNeeds needs = FormulaNeeds::pair;
 };
+
+/// The value of a closed form. Errors: the scene lacks what the formula needs, or is outside of its validity.
+Result<double> value_of(const Formula& formula, const Impact& scene, const FormulaArguments& arguments);
 
 /// Every closed form that a case may name.
 std::span<const Formula> formulas();

@@ -31,7 +31,7 @@ Result<double> expected_value(const Check& check, const Impact& scene, const Poi
   if (const auto* value = std::get_if<double>(&check.expected)) return *value;
   if (const auto* most = std::get_if<AtMost>(&check.expected)) return most->bound;
   const auto& by = std::get<ByFormula>(check.expected);
-  auto value = by.formula->value(scene, by.arguments);
+  auto value = value_of(*by.formula, scene, by.arguments);
   if (!value) {
     Faults faults = value.faults();
     for (Fault& fault : faults) fault.where = check.reading + " at \"" + point.label + "\": " + fault.where;

@@ -15,12 +15,17 @@ class FieldChecker {
  public:
   void range(const char* where, double value, double lower, double upper, const char* unit) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
-    faults_.push_back({where, "is " + text(value) + " " + unit,
-                       "give a number from " + text(lower) + " to " + text(upper) + " " + unit});
+    faults_.push_back(fault_of(where, {value, lower, upper, unit}));
   }
   void require(bool holds, const char* where, std::string what, std::string remedy) {
     if (!holds) faults_.push_back({where, std::move(what), std::move(remedy)});
   }
+  static Fault fault_of(std::string where, OutOfRange range) {
+    const std::string unit = range.unit.empty() ? "" : " " + range.unit;
+    return {std::move(where), "is " + text(range.value) + unit,
+            "give a number from " + text(range.smallest) + " to " + text(range.largest) + unit, std::move(range)};
+  }
+
   Faults take() { return std::move(faults_); }
 
   static std::string text(double value) {

@@ -35,6 +35,8 @@ struct Cutoff {
   double highest = std::numeric_limits<double>::infinity();
 };
 
+inline constexpr std::int64_t kStepsPerPulse = 64;
+
 /// What the caller may ask of a run besides its answer.
 struct RunOptions {
   StepOptions steps;  ///< with a fixed step, if wanted, instead of the one the scene asks for
@@ -44,7 +46,10 @@ struct RunOptions {
   std::int64_t step_limit = 20'000'000;  ///< a run beyond it fails with `step_limit`
   double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
   std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
-  std::shared_ptr<const Packing> packing;    ///< filled mould to start from; empty: the run fills its own
+  /// The same every so many steps, however small these are, for a caller who waits: no more than a moment passes
+  /// between.
+  std::function<bool(const Moment&)> pulse;
+  std::shared_ptr<const Packing> packing;  ///< filled mould to start from; empty: the run fills its own
   /// Given: a run ends as soon as it is certain that the reading will be lower, without any reading of its stage, or
   /// after its stage where it lies beyond; `RunSummary::ended_early` says so. Until then the run is the same, bit for
   /// bit. Which reading may be asked for, and what is certain, is the rig's word.

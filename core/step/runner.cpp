@@ -39,15 +39,21 @@ Runner::Runner(World& world, const RunOptions& options, Posture posture)
 }
 
 std::optional<Failure> Runner::tell(std::string_view phase) {
+  if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
+      !options_.pulse({phase, world_.time, world_.step, &world_}))
+    return stopped_in(phase);
   return world_.time < next_watch_ ? std::nullopt : show(phase);
+}
+
+Failure Runner::stopped_in(std::string_view phase) const {
+  return {FailureReason::stopped, std::string(phase), world_.step, world_.time, -1, 0, 0, "the run was asked to stop"};
 }
 
 std::optional<Failure> Runner::show(std::string_view phase) {
   if (!options_.watch) return {};
   next_watch_ = world_.time + options_.watch_interval_s;
   if (options_.watch({phase, world_.time, world_.step, &world_})) return {};
-  return Failure{FailureReason::stopped,     std::string(phase), world_.step, world_.time, -1, 0, 0,
-                 "the run was asked to stop"};
+  return stopped_in(phase);
 }
 
 std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {

@@ -60,6 +60,7 @@ class Runner {
   };
   Wait wait_for_rest(const Phase& phase, double cap_s, const std::function<bool(const World&)>& free = {});
   std::optional<Failure> tell(std::string_view phase);
+  Failure stopped_in(std::string_view phase) const;
   /// Energy created over energy put in, as of the ledger's last look.
   double energy_error() const;
   std::optional<Failure> audit(std::string_view phase);

@@ -84,12 +84,14 @@ class ImpactRun {
     bool last = false;
     for (std::int64_t step = 0; !last; ++step) {
       last = (world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0) || rebound_is_over();
+      const Moment moment{"impact", world_.time, world_.step, &world_};
+      bool goes_on = !options.pulse || step % kStepsPerPulse != 0 || options.pulse(moment);
       if (options.watch && world_.time >= next_watch_) {
         next_watch_ = world_.time + options.watch_interval_s;
-        if (!options.watch({"impact", world_.time, world_.step, &world_}))
-          outcome.failure =
-              Failure{FailureReason::stopped, "", step, world_.time, -1, 0, 0, "the run was asked to stop"};
+        goes_on = options.watch(moment) && goes_on;
       }
+      if (!goes_on)
+        outcome.failure = Failure{FailureReason::stopped, "", step, world_.time, -1, 0, 0, "the run was asked to stop"};
       if (!outcome.failure) outcome.failure = advance();
       if (step >= options.step_limit && !outcome.failure)
         outcome.failure = Failure{FailureReason::step_limit,

@@ -46,3 +46,12 @@ class Desk(unittest.TestCase):
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         for word in words:
             self.assertIn(word, result.stderr)
+
+    def calibrates(self, study, *options, out=None):
+        """Runs a calibration to its card; status 0 says that the material is confirmed."""
+        out = out or self.out
+        result = run("calibrate", study, "--out", out, *options)
+        self.assertIn(result.returncode, (0, 1), result.stdout + result.stderr)
+        status = json.loads((out / "card.json").read_text())["search"]["status"]
+        self.assertEqual(result.returncode == 0, status == "confirmed", result.stdout + result.stderr)
+        return result

@@ -104,8 +104,7 @@ class CommandLine(Desk):
         self.fails(run("simulate", RIG, *COARSE, "--out", self.out), 2, "earlier result")
 
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
-        result = run("calibrate", self.study(), "--out", self.out, "--threads", TWO)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.calibrates(self.study(), "--threads", TWO)
         self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "summary.txt"])
         self.assertNotIn("\r", result.stdout)
         for word in ("screening", "strength_pa", "c_n", "step1.height_mm", "laboratory", "card.json"):
@@ -128,16 +127,14 @@ class CommandLine(Desk):
         self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "none of its", "grains", "--force")
         self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)
         start = time.monotonic()
-        resumed = run("calibrate", self.study(), "--out", self.out, "--resume")
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        resumed = self.calibrates(self.study(), "--resume")
         self.assertLess(time.monotonic() - start, 2)
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
         search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, coarse_first=True)
         study = self.study(search=search)
-        result = run("calibrate", study, "--out", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.calibrates(study)
         self.assertRegex((self.out / "summary.txt").read_text(), r"\d+ simulations and \d+ with coarse grains")
         card = json.loads((self.out / "card.json").read_text())
         with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
@@ -146,8 +143,7 @@ class CommandLine(Desk):
         self.assertGreaterEqual(coarse, 2)
         self.assertEqual(stored - coarse, card["search"]["simulations"])
         self.assertTrue(all(packing < 1 << 40 for packing in card["confirmation"]["packings"]))
-        resumed = run("calibrate", study, "--out", self.out, "--resume")
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        resumed = self.calibrates(study, "--resume")
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
         lab = json.loads((self.folder / "lab.json").read_text())
@@ -171,13 +167,13 @@ class CommandLine(Desk):
         _, errors = process.communicate(timeout=30)
         self.assertLess(time.monotonic() - start, 2)
         self.assertIn(process.returncode, (0, 1), errors)
-        self.assertEqual(run("calibrate", study, "--out", self.out, "--resume", "--threads", "1").returncode, 0)
+        self.calibrates(study, "--resume", "--threads", "1")
         undisturbed = self.folder / "undisturbed"
-        self.assertEqual(run("calibrate", study, "--out", undisturbed, "--threads", TWO).returncode, 0)
+        self.calibrates(study, "--threads", TWO, out=undisturbed)
         self.assertEqual((self.out / "card.json").read_text(), (undisturbed / "card.json").read_text())
 
     def test_a_changed_study_goes_on_with_what_still_holds_and_names_what_changed(self):
-        self.assertEqual(run("calibrate", self.study(budget=12, screening=8), "--out", self.out).returncode, 0)
+        self.calibrates(self.study(budget=12, screening=8))
         file = self.study(budget=12, screening=8)
         study = json.loads(file.read_text())
         study["parameters"]["strength_pa"]["free"] = [400, 30000]
@@ -185,8 +181,7 @@ class CommandLine(Desk):
         lab = json.loads((self.folder / "lab.json").read_text())
         lab["measurements"]["step1.height_mm"] = {"repeats": [148, 151, 158]}
         (self.folder / "lab.json").write_text(json.dumps(lab))
-        result = run("calibrate", file, "--out", self.out, "--resume")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.calibrates(file, "--resume")
         self.assertIn("study.parameters.strength_pa.free", result.stdout)
         self.assertIn("measurements.step1.height_mm", result.stdout)
         self.assertRegex(result.stdout, r"[1-9][0-9]* candidates are known from before")
@@ -211,8 +206,7 @@ class CommandLine(Desk):
         study["search"]["confirmation_packings"] = 2
         study["parameters"]["formation_ratio"]["prior"] = {"value": 0.8, "standard_deviation": 0.1}
         file.write_text(json.dumps(study))
-        result = run("calibrate", file, "--out", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.calibrates(file)
         for words in ("slow/step1.height_mm", "Test fast", "Test later, held out", "Hold-out later",
                       "formation_ratio was known to be 0.8 +- 0.1"):
             self.assertIn(words, result.stdout)
@@ -239,8 +233,7 @@ class CommandLine(Desk):
         self.assertIn("stopped", result.stdout + result.stderr)
 
     def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
-        result = run("calibrate", self.study(budget=16, screening=6), "--out", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.calibrates(self.study(budget=16, screening=6))
         self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stdout)
         for words in ("What the readings say", "What to measure next", "Materials that meet these readings as well"):
             self.assertIn(words, (self.out / "summary.txt").read_text())
@@ -254,7 +247,7 @@ class CommandLine(Desk):
 
     def test_infer_says_what_the_stored_simulations_tell_and_simulates_nothing(self):
         study = self.study(budget=16, screening=6)
-        self.assertEqual(run("calibrate", study, "--out", self.out).returncode, 0)
+        self.calibrates(study)
         files = ("card.json", "evaluations.sqlite", "summary.txt")
         kept = {file: (self.out / file).read_bytes() for file in files}
         result = run("infer", study, "--from", self.out)

@@ -1,0 +1,54 @@
+#include "calibrate/cli/standard_output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/cli/commands.h"
+
+namespace pastefit {
+
+namespace {
+
+int first_error = 0;  // of writing to standard output
+
+void note_error(bool failed) {
+  if (failed && first_error == 0) first_error = errno;
+}
+
+}  // namespace
+
+void print(const char* pattern, ...) {
+  va_list values, again;
+  va_start(values, pattern);
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  va_end(values);
+  note_error(std::fputs(lines_of(text).c_str(), stdout) < 0);
+}
+
+void guard_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)  // for standard output: so that writing to it fails
+      static_cast<void>(::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+int after_output(int status) {
+  note_error(std::fflush(stdout) != 0);
+  if (first_error == 0 && std::ferror(stdout) == 0) return status;
+  const char* why = first_error != 0 ? std::strerror(first_error) : "an error of writing";
+  if (first_error != EPIPE) std::fprintf(stderr, "pastefit: standard output did not take everything: %s\n", why);
+  return status == kDone ? kFailed : status;
+}
+
+}  // namespace pastefit

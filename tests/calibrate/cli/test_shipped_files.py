@@ -1,0 +1,71 @@
+"""Every verb on every shipped file of its kind: an answer or a classified failure, never a bug of the program. That cards
+still hold (`check`) and cases are met (`verify`) are tests of their own (tests/CMakeLists.txt).
+
+usage: test_shipped_files.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import re
+import sys
+import unittest
+
+from desk import SOURCE, Desk, run
+
+
+def shipped(kind):
+    return sorted((SOURCE / "data" / kind).glob("*.json"))
+
+
+class ShippedFiles(Desk):
+    def answers(self, *arguments, statuses=(0,)):
+        result = run(*arguments)
+        self.assertIn(result.returncode, statuses, result.stderr)
+        self.assertTrue(result.stdout)
+        return result.stdout
+
+    def each(self, files):
+        self.assertTrue(files)
+        for number, file in enumerate(files):
+            with self.subTest(file.name):
+                yield file, self.folder / str(number)
+
+    def test_cards(self):
+        targets = re.search(r"target: ([\w, -]+)", run("export", "--help").stdout)[1].split(", ")
+        self.assertIn("lammps", targets)
+        for card, out in self.each(shipped("cards")):
+            self.answers("show", card)
+            json.loads(self.answers("simulate", card, "--json", "--time-step", "0.01", statuses=(0, 1)))
+            self.answers("rescale", card, "--radius", "9", "--packings", "0", "--out", f"{out}.json")
+            self.answers("show", f"{out}.json")
+            for target in targets:
+                self.answers("export", card, "--to", target, "--out", out / target)
+
+    def test_studies(self):
+        for study, out in self.each(shipped("studies")):
+            json.loads(self.answers("simulate", study, "--json", "--time-step", "0.01", statuses=(0, 1)))
+            result = run("calibrate", study, "--out", out, "--wall-budget", "1")
+            self.assertIn(result.returncode, (0, 1), result.stderr)
+            self.assertTrue((out / "evaluations.sqlite").exists())
+            result = run("infer", study, "--from", out)
+            self.assertIn(result.returncode, (0, 2), result.stderr)
+
+    def test_laboratories_and_apparatus(self):
+        for scene, out in self.each(shipped("lab") + shipped("rigs")):
+            answer = json.loads(self.answers("simulate", scene, "--json", "--time-step", "0.01", "--out", out, "--vtk", "0.05",
+                                             statuses=(0, 1)))
+            self.assertEqual(answer, json.loads((out / "outcome.json").read_text()))
+
+    def test_starting_files(self):
+        names = re.search(r"which one: ([\w, -]+)", run("template", "--help").stdout)[1].split(", ")
+        self.assertIn("lab", names)
+        for name in names:
+            with self.subTest(name):
+                (self.folder / f"{name}.json").write_text(self.answers("template", name))
+        for name in names:
+            with self.subTest(name):
+                (self.folder / "lab.json").write_text((self.folder / f"{name.replace('study', 'lab')}.json").read_text())
+                self.answers("simulate", self.folder / f"{name}.json", "--time-step", "0.01", statuses=(0, 1))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Runs the fuzz targets (README.md), one after the other, and says how many files each has read.
+
+usage: run.py BUILD_DIR SECONDS [READER...]     SECONDS for all of them together
+
+A file that a reader cannot cope with (a crash, more than a second, more than a gigabyte) is kept in BUILD_DIR/fuzz, and the exit
+status is 1.
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SHIPPED = {"lab": ["data/lab/*.json"], "rig": ["data/rigs/*.json"], "study": ["data/studies/*.json"],
+           "card": ["data/cards/*.json", "tests/calibrate/card/versions/*.json"], "physics_case": ["tests/cases/*.json"],
+           "impact": [], "store": []}
+
+
+def words(value):
+    """The keys and the words of a JSON document."""
+    if isinstance(value, dict):
+        return {*value, *(word for one in value.values() for word in words(one))}
+    if isinstance(value, list):
+        return {word for one in value for word in words(one)}
+    return {value} if isinstance(value, str) else set()
+
+
+def corpus(reader, folder):
+    """The shipped files, and those that a reader once could not cope with."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = [file for pattern in SHIPPED[reader] for file in SOURCE.glob(pattern)]
+    for file in files + sorted((SOURCE / "tests/fuzz/corpus" / reader).glob("*")):
+        shutil.copy(file, folder / file.name)
+    if reader == "impact":
+        for file in SOURCE.glob("tests/cases/*.json"):
+            if scene := json.loads(file.read_text()).get("scene"):
+                (folder / file.name).write_text(json.dumps({"format": "pastefit-impact-1", **scene}))
+    known = set()
+    for file in folder.glob("*.json"):
+        known |= words(json.loads(file.read_text()))
+    dictionary = folder.parent / f"{reader}.dict"
+    short = sorted(word for word in known if re.fullmatch(r"[\w.\-]{1,40}", word))
+    dictionary.write_text("".join(f'"\\"{word}\\""\n' for word in short) + '"1e999"\n"-0.0"\n"null"\n"[]"\n"{}"\n"\\x00"\n')
+    return dictionary
+
+
+def main():
+    build, seconds, readers = pathlib.Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3:] or list(SHIPPED)
+    found = build / "fuzz"
+    failed = total = 0
+    for reader in readers:
+        folder = found / reader
+        dictionary = corpus(reader, folder)
+        command = [build / "tests" / f"fuzz_{reader}", folder, f"-dict={dictionary}", f"-artifact_prefix={found}/{reader}-",
+                   f"-max_total_time={max(1, round(seconds / len(readers)))}", "-timeout=1", "-rss_limit_mb=1024",
+                   "-max_len=20000", "-print_final_stats=1"]
+        result = subprocess.run(list(map(str, command)), capture_output=True, text=True, errors="replace")
+        runs = re.search(r"number_of_executed_units: (\d+)", result.stderr)
+        total += int(runs[1]) if runs else 0
+        print(f"{reader:14} {int(runs[1]) if runs else 0:12,} files read, {'FAILED' if result.returncode else 'none failed'}")
+        if result.returncode:
+            failed += 1
+            print(result.stderr[-3000:])
+    print(f"{total:,} files read")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
