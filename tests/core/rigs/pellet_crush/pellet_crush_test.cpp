@@ -29,7 +29,7 @@ PelletCrush small(double surface_energy_j_m2) {
   return test;
 }
 
-double read(const Outcome& outcome, const char* name) {
+double reading_of(const Outcome& outcome, const char* name) {
   return outcome.observables.find(name).value();
 }
 
@@ -88,8 +88,8 @@ TEST_CASE("what platen and floor push a pellet with is its weight and its change
     stress_pa += point.y / static_cast<double>(outcome.curve->points.size());
   CHECK(stress_pa * area_m2(test) == Approx(on_platen / duration).epsilon(0.01));
   const auto peak = std::ranges::max_element(outcome.curve->points, {}, &CurvePoint::y);
-  CHECK(read(outcome, "pellet.dynamic_yield_strength_pa") == peak->y);
-  CHECK(read(outcome, "pellet.strain_at_peak") == peak->x);
+  CHECK(reading_of(outcome, "pellet.dynamic_yield_strength_pa") == peak->y);
+  CHECK(reading_of(outcome, "pellet.strain_at_peak") == peak->x);
 }
 
 TEST_CASE("granules that do not stick make no pellet, and that is what the failure says") {
@@ -114,16 +114,16 @@ TEST_CASE("a pellet that the punch takes along is no pellet") {
 TEST_CASE("a pellet is the stronger the more its granules stick, and springs back when the punch is withdrawn") {
   const PelletCrush weak = small(0.5), strong = small(2.0);
   const Outcome of_weak = done(weak), of_strong = done(strong);
-  const double ratio =
-      read(of_strong, "pellet.dynamic_yield_strength_pa") / read(of_weak, "pellet.dynamic_yield_strength_pa");
+  const double ratio = reading_of(of_strong, "pellet.dynamic_yield_strength_pa") /
+                       reading_of(of_weak, "pellet.dynamic_yield_strength_pa");
   CHECK(ratio > 2);
   CHECK(ratio < 8);
   for (const Outcome* outcome : {&of_weak, &of_strong}) {
-    CHECK(read(*outcome, "pellet.height_mm") > 1e3 * weak.pressed_height_m);
-    CHECK(read(*outcome, "pellet.height_mm") < 1e3 * weak.fill_height_m);
+    CHECK(reading_of(*outcome, "pellet.height_mm") > 1e3 * weak.pressed_height_m);
+    CHECK(reading_of(*outcome, "pellet.height_mm") < 1e3 * weak.fill_height_m);
   }
-  const double solid_m3 = read(of_weak, "die.mass_g") * 1e-3 / weak.bulk_density_kg_m3;
-  CHECK(read(of_weak, "die.solid_fraction") == Approx(solid_m3 / filled_volume_m3(weak)));
+  const double solid_m3 = reading_of(of_weak, "die.mass_g") * 1e-3 / weak.bulk_density_kg_m3;
+  CHECK(reading_of(of_weak, "die.solid_fraction") == Approx(solid_m3 / filled_volume_m3(weak)));
 }
 
 TEST_CASE("the bits of a pellet crush do not depend on the number of threads, but on the packing") {
@@ -137,7 +137,8 @@ TEST_CASE("the bits of a pellet crush do not depend on the number of threads, bu
       CHECK(shared.observables.find(reading.name) == reading.value);
   }
   test.packing_seed = 2;
-  CHECK(read(done(test), "pellet.dynamic_yield_strength_pa") != read(one, "pellet.dynamic_yield_strength_pa"));
+  CHECK(reading_of(done(test), "pellet.dynamic_yield_strength_pa") !=
+        reading_of(one, "pellet.dynamic_yield_strength_pa"));
 }
 
 TEST_CASE("a pellet crush that says nothing is refused, with the place and what would be right") {
