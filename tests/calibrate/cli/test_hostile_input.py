@@ -256,7 +256,7 @@ class HostileInput(Desk):
         shutil.rmtree(self.out)
         start = time.monotonic()
         _, errors = process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - start, 10)
+        self.assertLess(time.monotonic() - start, 30)
         self.assertEqual(process.returncode, 1, errors)
         self.assertIn("gone", errors)
 
