@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-CARDS = ["concrete-mix-02", "concrete-mix-20", "concrete-mix-66"]
+CARDS = ["concrete-mix-02", "concrete-mix-20", "concrete-mix-79"]
 
 
 def main(program, *names):

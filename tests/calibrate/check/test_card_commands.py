@@ -150,6 +150,8 @@ class CardCommands(unittest.TestCase):
         baseline["readings"]["step1.height_axis_mm"] = [height + 1e-9 for height in heights]
         card.write_text(json.dumps(changed))
         result = run("check", card, "--quick", "--junit", report)
+        self.assertEqual(result.returncode, 2)  # a report that is there already
+        result = run("check", card, "--quick", "--junit", report, "--force")
         self.assertEqual(result.returncode, 1)
         self.assertIn("same bits", result.stdout)
         self.assertEqual(xml.parse(report).getroot().get("failures"), "1")

@@ -12,7 +12,7 @@ import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 STUDY = SOURCE / "data/studies/concrete-mix-20.json"
-CARD = SOURCE / "data/cards/concrete-mix-66.json"
+CARD = SOURCE / "data/cards/concrete-mix-79.json"
 LAB = SOURCE / "data/lab/concrete-mix-20.json"
 RIG = SOURCE / "data/rigs/abrams.json"
 TWO = str(min(2, len(os.sched_getaffinity(0))))  # threads
