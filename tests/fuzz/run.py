@@ -3,7 +3,7 @@
 
 usage: run.py BUILD_DIR SECONDS [READER...]     SECONDS for all of them together
 
-A file that a reader cannot cope with (a crash, more than a second, more than a gigabyte) is kept in BUILD_DIR/fuzz, and the exit
+A file that a reader cannot cope with (a crash, more than five seconds on a busy machine, more than a gigabyte) is kept in BUILD_DIR/fuzz, and the exit
 status is 1.
 """
 
@@ -56,7 +56,7 @@ def main():
         folder = found / reader
         dictionary = corpus(reader, folder)
         command = [build / "tests" / f"fuzz_{reader}", folder, f"-dict={dictionary}", f"-artifact_prefix={found}/{reader}-",
-                   f"-max_total_time={max(1, round(seconds / len(readers)))}", "-timeout=1", "-rss_limit_mb=1024",
+                   f"-max_total_time={max(1, round(seconds / len(readers)))}", "-timeout=5", "-rss_limit_mb=1024",
                    "-max_len=20000", "-print_final_stats=1"]
         result = subprocess.run(list(map(str, command)), capture_output=True, text=True, errors="replace")
         runs = re.search(r"number_of_executed_units: (\d+)", result.stderr)
