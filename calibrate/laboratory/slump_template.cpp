@@ -73,7 +73,7 @@ constexpr std::string_view study_text =
     "strength_pa": {"free": [10, 40000], "scale": "log"},  // attraction at touch over R^2
     "rupture_force_ratio": {"free": [0, 0.5]},   // share of it left when the bridge ruptures
     "curvature": {"free": [-0.5, 1]},            // decay: -1 flat at touch, 0 straight, 1 flat at rupture
-    "rupture_gap_ratio": {"free": [0.05, 1], "scale": "log"},  // gap at rupture over R
+    "rupture_gap_ratio": {"free": [0.3, 1]},     // gap at rupture over R; below 0.1 heaps stand or shear off by luck
     "formation_ratio": {"free": [0, 1]},         // gap at which a bridge forms over the one at which it ruptures
     "friction": {"free": [0.05, 0.8]},           // between grains; where the spread is not fitted: {"value": 0.15}
     "rolling_friction": {"free": [0, 1]}         // the same: {"value": 0.02}

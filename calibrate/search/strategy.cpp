@@ -23,7 +23,7 @@ namespace {
 constexpr double goal_share = 0.6;             // of the tolerances: what a candidate should be within, to be confirmed
 constexpr double hardly_likely = 0.1;          // its probability with which a confirmation is broken off
 constexpr double likely_enough = 0.5;          // and with which it is begun
-constexpr double all_but_certain = 0.9;        // or with which all is within the tolerances, at the edge of what can be
+constexpr double all_but_certain = 0.97;       // or with which all is within the tolerances, at the edge of what can be
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.

@@ -14,12 +14,6 @@ namespace {
 /// coordinate counts with a prior of this weight, normal about the middle with half the range as its deviation.
 constexpr double weight_of_middle = 0.1;
 
-/// What is confirmed is a mean over so many packings or more.
-constexpr double packings_of_a_mean = 8;
-
-/// Simulations so far off tell a little of the scatter at a point (share of the bounds, in each of the coordinates).
-constexpr double near = 0.1;
-
 /// Any packing will do where none is simulated.
 const std::vector<std::uint64_t> no_packing{0};
 
@@ -49,15 +43,6 @@ Surrogate::Surrogate(std::span<const Response> seen) : parameters_(static_cast<i
     models_.back().emplace(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
   }
   if (failed.sum() > 0) failures_.emplace(all, failed);
-  for (const Response* response : feasible) {
-    double squares = 0;
-    for (Eigen::Index k = 0; k < response->residuals.size(); ++k)
-      if (has_reading(*response, k))
-        squares +=
-            std::pow(response->residuals[k] - models_[static_cast<std::size_t>(k)]->predict(response->point).mean, 2);
-    places_.push_back(response->point);
-    surprises_.push_back(squares);
-  }
 }
 
 std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) {
@@ -84,17 +69,7 @@ Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
     variance += residual.variance * (0.5 * residual.variance + square);
   }
   const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
-  return {mean + odd + failing(point) * worst_ + 0.5 * scatter(point) / packings_of_a_mean, variance};
-}
-
-double Surrogate::scatter(const UnitPoint& point) const {
-  double sum = 2 * noise(), weights = 1;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const double weight = std::exp(-0.5 * (places_[i] - point).squaredNorm() / (near * near * parameters_));
-    sum += weight * surprises_[i];
-    weights += weight;
-  }
-  return sum / weights;
+  return {mean + odd + failing(point) * worst_, variance};
 }
 
 double Surrogate::failing(const UnitPoint& point) const {

@@ -9,10 +9,9 @@
 namespace pastefit {
 
 /// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
-/// mean of its outlook, so that its minimum lies where something is known, little fails, and packings agree: between
-/// heaps that stand and heaps that shear off there are materials whose mean is the laboratory's and whose heaps are
-/// not. It never fails. Each residual is learnt from the simulations that took its reading; one that none took is
-/// expected to be met.
+/// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
+/// something is known and little fails. It never fails. Each residual is learnt from the simulations that took its
+/// reading; one that none took is expected to be met.
 class Surrogate : public Objective {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible.
@@ -36,8 +35,7 @@ class Surrogate : public Objective {
    private:
     double mean_, variance_;
   };
-  /// Its mean includes what a point far from the middle of the bounds has to make up for (a weak prior), the largest
-  /// misfit seen times the likely share of failures, and what the scatter between packings adds to a confirmation.
+  /// Its mean includes failures and what a point far from the middle of the bounds has to make up for (a weak prior).
   Outlook outlook(const UnitPoint& point) const;
 
   /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
@@ -55,16 +53,10 @@ class Surrogate : public Objective {
  private:
   double failing(const UnitPoint& point) const;  ///< likely share of failures
 
-  /// Variance between the packings of a point: what simulations near to it are off from what was expected of them, and
-  /// where there are none, the noise of all. Formula: kernel regression, that of all counting as one simulation.
-  double scatter(const UnitPoint& point) const;
-
   int parameters_ = 0;
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
   std::optional<GaussianProcess> failures_;
-  std::vector<UnitPoint> places_;  // of the feasible simulations
-  std::vector<double> surprises_;  // squared differences from what was expected, sums over the residuals
 };
 
 /// The point of least misfit of a model that answers at once: DIRECT_L over the cube, then a local search, both by

@@ -50,7 +50,7 @@ def main():
     def finish(folder):
         process = start(folder)
         output, _ = process.communicate(timeout=600)
-        if process.returncode != 0:
+        if process.returncode not in (0, 1):  # 1: not confirmed
             sys.exit(f"a calibration failed with {process.returncode}:\n{output}")
         made = re.search(r"simulated (\d+)", output)
         return (folder / "card.json").read_bytes(), evaluations(folder), int(made[1]) if made else None

@@ -35,6 +35,7 @@ Outcome toy_slump(const SlumpTest& test, const RunOptions&) {
   outcome.observables.set("fill.solid_fraction", 0.59);
   outcome.observables.set("step1.height_mm", std::clamp(height, 0.0, 300.0));
   outcome.observables.set("step1.spread_mm", 600 - height);
+  outcome.observables.set("step1.lateral_shift_mm", 0);
   outcome.run.particles = 1;
   outcome.run.settled = true;
   if (random.uniform(digits) < 0.05)

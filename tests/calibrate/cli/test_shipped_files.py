@@ -20,7 +20,7 @@ def coarser(scene):
     """Settings that make a quarter of an hour of fine granules a few seconds of coarse ones."""
     grains = json.loads(scene.read_text()).get("grains", {})
     fine = {key: value for key, value in grains.items() if key.endswith("_mm") and grains["radius_mm"] < 0.5}
-    return [word for key, value in fine.items() for word in ("--set", f"grains.{key}={4 * value}")]
+    return [word for key, value in fine.items() for word in ("--set", f"grains.{key}={3 * value}")]
 
 
 class ShippedFiles(Desk):

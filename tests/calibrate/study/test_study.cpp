@@ -60,12 +60,14 @@ TEST_CASE("the shipped studies are read: height and spread to fit where a heap c
     INFO((study.ok() ? "" : message_of(study.faults())));
     REQUIRE(study.ok());
     ++studies;
-    REQUIRE(study.value().tests[0].targets.size() == 2);
+    REQUIRE(study.value().tests[0].targets.size() == 3);  // and the shift of the top, which no study fits
     CHECK(study.value().tests[0].targets[0].observable == "step1.height_mm");
     CHECK(study.value().tests[0].targets[0].weight == 1);
     const std::string name = entry.path().stem();
     const bool both = name != "concrete-mix-02" && name != "concrete-mix-20" && name != "concrete-mix-103";
-    CHECK(study.value().tests[0].targets[1].weight == (both ? 1 : 0));
+    CHECK(study.value().tests[0].targets[1].weight == 0);
+    CHECK(study.value().tests[0].targets[2].observable == "step1.spread_mm");
+    CHECK(study.value().tests[0].targets[2].weight == (both ? 1 : 0));
     CHECK(free_count(study.value()) == (both ? 7 : 5));
     CHECK(study.value().tests[0].lab.provenance.licence == "CC BY 4.0");
   }
