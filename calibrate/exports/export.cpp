@@ -31,11 +31,21 @@ std::span<const Exporter> exporters() {
 
 namespace {
 
-std::string targets_of_laws() {
+/// A test of which there is no deck, as it is told to targets that write the law alone.
+ExportScene law_alone(const Card& card, const CardTest& test) {
+  ExportScene scene;
+  scene.title = title_of(card, test);
+  scene.test_of_card = test.test;
+  scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(specimen_of(test.test).bulk_density_kg_m3);
+  return scene;
+}
+
+Fault no_deck(const Card& card, const CardTest& test, std::string where, std::string what) {
   std::string names;
   for (const Exporter& one : exporters())
-    if (one.law) names += (names.empty() ? "" : ", ") + std::string(one.name);
-  return names;
+    if (one.law && one.law(law_alone(card, test)).ok()) names += (names.empty() ? "" : ", ") + std::string(one.name);
+  return {std::move(where), std::move(what),
+          names.empty() ? "no target knows its laws" : "take a target that writes its law alone: " + names};
 }
 
 }  // namespace
@@ -45,31 +55,25 @@ std::string title_of(const Card& card, const CardTest& test) {
 }
 
 Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, const std::string& name) {
-  const auto no_deck = [](std::string where, std::string what) {
-    return Fault{std::move(where), std::move(what), "take a target that writes the law alone: " + targets_of_laws()};
-  };
   if (!name.empty()) {
     const auto place = place_of_test(card.tests, name);
     if (!place.ok()) return place.faults();
     const CardTest& test = card.tests[place.value()];
     if (has_deck(test) || exporter.law) return test;
-    return no_deck("--test " + name, "is a " + std::string(kind_of(test.test)) + " test, of which there is no deck");
+    return no_deck(card, test, "--test " + name,
+                   "is a " + std::string(kind_of(test.test)) + " test, of which there is no deck");
   }
   const auto first = std::ranges::find_if(card.tests, has_deck);
   if (first != card.tests.end()) return *first;
   if (exporter.law) return card.tests.front();
-  return no_deck("tests", "there is no deck of any of them: the first is a " +
-                              std::string(kind_of(card.tests.front().test)) + " test");
+  return no_deck(
+      card, card.tests.front(), "tests",
+      "there is no deck of any of them: the first is a " + std::string(kind_of(card.tests.front().test)) + " test");
 }
 
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing) {
-  ExportScene scene;
-  scene.title = title_of(card, test);
-  scene.test_of_card = test.test;
-  if (!has_deck(test)) {
-    scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(specimen_of(test.test).bulk_density_kg_m3);
-    return scene;
-  }
+  ExportScene scene = law_alone(card, test);
+  if (!has_deck(test)) return scene;
   scene.test = std::get<SlumpTest>(test.test);
   scene.test.packing_seed = packing.value_or(scene.test.packing_seed);
   scene.test_of_card = scene.test;

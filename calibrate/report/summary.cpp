@@ -109,21 +109,19 @@ std::string remark_lines(const Card& card) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 /// What the laboratory measured and the search did not look at, with how far it is off.
 std::string unfitted_words(const Card& card) {
   std::string out;
   for (const auto& test : card.tests)
     for (const auto& one : test.observables) {
       if (!one.measured || one.weight > 0 || test.hold_out) continue;
-      const double off = one.simulated - *one.measured;
+      const double off = std::abs(one.simulated - *one.measured);
       out += " " + (test.name.empty() ? "" : test.name + "/") + one.name + " was not fitted and is " +
-             format("%.3g%s off", std::abs(off), is_length(one.name) ? " mm" : "");
-      if (one.standard_deviation > 0)
-        out += format(", %.2g standard deviations", std::abs(off) / one.standard_deviation);
+             format("%.3g%s off", off, is_length(one.name) ? " mm" : "");
+      if (off <= one.standard_deviation)
+        out += ", within its standard deviation";
+      else if (one.standard_deviation > 0)
+        out += format(", %.2g standard deviations", off / one.standard_deviation);
       out += ".";
     }
   return out;

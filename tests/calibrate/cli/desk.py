@@ -20,7 +20,7 @@ COARSE = ["--set", "grains.radius_mm=12"]
 
 
 def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
 
 
 class Desk(unittest.TestCase):

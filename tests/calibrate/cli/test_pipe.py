@@ -4,23 +4,15 @@ usage: test_pipe.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
-import pathlib
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import jsonschema
+from desk import SOURCE, Desk, run
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 LAWS = ("edem-notes", "csv", "mercurydpm")  # the first has every law
 FEW = {"screening": 6, "budget_simulations": 40, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 def template(name):
@@ -40,11 +32,7 @@ def is_slump(kind):
     return kind == kinds()[0]
 
 
-class Pipe(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-pipe-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class Pipe(Desk):
     def done(self, *arguments):
         result = run(*arguments)
         self.assertEqual(result.returncode, 0, f"{arguments}\n{result.stdout}{result.stderr}")
@@ -107,9 +95,12 @@ class Pipe(unittest.TestCase):
                     self.assertEqual(result.returncode, 0, result.stderr)
                     continue
                 self.assertEqual(result.returncode, 2)
-                for words in (f"is a {kind} test", "csv"):
-                    self.assertIn(words, result.stderr)
+                self.assertIn(f"is a {kind} test", result.stderr)
                 self.assertFalse((out / "deck").exists())
+                named = re.search(r"its law alone: ([\w, -]+)", result.stderr)[1].split(", ")
+                self.assertIn("edem-notes", named)
+                for target in named:
+                    self.done("export", out / "card.json", "--to", target, "--out", out / target)
 
     def test_readings_of_another_kind_are_refused_in_one_message(self):
         of_kind = {}

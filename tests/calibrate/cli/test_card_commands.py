@@ -4,29 +4,18 @@ usage: test_card_commands.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
-import pathlib
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+from desk import SOURCE, Desk, run
+
 CARD = SOURCE / "tests/calibrate/card/versions/card-5.json"
 SEVERAL = CARD.with_name("card-3-several.json")
 TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-class CardCommands(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-card-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class CardCommands(Desk):
     def coarse(self, **changes):
         """The card carried to grains of 11 mm, which take a moment to simulate, with a baseline of its own."""
         file = self.folder / "coarse.json"
@@ -38,11 +27,6 @@ class CardCommands(unittest.TestCase):
         card.update(changes)
         file.write_text(json.dumps(card))
         return file
-
-    def fails(self, result, status, *words):
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
 
     def test_show_prints_the_card_of_every_version(self):
         for file in sorted(CARD.parent.glob("*.json")):
