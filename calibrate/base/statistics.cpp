@@ -45,6 +45,18 @@ double band_of(const Sample& first, const Sample& second, double false_alarm) {
   return std::max(band, rounding(first, second));
 }
 
+double usual_variance(std::vector<WeighedSquare> squares) {
+  constexpr double median_of_normal = 0.4549364231195724;
+  std::ranges::sort(squares, {}, &WeighedSquare::square);
+  double half = 0;
+  for (const WeighedSquare& one : squares) half += one.weight / 2;
+  for (const WeighedSquare& one : squares) {
+    half -= one.weight;
+    if (half <= 0) return one.square / median_of_normal;
+  }
+  return squares.back().square / median_of_normal;
+}
+
 double unequal_band_of(const Sample& first, const Sample& second, double false_alarm) {
   const auto square = [](const Sample& sample) {
     return sample.standard_deviation * sample.standard_deviation / sample.count;

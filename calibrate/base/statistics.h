@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace pastefit {
 
@@ -25,6 +26,15 @@ double band_of(const Sample& first, const Sample& second, double false_alarm);
 /// The same for samples of different populations whose scatter need not be equal (Welch): here the simulation and the
 /// laboratory. The deviation of a sample of one reading counts as known.
 double unequal_band_of(const Sample& first, const Sample& second, double false_alarm);
+
+struct WeighedSquare {
+  double square = 0, weight = 1;
+};
+
+/// Variance of normal variables of mean 0 that a few of another kind are mixed with: the weighted median of their
+/// squares over that of a variable of variance 1, 0.4549 (chi-square, one degree of freedom). Requirement: one at
+/// least, weights > 0.
+double usual_variance(std::vector<WeighedSquare> squares);
 
 /// How much wider than a known one a deviation has to be taken that was estimated from so many readings, so that their
 /// mean lies within 1.96 of its standard errors of the truth with a probability of 0.95:

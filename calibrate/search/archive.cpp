@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/search/coarse_rung.h"
 
 namespace pastefit {
@@ -97,10 +98,14 @@ double Archive::allowance(std::size_t reading) const {
   return factor * objective_.allowance(reading);
 }
 
+Eigen::VectorXd Archive::allowances() const {
+  Eigen::VectorXd allowances = Eigen::VectorXd::Zero(residuals());
+  for (int k = 0; k < readings(); ++k) allowances[k] = allowance(static_cast<std::size_t>(k));
+  return allowances;
+}
+
 double Archive::allowed_misfit() const {
-  double squares = 0;
-  for (int k = 0; k < readings(); ++k) squares += std::pow(allowance(static_cast<std::size_t>(k)), 2);
-  return 0.5 * squares;
+  return 0.5 * allowances().squaredNorm();
 }
 
 void Archive::weigh(Response& response) const {
@@ -109,27 +114,33 @@ void Archive::weigh(Response& response) const {
   response.misfit = 0.5 * response.residuals.squaredNorm();
 }
 
-void Archive::measure_noise() {
-  // Squares of the laboratory's deviations; the present factors are taken out first.
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(objective_.residuals());
-  int freedom = 0;
+Eigen::ArrayXd Archive::variance_between_packings() const {
+  constexpr double most = 4;  // squares that a point counts for: what stands or shears off by luck is simulated often
+  std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(objective_.residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    std::vector<const Response*> same;
-    bool first = is_whole(singles_[i]);
-    for (std::size_t j = 0; first && j < singles_.size(); ++j) {
-      if (!is_whole(singles_[j]) || singles_[j].point != singles_[i].point) continue;
-      first = j >= i;
-      same.push_back(&singles_[j]);
-    }
-    if (!first || same.size() < 2) continue;
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(squares.size());
-    for (const Response* one : same) mean += one->residuals / static_cast<double>(same.size());
-    for (const Response* one : same) squares += (one->residuals - mean).cwiseAbs2();
-    freedom += static_cast<int>(same.size()) - 1;
+    if (!is_whole(singles_[i])) continue;
+    const auto is_same = [&](const Response& one) { return is_whole(one) && one.point == singles_[i].point; };
+    const auto packings = static_cast<double>(std::ranges::count_if(singles_, is_same));
+    const double weight = std::min(packings - 1, most) / (packings * (packings - 1) / 2);
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same(singles_[j]))
+        for (std::size_t k = 0; k < squares.size(); ++k) {
+          const auto place = static_cast<Eigen::Index>(k);
+          const double difference = singles_[i].residuals[place] - singles_[j].residuals[place];
+          squares[k].push_back({difference * difference / 2, weight});
+        }
   }
-  if (freedom == 0) return;
-  if (factors_.size() == 0) factors_ = Eigen::VectorXd::Ones(squares.size());
-  const Eigen::ArrayXd variance = squares.array() / freedom / factors_.array().square();
+  if (squares.front().empty()) return {};
+  Eigen::ArrayXd variance(objective_.residuals());
+  for (std::size_t k = 0; k < squares.size(); ++k) variance[static_cast<Eigen::Index>(k)] = usual_variance(squares[k]);
+  return variance;
+}
+
+void Archive::measure_noise() {
+  Eigen::ArrayXd variance = variance_between_packings();
+  if (variance.size() == 0) return;
+  if (factors_.size() == 0) factors_ = Eigen::VectorXd::Ones(variance.size());
+  variance /= factors_.array().square();  // in squares of the laboratory's deviations
   const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
   const Eigen::VectorXd change = factors / factors_.array();
   factors_ = factors;

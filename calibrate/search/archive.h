@@ -17,8 +17,9 @@ namespace pastefit {
 ///
 /// Residuals are weighted by the noise of the packings as well as by the laboratory's own deviation: each is divided by
 /// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
-/// packings. A reading that wobbles says less. v is measured from candidates that ran on several packings; it changes
-/// only between phases, so that an optimiser's objective stays the same while it runs.
+/// packings. A reading that wobbles says less. v is the usual one (`usual_variance`) of the candidates that ran on
+/// several packings: those that stand or shear off by luck would say that no reading matters. It changes only between
+/// phases, so that an optimiser's objective stays the same while it runs.
 class Archive : public Objective {
  public:
   Archive(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
@@ -31,6 +32,8 @@ class Archive : public Objective {
   int simulations_each() const override { return objective_.simulations_each(); }
   double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
   double allowance(std::size_t reading) const override;
+  /// Of each residual; 0 of those that are no reading.
+  Eigen::VectorXd allowances() const;
   /// The misfit of a candidate each of whose fitted readings is off by its tolerance.
   double allowed_misfit() const;
   MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
@@ -78,6 +81,8 @@ class Archive : public Objective {
   static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
   void measure_noise();
+  /// Of each residual as it is weighed now; empty if no point has been simulated twice.
+  Eigen::ArrayXd variance_between_packings() const;
   void report(const std::string& note = {}) const;
 
   Objective& objective_;

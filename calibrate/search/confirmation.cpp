@@ -16,4 +16,8 @@ Verdict verdict_on(double miss, double noise) {
   return std::max(miss, noise) <= 1 ? Verdict::holds : Verdict::undecided;
 }
 
+double packings_to_decide(const Response& response) {
+  return static_cast<double>(response.packings.size()) * response.noise * response.noise;
+}
+
 }  // namespace pastefit

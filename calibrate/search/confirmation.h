@@ -22,4 +22,7 @@ Verdict verdict_on(const Response& response);
 /// The same by the numbers.
 Verdict verdict_on(double miss, double noise);
 
+/// Packings of which the mean is likely to be known well enough to be judged, by the scatter of those that there are.
+double packings_to_decide(const Response& response);
+
 }  // namespace pastefit

@@ -65,8 +65,9 @@ class GaussianProcess::Likelihood : public Objective {
   GaussianProcess& process_;
 };
 
-GaussianProcess::GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values) {
-  pool(points, values);
+GaussianProcess::GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
+                                 const Eigen::VectorXd& precisions) {
+  pool(points, values, precisions.size() > 0 ? precisions : Eigen::VectorXd::Ones(values.size()));
   mean_ = values.mean();
   if ((values.array() - mean_).abs().maxCoeff() <= 1e-12 * (1 + std::abs(mean_))) return;
   Likelihood likelihood(*this);
@@ -79,10 +80,11 @@ GaussianProcess::GaussianProcess(std::span<const UnitPoint> points, const Eigen:
   likelihood.adopt(search_nlopt(likelihood, no_packing, start, options).best.point);
 }
 
-void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values) {
+void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
+                           const Eigen::VectorXd& precisions) {
   std::vector<double> sums, squares, counts;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double value = values[static_cast<Eigen::Index>(i)];
+    const double value = values[static_cast<Eigen::Index>(i)], precision = precisions[static_cast<Eigen::Index>(i)];
     const auto known = static_cast<std::size_t>(std::ranges::find(points_, points[i]) - points_.begin());
     if (known == points_.size()) {
       points_.push_back(points[i]);
@@ -93,15 +95,15 @@ void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::Vecto
     // Welford's update: the squares about the mean so far, without
     // cancellation.
     const double before = counts[known] > 0 ? value - sums[known] / counts[known] : 0;
-    sums[known] += value;
-    counts[known] += 1;
-    squares[known] += before * (value - sums[known] / counts[known]);
+    sums[known] += precision * value;
+    counts[known] += precision;
+    squares[known] += precision * before * (value - sums[known] / counts[known]);
   }
   const auto n = static_cast<Eigen::Index>(points_.size());
   counts_ = Eigen::Map<const Eigen::VectorXd>(counts.data(), n);
   values_ = Eigen::Map<const Eigen::VectorXd>(sums.data(), n).cwiseQuotient(counts_);
   squares_within_ = Eigen::Map<const Eigen::VectorXd>(squares.data(), n).sum();
-  answers_ = counts_.sum();
+  answers_ = static_cast<double>(points.size());
 }
 
 void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {

@@ -21,26 +21,28 @@ class GaussianProcess {
     double variance = 0;  ///< of the mean answer, without the noise of one simulation
   };
 
-  /// Shapes: n >= 1 points of the unit cube, n values. Points may repeat: that
-  /// is how the noise is seen.
-  GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values);
+  /// Shapes: n >= 1 points of the unit cube, n values, n precisions > 0 (none: all 1): the noise variance of an answer
+  /// is that of the process over its precision. Points may repeat: that is how the noise is seen.
+  GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
+                  const Eigen::VectorXd& precisions = {});
 
   /// Becomes what it would be if a point had answered with this mean of so many answers; lengths and noise ratio stay.
   void imagine(const UnitPoint& point, double mean, int answers);
 
   Prediction predict(const UnitPoint& point) const;
+  /// Of an answer of precision 1.
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 
  private:
   class Likelihood;
-  void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values);
+  void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values, const Eigen::VectorXd& precisions);
   void set(const Eigen::VectorXd& lengths, double noise_ratio);
 
   std::vector<UnitPoint> points_;  // distinct
   Eigen::VectorXd values_;         // mean answer of each
-  Eigen::VectorXd counts_;         // answers of each
+  Eigen::VectorXd counts_;         // answers of each, or rather the sum of their precisions
   double answers_ = 0;             // in all
-  double squares_within_ = 0;      // of the answers about the mean of their point
+  double squares_within_ = 0;      // of the answers about the mean of their point, times their precisions
   Eigen::VectorXd lengths_;
   double noise_ratio_ = 0;      // noise variance over signal variance
   double signal_variance_ = 0;  // 0: all values are the same

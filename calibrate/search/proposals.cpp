@@ -35,7 +35,7 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
     const std::size_t known = archive_.coarse_singles().size();
     archive_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
     if (archive_.coarse_singles().size() == known) break;
-    Surrogate model(archive_.evidence());
+    Surrogate model(archive_.evidence(), archive_.allowances());
     imagine_answers(model);
     const UnitPoint better = least_point(model, proposal);
     const auto misfit = [&](const UnitPoint& point) { return model.outlook(point).mean(); };

@@ -14,7 +14,10 @@ constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger
 }  // namespace
 
 Prospects::Prospects(const Archive& archive, std::span<const UnitPoint> refuted)
-    : archive_(archive), surrogate_(archive.evidence()), misfit_of_best_(no_misfit), least_misfit_(no_misfit) {
+    : archive_(archive),
+      surrogate_(archive.evidence(), archive.allowances()),
+      misfit_of_best_(no_misfit),
+      least_misfit_(no_misfit) {
   const auto is_refuted = [&](const UnitPoint& point) {
     return std::ranges::any_of(refuted, [&](const UnitPoint& one) { return one == point; });
   };

@@ -230,6 +230,7 @@ class Search {
       std::ranges::copy(fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
       confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
       verdict = verdict_on(confirmation);
+      if (packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
     }
     if (archive_.stop_requested()) return false;
     ++result_.rounds;

@@ -14,12 +14,17 @@ namespace {
 /// coordinate counts with a prior of this weight, normal about the middle with half the range as its deviation.
 constexpr double weight_of_middle = 0.1;
 
+/// What is confirmed is a mean over so many packings, and it may be off by half a tolerance.
+constexpr double packings_of_a_mean = 8;
+constexpr double harmless_share = 0.5;
+
 /// Any packing will do where none is simulated.
 const std::vector<std::uint64_t> no_packing{0};
 
 }  // namespace
 
-Surrogate::Surrogate(std::span<const Response> seen) : parameters_(static_cast<int>(seen.front().point.size())) {
+Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances)
+    : parameters_(static_cast<int>(seen.front().point.size())) {
   std::vector<UnitPoint> all;
   std::vector<const Response*> feasible;
   Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
@@ -39,10 +44,37 @@ Surrogate::Surrogate(std::span<const Response> seen) : parameters_(static_cast<i
       values.push_back(response->residuals[k]);
     }
     models_.emplace_back();
-    if (points.empty()) continue;
-    models_.back().emplace(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+    scatters_.emplace_back();
+    if (!points.empty())
+      learn(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)),
+            k < tolerances.size() ? tolerances[k] : 0);
   }
   if (failed.sum() > 0) failures_.emplace(all, failed);
+}
+
+/// Where packings scatter, a simulation says less of the mean: the residual is learnt again with that.
+void Surrogate::learn(const std::vector<UnitPoint>& points, const Eigen::VectorXd& values, double tolerance) {
+  std::optional<GaussianProcess>& model = models_.back();
+  std::optional<Scatter>& scatter = scatters_.back();
+  model.emplace(points, values);
+  if (tolerance <= 0) return;
+  Eigen::VectorXd precisions(values.size());
+  const auto look_at_scatter = [&] {
+    Eigen::VectorXd surprises = values;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      surprises[static_cast<Eigen::Index>(i)] -= model->predict(points[i]).mean;
+    scatter.emplace(points, surprises, packings_of_a_mean * std::pow(harmless_share * tolerance, 2));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      precisions[static_cast<Eigen::Index>(i)] = scatter->precision(points[i]);
+  };
+  look_at_scatter();
+  if (precisions.minCoeff() == 1) return;
+  model.emplace(points, values, precisions);
+  look_at_scatter();
+}
+
+double Surrogate::luck(std::size_t residual, const UnitPoint& point) const {
+  return scatters_[residual] ? scatters_[residual]->excess(point) / packings_of_a_mean : 0;
 }
 
 std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) {
@@ -60,16 +92,17 @@ std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std
 }
 
 Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
-  double mean = 0, variance = 0;
-  for (const std::optional<GaussianProcess>& model : models_) {
-    if (!model) continue;
-    const GaussianProcess::Prediction residual = model->predict(point);
+  const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
+  double certain = 0, mean = odd + failing(point) * worst_, variance = 0;
+  for (std::size_t k = 0; k < models_.size(); ++k) {
+    if (!models_[k]) continue;
+    const GaussianProcess::Prediction residual = models_[k]->predict(point);
     const double square = residual.mean * residual.mean;
+    certain += 0.5 * luck(k, point);
     mean += 0.5 * (square + residual.variance);
     variance += residual.variance * (0.5 * residual.variance + square);
   }
-  const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
-  return {mean + odd + failing(point) * worst_, variance};
+  return {certain, mean, variance};
 }
 
 double Surrogate::failing(const UnitPoint& point) const {
@@ -82,13 +115,16 @@ double Surrogate::within(const Eigen::VectorXd& bounds, const UnitPoint& point) 
     const double bound = bounds[static_cast<Eigen::Index>(k)];
     if (!models_[k] || bound == 0) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
-    const double scale = std::sqrt(2 * std::max(residual.variance, std::numeric_limits<double>::min()));
+    const double variance = residual.variance + luck(k, point);
+    const double scale = std::sqrt(2 * std::max(variance, std::numeric_limits<double>::min()));
     probability *= 0.5 * (std::erf((bound - residual.mean) / scale) + std::erf((bound + residual.mean) / scale));
   }
   return probability;
 }
 
 double Surrogate::Outlook::improvement(double bound) const {
+  bound -= certain_;
+  if (bound <= 0) return 0;
   if (variance_ <= 0) return std::max(0.0, bound - mean_);
   const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;
   return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "calibrate/search/gaussian_process.h"
+#include "calibrate/search/scatter.h"
 
 namespace pastefit {
 
 /// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
 /// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
-/// something is known and little fails. It never fails. Each residual is learnt from the simulations that took its
-/// reading; one that none took is expected to be met.
+/// something is known, little fails, and packings agree. It never fails. Each residual is learnt from the simulations
+/// that took its reading; one that none took is expected to be met.
 class Surrogate : public Objective {
  public:
-  /// `seen`: finished simulations, each on one packing, at least one of them feasible.
-  explicit Surrogate(std::span<const Response> seen);
+  /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
+  /// in its own unit; one of 0, or that is not given, may scatter as it likes.
+  explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {});
 
   int parameters() const override { return parameters_; }
   int residuals() const override { return static_cast<int>(models_.size()); }
@@ -23,23 +25,24 @@ class Surrogate : public Objective {
   int budget_left() const override;
   bool stop_requested() const override { return false; }
 
-  /// What the misfit of a point may be, less the noise of the packings: half the sum of squared normal variables, which
-  /// is nearly a gamma distribution with the same mean and variance.
+  /// What the misfit of a point may be, less the usual noise of the packings: a part that is certain, and half the sum
+  /// of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
   class Outlook {
    public:
-    Outlook(double mean, double variance) : mean_(mean), variance_(variance) {}
-    double mean() const { return mean_; }
+    Outlook(double certain, double mean, double variance) : certain_(certain), mean_(mean), variance_(variance) {}
+    double mean() const { return certain_ + mean_; }
     /// Mean of what lies below this bound: max(0, bound - misfit).
     double improvement(double bound) const;
 
    private:
-    double mean_, variance_;
+    double certain_, mean_, variance_;
   };
-  /// Its mean includes failures and what a point far from the middle of the bounds has to make up for (a weak prior).
+  /// Certain is what a mean over some packings is off by where they scatter. Its mean includes failures and what a
+  /// point far from the middle of the bounds has to make up for (a weak prior).
   Outlook outlook(const UnitPoint& point) const;
 
-  /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
-  /// of 0 do not count. Shape: one for each residual.
+  /// Probability that a point's residuals, less the usual noise of the packings, are within these bounds; those with a
+  /// bound of 0 do not count. Shape: one for each residual.
   double within(const Eigen::VectorXd& bounds, const UnitPoint& point) const;
 
   /// Goes on as if `point` had answered on so many packings as it may well do: the mean residuals drawn from what is
@@ -51,11 +54,16 @@ class Surrogate : public Objective {
   double noise() const;
 
  private:
-  double failing(const UnitPoint& point) const;  ///< likely share of failures
+  void learn(const std::vector<UnitPoint>& points, const Eigen::VectorXd& values, double tolerance);
+  /// Variance of the mean of some packings beyond what does no harm.
+  double luck(std::size_t residual, const UnitPoint& point) const;
+  /// Likely share of failures.
+  double failing(const UnitPoint& point) const;
 
   int parameters_ = 0;
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
+  std::vector<std::optional<Scatter>> scatters_;        // likewise; none too where it does not matter
   std::optional<GaussianProcess> failures_;
 };
 

@@ -142,3 +142,18 @@ TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit 
     CHECK((calibration.status == CalibrationStatus::confirmed) == calm);
   }
 }
+
+TEST_CASE("packings are not asked for where their scatter says that no affordable number of them would do") {
+  Synthetic objective;
+  objective.dimension = 2;
+  objective.measured = {100};
+  objective.standard_deviations = {5};
+  // One heap stands and the next one shears off, whatever the candidate: their mean is the laboratory's.
+  objective.observe = [](const UnitPoint& x, std::uint64_t packing) {
+    return std::vector<double>{uniform(digest(x), packing) < 0.5 ? 10.0 : 190.0};
+  };
+  const Calibration calibration = search(objective, generous_options(1));
+  CHECK(calibration.status == CalibrationStatus::unconfirmed);
+  CHECK(calibration.confirmation.packings.size() == 8);
+  CHECK(packings_to_decide(calibration.confirmation) > 64);
+}

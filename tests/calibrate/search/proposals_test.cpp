@@ -110,7 +110,7 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
     mean += 0.5 * (m + v);
     variance += v * (0.5 * v + m);
   }
-  const Surrogate::Outlook outlook(mean, variance);
+  const Surrogate::Outlook outlook(0, mean, variance);
   constexpr double bound = 0.7;
   double improvement = 0;
   constexpr int draws = 200'000;
@@ -121,7 +121,7 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
   }
   // Mean and variance are exact, the shape is a gamma distribution's.
   CHECK(outlook.improvement(bound) == Approx(improvement).epsilon(0.1));
-  CHECK(Surrogate::Outlook(0.4, 0).improvement(bound) == Approx(bound - 0.4));
+  CHECK(Surrogate::Outlook(0, 0.4, 0).improvement(bound) == Approx(bound - 0.4));
 }
 
 TEST_CASE("what is under way is spent, and answered in the order of asking") {

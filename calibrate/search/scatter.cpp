@@ -1,0 +1,30 @@
+#include "calibrate/search/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+namespace {
+
+constexpr double near = 0.1;         // of the bounds, in each coordinate: where simulations tell of a point
+constexpr double harmless_ones = 2;  // simulations of harmless scatter that are taken to be at every point
+
+}  // namespace
+
+Scatter::Scatter(std::vector<UnitPoint> points, const Eigen::VectorXd& surprises, double harmless)
+    : points_(std::move(points)), squares_(surprises.size()), harmless_(harmless) {
+  for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = std::pow(surprises[static_cast<Eigen::Index>(i)], 2);
+}
+
+double Scatter::excess(const UnitPoint& point) const {
+  double sum = harmless_ones * harmless_, weights = harmless_ones;
+  const double reach = near * near * static_cast<double>(point.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double weight = std::exp(-0.5 * (points_[i] - point).squaredNorm() / reach);
+    sum += weight * squares_[i];
+    weights += weight;
+  }
+  return std::max(0.0, sum / weights - harmless_);
+}
+
+}  // namespace pastefit
