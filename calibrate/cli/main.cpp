@@ -50,7 +50,8 @@ int run(int argc, char** argv) {
       {"rescale", "carry a material card to another grain size", add_rescale},
       {"export", "write a material card's test for another DEM program", add_export},
       {"check", "simulate cards again and compare within the noise", add_check},
-      {"verify", "hold the contact laws against closed forms, case by case", add_verify}};
+      {"verify", "hold the contact laws against closed forms, case by case", add_verify},
+      {"help", "say what the program does, or one of its verbs", add_help}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {

@@ -1,21 +1,18 @@
 #include "calibrate/exports/lammps_style.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "calibrate/base/data_folders.h"
 
 namespace pastefit {
 
 namespace fs = std::filesystem;
 
 Result<std::vector<ExportFile>> lammps_style() {
-  std::vector<fs::path> folders;
-  if (const char* data = std::getenv("PASTEFIT_DATA_DIR"); data && *data) folders.emplace_back(data);
-  folders.emplace_back(PASTEFIT_SOURCE_DATA_DIR);
-  folders.emplace_back(PASTEFIT_INSTALL_DATA_DIR);
-  for (const fs::path& data : folders) {
+  for (const fs::path& data : data_folders()) {
     const fs::path folder = data / "lammps";
     std::vector<ExportFile> files;
     std::error_code error;

@@ -1,10 +1,10 @@
 #include "calibrate/study/rig.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include "calibrate/base/data_folders.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
@@ -60,9 +60,7 @@ std::string note_on_preset(const Rig& preset) {
 
 std::vector<fs::path> rig_folders(const fs::path& folder) {
   std::vector<fs::path> folders{folder / ".." / "rigs"};
-  if (const char* data = std::getenv("PASTEFIT_DATA_DIR"); data && *data) folders.push_back(fs::path(data) / "rigs");
-  folders.push_back(fs::path(PASTEFIT_SOURCE_DATA_DIR) / "rigs");
-  folders.push_back(fs::path(PASTEFIT_INSTALL_DATA_DIR) / "rigs");
+  for (const fs::path& data : data_folders()) folders.push_back(data / "rigs");
   return folders;
 }
 

@@ -30,7 +30,7 @@ Result<Rig> read_rig(const std::filesystem::path& file);
 std::string note_on_preset(const Rig& preset);
 
 /// The folders in which presets are looked for, in order: `../rigs` seen from `folder`, where the naming file lies;
-/// `rigs` in the folder that the environment variable PASTEFIT_DATA_DIR names; the source's; the installed one.
+/// `rigs` in each folder of data (`data_folders`).
 std::vector<std::filesystem::path> rig_folders(const std::filesystem::path& folder);
 
 // Sections of a file, shared by rig and laboratory files.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <set>
 #include <system_error>
 
+#include "calibrate/base/data_folders.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/study/impact_json.h"
 
@@ -181,9 +181,10 @@ Result<Case> read_case(const fs::path& file) {
 
 std::vector<fs::path> shipped_cases() {
   std::vector<fs::path> folders;
-  if (const char* data = std::getenv("PASTEFIT_DATA_DIR"); data && *data) folders.push_back(fs::path(data) / "cases");
-  folders.push_back(fs::path(PASTEFIT_SOURCE_DATA_DIR) / ".." / "tests" / "cases");
-  folders.push_back(fs::path(PASTEFIT_INSTALL_DATA_DIR) / "cases");
+  for (const fs::path& data : data_folders()) {
+    folders.push_back(data / "cases");
+    folders.push_back(data / ".." / "tests" / "cases");  // of the sources
+  }
   for (const fs::path& folder : folders) {
     std::vector<fs::path> files;
     std::error_code error;

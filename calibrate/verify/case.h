@@ -55,8 +55,8 @@ struct Case {
 /// Errors: every fault with its place; scenes are read when the case is run.
 Result<Case> read_case(const std::filesystem::path& file);
 
-/// The files of the shipped cases in the order of their names: those in `cases` of the folder that the environment
-/// variable PASTEFIT_DATA_DIR names, else of the source, else the installed ones.
+/// The files of the shipped cases in the order of their names: those in `cases` of the first folder of data
+/// (`data_folders`) that has some.
 std::vector<std::filesystem::path> shipped_cases();
 
 /// The scene of one point of a case.

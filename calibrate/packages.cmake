@@ -1,0 +1,53 @@
+# Debian packages (.ci/package): `pastefit`, the program with its data, and `libpastefit-dev`, what other programs need.
+
+# What Debian asks of the documentation of a package: licence and changelog, compressed without a date.
+set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
+file(WRITE ${documents}/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: pastefit
+
+Files: *
+Copyright: 2026 the pastefit authors
+License: Apache-2.0
+ On Debian systems, the full text of the Apache License, Version 2.0, is in
+ /usr/share/common-licenses/Apache-2.0.
+")
+file(WRITE ${documents}/changelog "pastefit (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * What is new stands in the history of the sources.
+
+ -- The pastefit authors <authors@pastefit.org>  Sun, 22 Nov 2026 12:00:00 +0000
+")
+find_program(gzip gzip)
+if(gzip)
+  execute_process(COMMAND ${gzip} -9nkf changelog WORKING_DIRECTORY ${documents})
+  foreach(package IN ITEMS pastefit:program libpastefit-dev:library)
+    string(REPLACE ":" ";" package ${package})
+    list(GET package 0 name)
+    list(GET package 1 part)
+    install(FILES ${documents}/copyright ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+            COMPONENT ${part})
+  endforeach()
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The pastefit authors <authors@pastefit.org>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pastefit)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "calibrates DEM contact models for pasty material
+ Finds the contact parameters with which spheres slump as a paste, concrete or
+ wet granular material does in the laboratory, and writes them as a material
+ card for LAMMPS, LIGGGHTS, Yade, MercuryDPM and others.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libpastefit-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "calibration of DEM contact models, as a library
+ The mechanics and the calibration of pastefit as static libraries with their
+ headers and CMake package files.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+    "libeigen3-dev, libnlopt-cxx-dev, libceres-dev, libsqlite3-dev, nlohmann-json3-dev, libboost-dev")
+include(CPack)

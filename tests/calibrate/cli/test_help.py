@@ -1,0 +1,73 @@
+"""What the program says of itself: help, man pages, completion.
+
+usage: test_help.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+from desk import Desk, run
+
+
+def verbs():
+    return re.findall(r"^  ([a-z-]+)  +\S", run("--help").stdout.split("Subcommands:")[1], flags=re.M)
+
+
+def options_of(verb):
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", run(verb, "--help").stdout))
+
+
+class Help(Desk):
+    def written(self):
+        self.assertEqual(run("help", "--write", self.folder / "manual").returncode, 0)
+        return self.folder / "manual"
+
+    def test_help_of_a_verb_is_what_the_verb_says_itself(self):
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        for verb in verbs():
+            self.assertEqual(run("help", verb).stdout, run(verb, "--help").stdout)
+        self.fails(run("help", "calibrat"), 2, "calibrat", "did you mean 'calibrate'?")
+
+    def test_every_verb_has_a_page_with_every_option(self):
+        folder = self.written()
+        self.assertGreaterEqual(len(verbs()), 11)
+        for verb in verbs():
+            page = (folder / f"pastefit-{verb}.1").read_text().replace("\\-", "-")
+            for option in options_of(verb):
+                self.assertIn(option, page)
+            self.assertIn(f"pastefit-{verb}", (folder / "pastefit.1").read_text().replace("\\-", "-"))
+
+    @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
+    def test_groff_has_nothing_to_say_of_the_pages(self):
+        for page in self.written().glob("*.1"):
+            result = subprocess.run(["groff", "-man", "-ww", "-z", page], capture_output=True, text=True, timeout=60)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), page.name)
+
+    def test_bash_completes_verbs_and_the_options_of_each(self):
+        script = self.written() / "pastefit.bash"
+
+        def completed(*words):
+            ask = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _pastefit; printf "%s\\n" "${COMPREPLY[@]}"'
+            return set(subprocess.run(["bash", "-c", ask, "bash", script, "pastefit", *words], capture_output=True,
+                                      text=True, check=True, timeout=60).stdout.split())
+
+        self.assertEqual(completed("") - {"--help", "--version"}, set(verbs()))
+        self.assertEqual(completed("cal"), {"calibrate"})
+        for verb in verbs():
+            self.assertEqual(completed(verb, "--"), options_of(verb))
+
+    def test_zsh_and_fish_know_every_verb_and_option(self):
+        folder = self.written()
+        zsh, fish = (folder / "pastefit.zsh").read_text(), (folder / "pastefit.fish").read_text()
+        for verb in verbs():
+            of_zsh = set(re.search(rf"^  {verb}\) compadd -- (.*) ;;$", zsh, flags=re.M)[1].split())
+            of_fish = set(re.findall(rf"subcommand_from {verb}' -l ([a-z-]+)", fish))
+            self.assertEqual(of_zsh, options_of(verb))
+            self.assertEqual({f"--{name}" for name in of_fish}, options_of(verb))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
