@@ -50,13 +50,13 @@ ordered_json points_of(const ContactModel& contact, double radius_m, double gap_
   return out;
 }
 
-/// Overlap at which a pair is in balance, or that of a weight if nothing attracts.
+/// Overlap at which the repulsion is half as much again as the attraction, or some weights where nothing attracts.
 double deepest(const Card& card, const ContactModel& contact) {
   const double radius = card.material.grains.radius_m;
   const PairConstants pair = grain_pair(contact, radius);
   const double density = card.material.grain_density_kg_m3.value_or(card.material.bulk_density_kg_m3);
   const double weight = 9.81 * density * 4.19 * std::pow(radius, 3);
-  const double load = 2 * std::max({pair.cohesion, 10 * weight});
+  const double load = pair.cohesion > 0 ? 1.5 * pair.cohesion : 20 * weight;
   return std::pow(load / (pair.hertz * std::sqrt(radius / 2)), 2.0 / 3);
 }
 

@@ -45,9 +45,19 @@ ordered_json parameters_of(const Findings& findings) {
   return out;
 }
 
+/// The readings in the order in which the test gives them; a card that was read has them in that of the alphabet.
+std::vector<CardObservable> in_order_of_test(const CardTest& test) {
+  const auto kinds = reading_kinds(test.test);
+  std::vector<CardObservable> out = test.observables;
+  std::ranges::stable_sort(out, {}, [&](const CardObservable& one) {
+    return std::ranges::find(kinds, one.name, &ReadingKind::name) - kinds.begin();
+  });
+  return out;
+}
+
 ordered_json readings_of(const CardTest& test, std::size_t packings) {
   auto out = ordered_json::array();
-  for (const CardObservable& one : test.observables) {
+  for (const CardObservable& one : in_order_of_test(test)) {
     ordered_json reading{{"name", one.name},
                          {"simulated", one.simulated},
                          {"simulated_standard_deviation", one.simulated_standard_deviation},
@@ -109,6 +119,20 @@ std::vector<Measurement> measurements_of(const CardTest& test) {
   return out;
 }
 
+/// The runs of the view with the card's own readings, and those of the packings that were not looked at: means over
+/// them are the card's.
+std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
+  std::vector<SeenRun> runs = view.runs;
+  for (const auto& known : test.baseline.runs) {
+    const auto seen = std::ranges::find(runs, known.packing, &SeenRun::packing);
+    if (seen == runs.end())
+      runs.push_back({known.packing, known.observables, {}, {}});
+    else
+      seen->readings = known.observables;
+  }
+  return runs;
+}
+
 /// What the film shows, and whether it is the same run as the card's.
 ordered_json run_shown(const CardTest& test, const TestView& view) {
   if (view.runs.empty()) return {};
@@ -145,7 +169,7 @@ ordered_json test_of(const Findings& findings, std::size_t index) {
   out["drawings"] = ordered_json::array();
   if (index >= findings.views.size()) return out;
   const TestView& view = findings.views[index];
-  for (const Drawing& drawing : drawings_of(test.test, view.runs, measurements_of(test)))
+  for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), measurements_of(test)))
     out["drawings"].push_back(json_of(drawing));
   out["packings_drawn"] = view.runs.size();
   if (view.film.frames() > 0) out["film"] = film_index(view.film);

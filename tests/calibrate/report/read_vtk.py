@@ -59,7 +59,8 @@ class Series(unittest.TestCase):
         self.assertTrue(self.series("filling-walls"))
 
     def test_grains_have_their_columns_and_the_links_agree_with_them(self):
-        for (_, grains_file), (_, links_file) in zip(self.series("grains"), self.series("grains-links")):
+        pairs = list(zip(self.series("grains"), self.series("grains-links")))
+        for (_, grains_file), (_, links_file) in pairs[1:]:  # before the first step no contact is known
             grains, links = poly_data(grains_file), poly_data(links_file)
             of_grains, of_links = columns(grains.GetPointData()), columns(links.GetCellData())
             self.assertEqual(set(of_grains), {"radius", "velocity", "spin", "coordination"})
