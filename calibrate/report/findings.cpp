@@ -57,7 +57,16 @@ void take_evaluations(const Store& store, const std::optional<Inference>& infere
   if (findings.card) infer_from(store, inference, findings);
 }
 
+/// Brings readings into the order in which their test gives them; a card that was read has them in the alphabet's.
+void order_readings(CardTest& test) {
+  const auto kinds = reading_kinds(test.test);
+  std::ranges::stable_sort(test.observables, {}, [&](const CardObservable& one) {
+    return std::ranges::find(kinds, one.name, &ReadingKind::name) - kinds.begin();
+  });
+}
+
 void take_card(Card card, Findings& findings) {
+  for (CardTest& test : card.tests) order_readings(test);
   findings.study = study_of(card);
   findings.card = std::move(card);
 }

@@ -45,19 +45,9 @@ ordered_json parameters_of(const Findings& findings) {
   return out;
 }
 
-/// The readings in the order in which the test gives them; a card that was read has them in that of the alphabet.
-std::vector<CardObservable> in_order_of_test(const CardTest& test) {
-  const auto kinds = reading_kinds(test.test);
-  std::vector<CardObservable> out = test.observables;
-  std::ranges::stable_sort(out, {}, [&](const CardObservable& one) {
-    return std::ranges::find(kinds, one.name, &ReadingKind::name) - kinds.begin();
-  });
-  return out;
-}
-
 ordered_json readings_of(const CardTest& test, std::size_t packings) {
   auto out = ordered_json::array();
-  for (const CardObservable& one : in_order_of_test(test)) {
+  for (const CardObservable& one : test.observables) {
     ordered_json reading{{"name", one.name},
                          {"simulated", one.simulated},
                          {"simulated_standard_deviation", one.simulated_standard_deviation},

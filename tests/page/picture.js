@@ -5,7 +5,7 @@ import { drawn, filmIsThere, openBrowser, openPage } from "./browser.js";
 
 const [page, picture] = process.argv.slice(2);
 const browser = await openBrowser();
-const shown = await openPage(browser, page, { viewport: { width: 1200, height: 450 }, colorScheme: "light" });
+const shown = await openPage(browser, page, { viewport: { width: 1200, height: 500 }, colorScheme: "light" });
 await filmIsThere(shown);
 await shown.evaluate(() => {
   const { player } = document.querySelector(".player");

@@ -68,7 +68,7 @@ class Series(unittest.TestCase):
             self.assertEqual(grains.GetNumberOfVerts(), grains.GetNumberOfPoints())
             self.assertEqual(links.GetNumberOfLines(), len(of_links["touching"]))
             self.assertEqual(of_grains["coordination"].sum(), 2 * of_links["touching"].sum())
-            self.assertTrue((of_links["overlap"][of_links["touching"] == 1] > -1e-9).all())
+            self.assertTrue((of_links["overlap"][of_links["touching"] == 1] > 0).all())
             # A bridge that does not touch pulls; the length of its line says how far apart the grains are.
             apart = of_links["touching"] == 0
             self.assertTrue((of_links["force"][apart] <= 0).all())
