@@ -29,7 +29,7 @@ class HeapDrawing {
   }
 
   Drawing drawn() {
-    drawing_.name = "Heap after step " + step_.substr(4);
+    drawing_.name = "Heap after step " + step_.substr(4) + ", seen from the side";
     drawing_.x = "from the middle of the table [mm]";
     drawing_.y = "height [mm]";
     drawing_.to_scale = true;
