@@ -119,7 +119,7 @@ class CommandLine(Desk):
         self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)
         start = time.monotonic()
         resumed = self.calibrates(self.study(), "--resume")
-        self.assertLess(time.monotonic() - start, 2)
+        self.assertLess(time.monotonic() - start, 5)  # but for the film of its page
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
