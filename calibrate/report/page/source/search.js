@@ -31,7 +31,7 @@ function placed({ history, misfit_asked: asked }) {
 
 function bestSoFar(points) {
   let best = Infinity;
-  return points.filter((point) => kindOf(point) === "search").map((point) => ({ number: point.number, at: (best = Math.min(best, point.at)) }));
+  return points.filter((point) => kindOf(point) === "search" && point.misfit !== undefined).map((point) => ({ number: point.number, at: (best = Math.min(best, point.at)) }));
 }
 
 function historyPlot(points, search, width) {
@@ -92,7 +92,8 @@ function scatterPlot(points, { parameter, reading, spec, measured }, width) {
 function scatterFigure({ search, parameters = [] }, measured) {
   const done = search.history.filter((point) => !point.failure && !point.other_grains);
   const names = [...new Set(done.flatMap((point) => Object.keys(point.values)))];
-  const readings = [...new Set(done.flatMap((point) => Object.keys(point.readings)))].sort((one, other) => measured.has(other) - measured.has(one));
+  const readings = [...new Set(done.flatMap((point) => Object.keys(point.readings)))]
+    .sort((one, other) => measured.has(other) - measured.has(one) || one.startsWith("fill.") - other.startsWith("fill."));
   if (names.length === 0 || readings.length === 0) return null;
   const shown = { parameter: names[0], reading: readings[0] };
   const made = figure({}, (width) => {
@@ -114,6 +115,8 @@ export function searchPart(content) {
   const measured = new Map(Object.entries(search.measured));
   const failed = search.history.filter((point) => point.failure).length;
   const lead = `${search.history.length} simulations are kept, ${failed === 0 ? "none failed" : `${failed} failed`}.${search.reason ? ` ${search.reason}` : ""}`;
-  return section("search", "The search", lead, historyFigure(content, measured), element("h3", {}, "What a parameter does to a reading"),
+  return section("search", "The search", lead,
+    search.history.some((point) => point.misfit !== undefined) ? historyFigure(content, measured) : element("p", { class: "notice" }, "Without the study nobody knows the misfit of these simulations."),
+    element("h3", {}, "What a parameter does to a reading"),
     scatterFigure(content, measured), element("p", { class: "note" }, "All other parameters differ from point to point; dashed: the laboratory."));
 }
