@@ -14,7 +14,7 @@ import unittest
 
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 README = (SOURCE / "README.md").read_text()
-READMES = [file for file in SOURCE.glob("**/README.md") if not {"build", "out"} & set(file.relative_to(SOURCE).parts)]
+READMES = [file for file in SOURCE.glob("**/README.md") if not {"build", "out", "node_modules"} & set(file.relative_to(SOURCE).parts)]
 MOST_LINES = 200  # of the main one
 
 
@@ -122,7 +122,7 @@ class Readme(unittest.TestCase):
             verdict = re.search(r"^The material (meets|does not meet) the laboratory: .*$", result.stdout, re.M)
             self.assertIsNotNone(verdict, result.stdout)
             print(verdict.group(0))
-            for file in ("card.json", "summary.txt", "evaluations.sqlite"):
+            for file in ("card.json", "summary.txt", "evaluations.sqlite", "report.html"):
                 self.assertTrue((pathlib.Path(folder) / "my-paste/out" / file).exists(), file)
             self.assertTrue((pathlib.Path(folder) / "my-paste/film/grains.pvd").exists())
 

@@ -120,4 +120,16 @@ std::string json_text(const nlohmann::ordered_json& value) {
   return lines_of(out) == out ? out : text(true);
 }
 
+std::string json_in_html(const nlohmann::ordered_json& value) {
+  std::string out;
+  for (const char letter : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) {
+    // Outside of its texts JSON has none of these.
+    if (letter == '<' || letter == '>' || letter == '&')
+      out += letter == '<' ? "\\u003c" : letter == '>' ? "\\u003e" : "\\u0026";
+    else
+      out += letter;
+  }
+  return out;
+}
+
 }  // namespace pastefit

@@ -28,4 +28,8 @@ std::string xml_text(std::string_view text);
 /// JSON with indentation, ending with a line break; control characters are escaped.
 std::string json_text(const nlohmann::ordered_json& value);
 
+/// JSON on one line to stand in an element of HTML, a script's too: no text in it can end the element or begin another,
+/// because "<", ">" and "&" are written as escapes, like all that is not ASCII.
+std::string json_in_html(const nlohmann::ordered_json& value);
+
 }  // namespace pastefit

@@ -13,6 +13,7 @@
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
+#include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
@@ -44,7 +45,7 @@ struct CalibrateOptions {
 
 const std::string kCard = "card.json";
 const std::string kSummary = "summary.txt";
-const std::vector<std::string> kCalibration = with_store({kCard, kSummary});
+const std::vector<std::string> kCalibration = with_store({kCard, kSummary, kPage});
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
 
 std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
@@ -101,15 +102,22 @@ std::string notes_on_readings(const Study& study) {
   return out;
 }
 
-/// Card and summary, to the folder and to the person. Only a confirmed material is what was asked for.
-int deliver(const Card& card, const std::optional<Inference>& inference, const OutputFolder& folder) {
+/// Card, summary and page, to the folder and to the person. Only a confirmed material is what was asked for. Who
+/// interrupts gets the page without its film.
+int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
+            const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   print("\n%s", summary.c_str());
+  if (faults.empty()) {
+    Findings findings = findings_of(card, store, inference);
+    look_at_tests(findings, options.threads, stop);
+    faults = write_page(options.out, findings);
+  }
   if (!faults.empty()) return report(faults, kFailed);
-  print("\nwrote %s\nwrote %s\nwrote %s\n", folder.file(kCard).c_str(), folder.file(kSummary).c_str(),
-        folder.file(kStore).c_str());
+  print("\n");
+  for (const std::string& name : {kCard, kSummary, kPage, kStore}) print("wrote %s\n", folder.file(name).c_str());
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
@@ -165,6 +173,7 @@ int calibrate(const CalibrateOptions& options) {
   print("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
         warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
   ProgressLine line(budget, misfit_unit_of(study));
+  LivePage page(options.out);
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
   evaluator.budget = budget;
@@ -176,7 +185,11 @@ int calibrate(const CalibrateOptions& options) {
   evaluator.observer = {};
   SimulationObjective coarse(coarse_study, store.value(), evaluator);
   const auto calibration = search(
-      objective, for_the_search, [&](const Progress& progress) { line.show(progress); },
+      objective, for_the_search,
+      [&](const Progress& progress) {
+        line.show(progress);
+        page.show(study, store.value());
+      },
       names_of(readings_of(study), false), free_names(study), search_options.coarse_first ? &coarse : nullptr);
   const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
   std::optional<Inference> inference;
@@ -194,11 +207,12 @@ int calibrate(const CalibrateOptions& options) {
     for (const auto& [reason, count] : counts.failures)
       std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
     std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.value().file(kStore).c_str());
+    (void)write_page(options.out, findings_without_card(study, store.value()));
     return kFailed;
   }
   auto card = card_of(study, calibration, search_options, store.value(), counts, options.study);
   if (inference) card.inference = card_inference(*inference);
-  return deliver(card, inference, folder.value());
+  return deliver(card, inference, store.value(), options, folder.value(), *evaluator.stop);
 }
 
 }  // namespace
@@ -206,7 +220,7 @@ int calibrate(const CalibrateOptions& options) {
 Command add_calibrate(CLI::App& verb) {
   const auto options = std::make_shared<CalibrateOptions>();
   verb.add_option("STUDY", options->study, "study file")->required();
-  verb.add_option("--out", options->out, "folder for " + kCard + ", " + kSummary + " and " + kStore)
+  verb.add_option("--out", options->out, "folder for " + kCard + ", " + kSummary + ", " + kPage + " and " + kStore)
       ->required()
       ->type_name("DIR");
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");

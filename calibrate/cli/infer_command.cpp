@@ -6,6 +6,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/card_study.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
@@ -45,14 +46,6 @@ Faults differences(const Card& card, const Study& study, const std::string& file
             study.tests[i].lab.hash);
   }
   return faults;
-}
-
-/// The card's material among the study's candidates.
-UnitPoint point_of(const Card& card) {
-  std::vector<double> point;
-  for (const Parameter& parameter : card.material.parameters)
-    if (parameter.free) point.push_back(std::clamp(unit_of(parameter, parameter.value), 0.0, 1.0));
-  return Eigen::Map<const Eigen::VectorXd>(point.data(), std::ssize(point));
 }
 
 int infer(const InferOptions& options) {

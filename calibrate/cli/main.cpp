@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
       {"simulate", "run the test of a study, card, laboratory, rig or impact file once", add_simulate},
       {"template", "print a commented starting file", add_template},
       {"show", "print a material card for a person", add_show},
+      {"report", "write the page of a calibration, for a browser", add_report},
       {"rescale", "carry a material card to another grain size", add_rescale},
       {"export", "write a material card's test for another DEM program", add_export},
       {"check", "simulate cards again and compare within the noise", add_check},

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -59,11 +60,17 @@ std::size_t series_at(const Scene& scene, const Moment& moment) {
   return test ? series_at(*test, moment) : 0;
 }
 
+/// What a picture is made of, each a series of its own: the name of that of the grains, and what is added to it.
+constexpr std::array<std::string_view, 3> kLayers{"", "-links", "-walls"};
+
 /// Pictures of a run in series, each with one clock that starts where its first moment says.
 class Pictures {
  public:
   Pictures(const std::filesystem::path& folder, const std::vector<std::string>& series) {
-    for (const std::string& name : series) scenes_.push_back({VtkSeries(folder, name)});
+    for (const std::string& name : series) {
+      Shown& scene = scenes_.emplace_back();
+      for (const std::string_view layer : kLayers) scene.layers.emplace_back(folder, name + std::string(layer));
+    }
   }
 
   Faults add(const Moment& moment, std::size_t series) {
@@ -71,38 +78,29 @@ class Pictures {
     // A stage may be several runs, one after the other.
     if (moment.time_s < scene.last_s) scene.earlier_s += scene.last_s;
     scene.last_s = moment.time_s;
-    GrainFrame frame = frame_of(moment);
-    frame.time_s += scene.earlier_s;
     scene.begun = true;
-    return scene.series.add(frame);
+    const World& world = *moment.world;
+    const std::array<std::string, 3> files{vtp_of(grain_frame(world)), vtp_of(link_frame(world)),
+                                           vtp_of(wall_frame(world))};
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (auto faults = scene.layers[i].add(moment.time_s + scene.earlier_s, files[i]); !faults.empty()) return faults;
+    return {};
   }
 
   std::vector<std::filesystem::path> indices() const {
     std::vector<std::filesystem::path> files;
     for (const Shown& scene : scenes_)
-      if (scene.begun) files.push_back(scene.series.index());
+      for (const VtkSeries& layer : scene.layers)
+        if (scene.begun) files.push_back(layer.index());
     return files;
   }
 
  private:
   struct Shown {
-    VtkSeries series;
+    std::vector<VtkSeries> layers;
     double last_s = 0, earlier_s = 0;
     bool begun = false;
   };
-
-  static GrainFrame frame_of(const Moment& moment) {
-    GrainFrame frame;
-    frame.time_s = moment.time_s;
-    const auto& particles = moment.world->particles;
-    for (std::int32_t i = 0; i < particles.count(); ++i) {
-      const auto& motion = particles.motion[static_cast<std::size_t>(i)];
-      frame.positions_m.push_back(motion.position);
-      frame.velocities_m_s.push_back(motion.velocity);
-      frame.radii_m.push_back(motion.radius);
-    }
-    return frame;
-  }
 
   std::vector<Shown> scenes_;
 };
@@ -194,7 +192,8 @@ int simulate_file(const SimulateOptions& options) {
   if (!options.out.empty()) {
     const auto series = names_of_series(test);
     std::vector<std::string> results{kResult, kCurve};
-    for (const std::string& name : series) results.push_back(name + ".pvd");
+    for (const std::string& name : series)
+      for (const std::string_view layer : kLayers) results.push_back(name + std::string(layer) + ".pvd");
     auto opened = OutputFolder::open(options.out, results,
                                      options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
     if (!opened.ok()) return report(opened.faults());

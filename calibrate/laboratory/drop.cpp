@@ -1,12 +1,15 @@
 #include "calibrate/laboratory/drop.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/laboratory/specimen_json.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 namespace {
@@ -90,6 +93,18 @@ void describe_test(Fields& fields, Test& test) {
   describe_specimen(fields, test);
 }
 
+/// Half of a free flight that ends at `end_s`: from the top to touch (`half_s` < 0), or from touch to the top.
+std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
+  constexpr int kPoints = 40;
+  std::vector<DrawnPoint> points;
+  for (int k = 0; k <= kPoints; ++k) {
+    const double share = static_cast<double>(k) / kPoints;   // of the way in time
+    const double from_top = half_s < 0 ? share : 1 - share;  // in units of the half
+    points.push_back({end_s - std::abs(half_s) * (1 - share), mm * height_m * (1 - from_top * from_top)});
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<Surface> surfaces_of(DropTest&) {
@@ -150,6 +165,34 @@ std::string conditions_in_words(const DropTest& test) {
   if (test.plate_tilt_rad > 0)
     out += format(", on a level plate and on one tilted by %g deg", degrees * test.plate_tilt_rad);
   return out + "\n";
+}
+
+std::vector<Drawing> drawings_of(const DropTest& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  std::vector<Drawing> out;
+  for (const std::string stage : {"level", "tilted"}) {
+    if (stage == "tilted" && test.plate_tilt_rad == 0) continue;
+    const std::string reading = stage + ".rebound_height_mm";
+    Drawing drawing;
+    drawing.name = stage == "level" ? "Drop on the level plate"
+                                    : format("Drop on the plate tilted by %.3g degrees", degrees * test.plate_tilt_rad);
+    drawing.x = "time [s]";
+    drawing.y = "height of the ball above touch [mm]";
+    const double touch_s = std::sqrt(2 * test.drop_height_m / kGravity);
+    drawing.lines.push_back({"fall", DrawnBy::apparatus, flight(test.drop_height_m, touch_s, -touch_s)});
+    const auto rebound = [&](DrawnBy by, const char* name, double height_mm, double deviation) {
+      const double rise_s = std::sqrt(2 * std::max(height_mm, 0.0) / mm / kGravity);
+      drawing.lines.push_back({name, by, flight(height_mm / mm, touch_s + rise_s, rise_s), 0});
+      const double top_s = touch_s + rise_s;
+      drawing.lengths.push_back(
+          {reading, by, {top_s, 0}, {top_s, height_mm}, {top_s, 0}, {top_s, height_mm}, height_mm, deviation});
+    };
+    if (const Measurement* one = find_measurement(measured, reading))
+      rebound(DrawnBy::laboratory, "rebound, laboratory", one->value, one->standard_deviation);
+    if (const auto mean = mean_reading(runs, reading)) rebound(DrawnBy::simulation, "rebound, simulated", *mean, 0);
+    out.push_back(std::move(drawing));
+  }
+  return out;
 }
 
 }  // namespace pastefit

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
 #include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/drop_test/drop_test.h"
@@ -39,5 +40,10 @@ std::string_view why_of_that_size(const DropTest& test);
 
 nlohmann::ordered_json conditions_of(const DropTest& test);
 std::string conditions_in_words(const DropTest& test);
+
+/// The height of the ball over time, from its fall to the top of its rebound, on each plate: free flight before and
+/// after the contact, whose time is too short to be drawn.
+std::vector<Drawing> drawings_of(const DropTest& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured);
 
 }  // namespace pastefit

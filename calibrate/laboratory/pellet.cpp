@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/format.h"
@@ -203,6 +204,48 @@ std::string remarks_on(const PelletCrush& test, std::span<const Observables> run
   if (rising == 0) return {};
   return format("the stress of %d of %zu pellets still rose at the final strain of %g: their strength is not a peak",
                 static_cast<int>(rising), runs.size(), test.final_strain);
+}
+
+std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  Drawing drawing;
+  drawing.name = "Crushing of the pellet";
+  drawing.x = "strain";
+  drawing.y = "stress [Pa]";
+  std::size_t points = 0, curves = 0;
+  for (const SeenRun& run : runs)
+    if (run.curve) {
+      points = curves++ == 0 ? run.curve->points.size() : std::min(points, run.curve->points.size());
+    }
+  DrawnBand band{format("%zu packings, lowest to highest", curves), {}};
+  DrawnLine mean{"simulated, mean", DrawnBy::simulation, {}};
+  for (std::size_t i = 0; i < points; ++i) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0, strain = 0;
+    for (const SeenRun& run : runs) {
+      if (!run.curve) continue;
+      const CurvePoint& point = run.curve->points[i];
+      strain = point.x;
+      low = std::min(low, point.y);
+      high = std::max(high, point.y);
+      sum += point.y;
+    }
+    band.points.push_back({strain, low, high});
+    mean.points.push_back({strain, sum / static_cast<double>(curves)});
+  }
+  if (curves > 1) drawing.bands.push_back(std::move(band));
+  if (curves > 0) drawing.lines.push_back(std::move(mean));
+  if (const auto* strength = find_measurement(measured, "pellet.dynamic_yield_strength_pa")) {
+    drawing.lines.push_back({"laboratory, strength",
+                             DrawnBy::laboratory,
+                             {{0, strength->value}, {test.final_strain, strength->value}},
+                             strength->standard_deviation});
+    if (const auto* peak = find_measurement(measured, "pellet.strain_at_peak"))
+      drawing.lines.push_back({"laboratory, strain at the peak",
+                               DrawnBy::laboratory,
+                               {{peak->value, 0}, {peak->value, strength->value}},
+                               0});
+  }
+  return {drawing};
 }
 
 }  // namespace pastefit

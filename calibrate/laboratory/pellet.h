@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
 #include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/pellet_crush/pellet_crush.h"
@@ -43,6 +44,10 @@ std::size_t series_at(const PelletCrush& test, const Moment& moment);
 std::optional<double> grain_density_of(const PelletCrush& test, const Observables& means);
 nlohmann::ordered_json conditions_of(const PelletCrush& test);
 std::string conditions_in_words(const PelletCrush& test);
+
+/// The stress on the platen over the strain of the pellet, over the strength that was measured.
+std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured);
 
 /// Pellets whose stress still rose when the platen stopped. A line, or nothing.
 std::string remarks_on(const PelletCrush& test, std::span<const Observables> runs);

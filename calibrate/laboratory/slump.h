@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
 #include "calibrate/laboratory/usual_answers.h"
@@ -59,6 +60,10 @@ std::size_t series_at(const SlumpTest& test, const Moment& moment);
 
 /// The heap at rest after each step, for a photograph beside it.
 std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment);
+
+/// The heap after each step from the side, in millimetres (calibrate/laboratory/slump_drawing.cpp).
+std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured);
 
 /// What a fit in this test was made for, for cards, and in words.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);

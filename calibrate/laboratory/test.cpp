@@ -99,6 +99,11 @@ std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment) {
   return std::visit([&](const auto& one) { return outline_at(one, moment); }, test);
 }
 
+std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  return std::visit([&](const auto& one) { return drawings_of(one, runs, measured); }, test);
+}
+
 nlohmann::ordered_json conditions_of(const Test& test) {
   return std::visit([](const auto& one) { return conditions_of(one); }, test);
 }

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/drop.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/pellet.h"
@@ -26,7 +27,7 @@ template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
              std::span<const Observables> runs, const Observables& means, const Moment& moment,
-             std::span<const Measurement> measurements) {
+             std::span<const Measurement> measurements, std::span<const SeenRun> seen) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
   { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
   { validate(given) } -> std::same_as<Faults>;
@@ -47,6 +48,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
   { series_at(given, moment) } -> std::same_as<std::size_t>;
   { outline_at(given, moment) } -> std::same_as<std::optional<NamedOutline>>;
+  { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
@@ -79,6 +81,8 @@ std::string_view why_of_that_size(const Test& test);
 std::span<const std::string_view> series_of(const Test& test);
 std::size_t series_at(const Test& test, const Moment& moment);
 std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment);
+std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);

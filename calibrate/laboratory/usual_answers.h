@@ -6,8 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/measurement.h"
 #include "core/observe/observables.h"
 #include "core/observe/outline.h"
@@ -65,6 +67,11 @@ inline std::size_t series_at(const Specimen&, const Moment&) {
 /// What stands there is seen from the side, at moments that are worth a drawing; of one name the last counts.
 inline std::optional<NamedOutline> outline_at(const Specimen&, const Moment&) {
   return std::nullopt;
+}
+
+/// The test as a drawing, or some: what was seen of these runs, all of one material, over what was measured.
+inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun>, std::span<const Measurement>) {
+  return {};
 }
 
 /// What these measurements, taken together, cannot be, or can hardly be.

@@ -5,28 +5,18 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/base64.h"
 
 namespace pastefit {
 
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= bytes.size() - i ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 /// A DataArray element: the number of bytes (UInt64) and the bytes, encoded as one.
 template <class T>
@@ -39,36 +29,83 @@ std::string data_array(const std::string& type, const std::string& name, int com
          "\" format=\"binary\">" + base64(bytes) + "</DataArray>\n";
 }
 
-}  // namespace
-
-std::string vtp_of(const GrainFrame& frame) {
-  const auto count = frame.positions_m.size();
-  std::vector<std::int64_t> connectivity(count), offsets(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    connectivity[i] = static_cast<std::int64_t>(i);
-    offsets[i] = connectivity[i] + 1;
+/// Columns of a file, each a DataArray element.
+class Columns {
+ public:
+  void add(const std::string& name, std::span<const double> values) { text_ += data_array("Float64", name, 1, values); }
+  void add(const std::string& name, std::span<const Vec3> values) { text_ += data_array("Float64", name, 3, values); }
+  void add(const std::string& name, std::span<const std::int32_t> values) {
+    text_ += data_array("Int32", name, 1, values);
   }
-  const auto number = std::to_string(count);
+  std::string in(const std::string& element) const { return "<" + element + ">\n" + text_ + "</" + element + ">\n"; }
+
+ private:
+  std::string text_;
+};
+
+/// Cells of so many corners each, which are those of `connectivity`.
+std::string cells(const std::string& element, std::span<const std::int64_t> connectivity, std::int64_t corners) {
+  std::vector<std::int64_t> offsets;
+  for (std::int64_t end = corners; end <= std::ssize(connectivity); end += corners) offsets.push_back(end);
+  return "<" + element + ">\n" + data_array<std::int64_t>("Int64", "connectivity", 1, connectivity) +
+         data_array<std::int64_t>("Int64", "offsets", 1, offsets) + "</" + element + ">\n";
+}
+
+/// `kind` of cells: "Verts", "Lines" or "Polys".
+std::string poly_data(std::span<const Vec3> points, const std::string& kind, std::int64_t corners,
+                      std::span<const std::int64_t> connectivity, const std::string& data) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
          "<PolyData>\n<Piece NumberOfPoints=\"" +
-         number + "\" NumberOfVerts=\"" + number + "\">\n<Points>\n" +
-         data_array<Vec3>("Float64", "position", 3, frame.positions_m) + "</Points>\n<PointData>\n" +
-         data_array<double>("Float64", "radius", 1, frame.radii_m) +
-         data_array<Vec3>("Float64", "velocity", 3, frame.velocities_m_s) + "</PointData>\n<Verts>\n" +
-         data_array<std::int64_t>("Int64", "connectivity", 1, connectivity) +
-         data_array<std::int64_t>("Int64", "offsets", 1, offsets) + "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+         std::to_string(points.size()) + "\" NumberOf" + kind + "=\"" +
+         std::to_string(std::ssize(connectivity) / corners) + "\">\n<Points>\n" +
+         data_array<Vec3>("Float64", "position", 3, points) + "</Points>\n" + data +
+         cells(kind, connectivity, corners) + "</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+/// 0, 1, ...: every point once, in its order.
+std::vector<std::int64_t> in_order(std::size_t points) {
+  std::vector<std::int64_t> out(points);
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+}  // namespace
+
+std::string vtp_of(const GrainFrame& frame) {
+  Columns of_points;
+  of_points.add("radius", std::span<const double>(frame.radii_m));
+  of_points.add("velocity", std::span<const Vec3>(frame.velocities_m_s));
+  of_points.add("spin", std::span<const Vec3>(frame.spins_rad_s));
+  of_points.add("coordination", std::span<const std::int32_t>(frame.coordination));
+  return poly_data(frame.positions_m, "Verts", 1, in_order(frame.positions_m.size()), of_points.in("PointData"));
+}
+
+std::string vtp_of(const LinkFrame& frame) {
+  Columns of_cells;
+  of_cells.add("touching", std::span<const std::int32_t>(frame.touching));
+  of_cells.add("overlap", std::span<const double>(frame.overlaps_m));
+  of_cells.add("force", std::span<const double>(frame.forces_n));
+  return poly_data(frame.ends_m, "Lines", 2, in_order(frame.ends_m.size()), of_cells.in("CellData"));
+}
+
+std::string vtp_of(const WallFrame& frame) {
+  Columns of_cells;
+  of_cells.add("wall", std::span<const std::int32_t>(frame.walls));
+  std::vector<std::int64_t> connectivity;
+  for (const auto& corners : frame.quadrangles) connectivity.insert(connectivity.end(), corners.begin(), corners.end());
+  return poly_data(frame.corners_m, "Polys", 4, connectivity, of_cells.in("CellData"));
 }
 
 VtkSeries::VtkSeries(std::filesystem::path folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)) {}
 
-Faults VtkSeries::add(const GrainFrame& frame) {
+Faults VtkSeries::add(double time_s, const std::string& vtp) {
   std::array<char, 32> number{}, time{};
   std::snprintf(number.data(), number.size(), "_%06d.vtp", frames_++);
-  std::snprintf(time.data(), time.size(), "%.9g", frame.time_s);
+  std::snprintf(time.data(), time.size(), "%.9g", time_s);
   const std::string file = name_ + number.data();
-  auto faults = write_atomically(folder_ / file, vtp_of(frame));
+  auto faults = write_atomically(folder_ / file, vtp);
   if (!faults.empty()) return faults;
   entries_ += std::string("<DataSet timestep=\"") + time.data() + "\" file=\"" + file + "\"/>\n";
   return write_atomically(

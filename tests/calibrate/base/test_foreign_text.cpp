@@ -36,3 +36,10 @@ TEST_CASE("JSON is valid whatever bytes it is made of, and keeps its letters") {
   CHECK(lines_of(turned) == turned);
   CHECK(nlohmann::json::parse(turned)["a"] == "\xE2\x80\xAE");
 }
+
+TEST_CASE("JSON in HTML has no letter that could end or begin an element, and reads back as it was") {
+  const nlohmann::ordered_json value{{"</script><!--", "a & <b> \xE2\x80\xA8 \u00fc"}};
+  const std::string text = json_in_html(value);
+  CHECK(text.find_first_of("<>&\n") == std::string::npos);
+  CHECK(nlohmann::ordered_json::parse(text) == value);
+}

@@ -96,7 +96,7 @@ class CommandLine(Desk):
 
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
-        self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "summary.txt"])
+        self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt"])
         self.assertNotIn("\r", result.stdout)
         for word in ("screening", "strength_pa", "c_n", "step1.height_mm", "laboratory", "card.json"):
             self.assertIn(word, result.stdout)
@@ -113,13 +113,13 @@ class CommandLine(Desk):
         self.assertEqual(height, card["tests"][0]["observables"]["step1.height_mm"]["simulated"])
 
         self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
-        kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "summary.txt")}
+        kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "report.html", "summary.txt")}
         other = self.study(radius_mm=13)
         self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "none of its", "grains", "--force")
         self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)
         start = time.monotonic()
         resumed = self.calibrates(self.study(), "--resume")
-        self.assertLess(time.monotonic() - start, 2)
+        self.assertLess(time.monotonic() - start, 5)  # but for the film of its page
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):

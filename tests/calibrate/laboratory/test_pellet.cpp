@@ -10,17 +10,17 @@ namespace {
 
 using nlohmann::json;
 
-json template_of_lab() {
+json template_of_pellet_lab() {
   return json::parse(template_text("pellet-lab").value(), nullptr, true, true);
 }
 
-Faults faults_of(const json& lab) {
+Faults faults_of_pellet_lab(const json& lab) {
   const Result<Lab> read = lab_from_json(lab, ".");
   return read.ok() ? Faults{} : read.faults();
 }
 
 TEST_CASE("a pellet crush is read in millimetres, and survives JSON bit for bit") {
-  json document = template_of_lab();
+  json document = template_of_pellet_lab();
   document["apparatus"]["pour_speed_mm_s"] = 300;
   document["apparatus"]["tools"] = {{"friction", 0.1}, {"cohesion_factor", 0.5}};
   const Result<Lab> lab = lab_from_json(document, ".");
@@ -43,27 +43,28 @@ TEST_CASE("a pellet crush is read in millimetres, and survives JSON bit for bit"
 }
 
 TEST_CASE("faults of a pellet crush are named in the words of its file, all in one message") {
-  json lab = template_of_lab();
+  json lab = template_of_pellet_lab();
   lab["apparatus"]["die_diameter_mm"] = 10;
-  CHECK(test::says(test::at(faults_of(lab), "grains.radius_mm"), "few granules"));
-  lab = template_of_lab();
+  CHECK(test::says(test::at(faults_of_pellet_lab(lab), "grains.radius_mm"), "few granules"));
+  lab = template_of_pellet_lab();
   lab["apparatus"]["press_speedup"] = 1e5;
   lab["apparatus"]["pressed_height_mm"] = 40;
-  CHECK(test::says(test::at(faults_of(lab), "apparatus.press_speedup"), "sound in a bed"));
-  CHECK(test::says(test::at(faults_of(lab), "apparatus.pressed_height_mm"), "above the fill height"));
-  lab = template_of_lab();
+  CHECK(test::says(test::at(faults_of_pellet_lab(lab), "apparatus.press_speedup"), "sound in a bed"));
+  CHECK(test::says(test::at(faults_of_pellet_lab(lab), "apparatus.pressed_height_mm"), "above the fill height"));
+  lab = template_of_pellet_lab();
   lab["grains"]["largest_mm"] = 1.0501;
-  CHECK(test::says(test::at(faults_of(lab), "grains.standard_deviation_mm"), "between smallest and largest"));
-  lab = template_of_lab();
+  CHECK(
+      test::says(test::at(faults_of_pellet_lab(lab), "grains.standard_deviation_mm"), "between smallest and largest"));
+  lab = template_of_pellet_lab();
   lab["grains"]["smallest_mm"] = 1.4;
-  CHECK(test::says(test::at(faults_of(lab), "grains.smallest_mm"), "not in order"));
-  lab = template_of_lab();
+  CHECK(test::says(test::at(faults_of_pellet_lab(lab), "grains.smallest_mm"), "not in order"));
+  lab = template_of_pellet_lab();
   lab["apparatus"].erase("punch_speed_mm_s");
-  CHECK_FALSE(test::at(faults_of(lab), "apparatus.punch_speed_mm_s").what.empty());
+  CHECK_FALSE(test::at(faults_of_pellet_lab(lab), "apparatus.punch_speed_mm_s").what.empty());
 }
 
 TEST_CASE("granules of the same surface energy over radius are as sticky, whatever their size") {
-  const Result<Lab> lab = lab_from_json(template_of_lab(), ".");
+  const Result<Lab> lab = lab_from_json(template_of_pellet_lab(), ".");
   REQUIRE(lab.ok());
   Test fine = lab.value().test, coarse = fine;
   specimen_of(fine).contact.normal = specimen_of(coarse).contact.normal = NormalLaw::jkr;

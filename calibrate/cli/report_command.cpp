@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/report_page.h"
+#include "calibrate/cli/standard_output.h"
+
+namespace pastefit {
+
+namespace {
+
+struct ReportOptions {
+  std::string folder;
+  int threads = 0;
+  bool quick = false;
+};
+
+int write_report(const ReportOptions& options) {
+  auto findings = read_findings(options.folder, kStore);
+  if (!findings.ok()) return report(findings.faults());
+  const std::filesystem::path folder = options.folder;
+  if (!options.quick) look_at_tests(findings.value(), options.threads, listen_for_stop());
+  for (const std::string& sentence : findings.value().missing)
+    std::fprintf(stderr, "pastefit: %s\n", one_line(sentence).c_str());
+  if (const auto faults = write_page(folder, findings.value()); !faults.empty()) return report(faults, kFailed);
+  print("wrote %s\n", (folder / kPage).c_str());
+  return kDone;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& verb) {
+  const auto options = std::make_shared<ReportOptions>();
+  verb.add_option("DIR", options->folder, "folder of a calibration, also of one that is still running")->required();
+  verb.add_flag("--quick", options->quick, "do not simulate: no film, no heaps");
+  add_threads(verb, options->threads);
+  return [options] { return write_report(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "calibrate/report/findings.h"
+
+namespace pastefit {
+
+inline const std::string kPage = "report.html";
+
+/// Simulates the card's tests on the packings that confirmed it, the first eight at most, to show them; until `stop`
+/// becomes true. What could not be shown is then missing in the findings.
+void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop);
+
+/// The page of a calibration that goes on, written anew every now and then.
+class LivePage {
+ public:
+  explicit LivePage(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// To be called often; that it cannot be written is no fault of the calibration.
+  void show(const Study& study, const Store& store);
+
+ private:
+  std::filesystem::path folder_;
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+};
+
+/// Writes the page of a result folder into it. Errors: the folder cannot be written.
+Faults write_page(const std::filesystem::path& folder, const Findings& findings);
+
+}  // namespace pastefit

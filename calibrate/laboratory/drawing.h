@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/laboratory/measurement.h"
+#include "core/observe/observables.h"
+#include "core/observe/outline.h"
+#include "core/step/run.h"
+
+namespace pastefit {
+
+/// What was seen of one simulation besides its readings.
+struct SeenRun {
+  std::uint64_t packing = 0;
+  Observables readings;
+  std::map<std::string, Outline, std::less<>> outlines;  ///< by their names (`outline_at`)
+  std::optional<Curve> curve;
+};
+
+/// Whose word a part of a drawing is: each has its own look.
+enum class DrawnBy { laboratory, simulation, apparatus };
+
+using DrawnPoint = std::array<double, 2>;
+
+struct DrawnLine {
+  std::string name;
+  DrawnBy by = DrawnBy::simulation;
+  std::vector<DrawnPoint> points;
+  double deviation = 0;  ///< standard deviation of y, in its unit
+};
+
+/// Between two curves: x, lower and upper end.
+struct DrawnBand {
+  std::string name;
+  std::vector<std::array<double, 3>> points;
+};
+
+/// A length with its two arrows, as in a dimensioned drawing.
+struct DrawnLength {
+  std::string reading;
+  DrawnBy by = DrawnBy::laboratory;
+  DrawnPoint from{}, to{};     ///< where its line stands
+  DrawnPoint first{}, last{};  ///< what it is the distance of, projected on that line
+  double value = 0, deviation = 0;
+};
+
+/// A drawing of a test, in the unit that each axis names.
+struct Drawing {
+  std::string name, x, y;
+  bool to_scale = false;  ///< both axes have the same scale
+  std::vector<DrawnBand> bands;
+  std::vector<DrawnLine> lines;
+  std::vector<DrawnLength> lengths;
+};
+
+/// Mean of a reading over the runs; nothing if some run, or every one, lacks it.
+std::optional<double> mean_reading(std::span<const SeenRun> runs, std::string_view name);
+
+/// The laboratory's measurement of a reading; nothing if there is none.
+const Measurement* find_measurement(std::span<const Measurement> measured, std::string_view name);
+
+}  // namespace pastefit

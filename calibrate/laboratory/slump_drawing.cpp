@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <string>
+
+#include "calibrate/base/format.h"
+#include "calibrate/laboratory/slump.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double mm = 1000;  // millimetres in a metre
+constexpr double kStep = 2;  // [mm] between two points of a drawn outline
+// [share of the mould's height] between the lines of the lengths below the table, and of those beside the heap.
+constexpr double kBelow = 0.09, kBeside = 0.12;
+
+/// The heap after one step, and the readings of it.
+class HeapDrawing {
+ public:
+  HeapDrawing(const SlumpTest& test, std::string step, std::span<const SeenRun> runs,
+              std::span<const Measurement> measured)
+      : test_(test), step_(std::move(step)), runs_(runs), measured_(measured) {
+    for (const SeenRun& run : runs)
+      if (const auto seen = run.outlines.find(step_); seen != run.outlines.end()) outlines_.push_back(&seen->second);
+    half_width_ = diameter_at_base() / 2;
+    for (const Outline* outline : outlines_) {
+      const double end = outline->first_x_m + outline->spacing_m * static_cast<double>(outline->height_m.size());
+      half_width_ = std::max({half_width_, -mm * outline->first_x_m, mm * end});
+    }
+  }
+
+  Drawing drawn() {
+    drawing_.name = "Heap after step " + step_.substr(4) + ", seen from the side";
+    drawing_.x = "from the middle of the table [mm]";
+    drawing_.y = "height [mm]";
+    drawing_.to_scale = true;
+    draw_apparatus();
+    draw_simulations();
+    draw_measured_outline();
+    draw_heights();
+    draw_widths();
+    draw_top();
+    return drawing_;
+  }
+
+ private:
+  double diameter_at_base() const { return 2 * mm * test_.mould.base_radius_m; }
+  double rim() const { return mm * test_.mould.height_m; }
+
+  void draw_apparatus() {
+    const double base = mm * test_.mould.base_radius_m, top = mm * test_.mould.top_radius_m;
+    drawing_.lines.push_back({"mould", DrawnBy::apparatus, {{-base, 0}, {-top, rim()}, {top, rim()}, {base, 0}}});
+    const double table = std::min(mm * test_.table_length_m / 2, 1.25 * half_width_);
+    drawing_.lines.push_back({"table", DrawnBy::apparatus, {{-table, 0}, {table, 0}}});
+  }
+
+  void draw_simulations() {
+    if (outlines_.empty()) return;
+    const auto count = static_cast<double>(outlines_.size());
+    DrawnBand band{format("%zu packings, lowest to highest", outlines_.size()), {}};
+    DrawnLine mean{"simulated, mean", DrawnBy::simulation, {}};
+    for (double x = -half_width_; x <= half_width_; x += kStep) {
+      double low = rim(), high = 0, sum = 0;
+      for (const Outline* outline : outlines_) {
+        const double height = mm * outline->at(x / mm);
+        low = std::min(low, height);
+        high = std::max(high, height);
+        sum += height;
+      }
+      band.points.push_back({x, low, high});
+      mean.points.push_back({x, sum / count});
+    }
+    if (outlines_.size() > 1) drawing_.bands.push_back(std::move(band));
+    drawing_.lines.push_back(std::move(mean));
+  }
+
+  void draw_measured_outline() {
+    const auto& points = step_ == "step1" ? test_.reading.outline_step1 : test_.reading.outline_step2;
+    DrawnLine line{"laboratory, outline", DrawnBy::laboratory, {}};
+    for (const auto& [x, z] : points) line.points.push_back({mm * x, mm * z});
+    if (points.empty()) return;
+    if (const Measurement* known = measurement("profile_mm")) line.deviation = known->standard_deviation;
+    drawing_.lines.push_back(std::move(line));
+  }
+
+  /// The heights stand at both sides of the heap, the laboratory's on the left.
+  void draw_heights() {
+    double beside = 1.1 * half_width_;
+    for (const char* name : {"height_mm", "height_axis_mm", "height_max_mm"}) {
+      if (!measurement(name)) continue;
+      each_value(name, [&](DrawnBy by, double value, double deviation) {
+        const double x = by == DrawnBy::laboratory ? -beside : beside;
+        add(name, by, {x, 0}, {x, value}, {0, 0}, {0, value}, value, deviation);
+      });
+      beside += kBeside * rim();
+    }
+  }
+
+  /// Widths stand below the table, the laboratory's above the simulated one.
+  void draw_widths() {
+    double z = 0;
+    for (const char* name : {"spread_mm", "spread_orthogonal_mm"}) {
+      if (!measurement(name)) continue;
+      each_value(name, [&](DrawnBy by, double value, double deviation) {
+        z -= kBelow * rim();
+        add(name, by, {-value / 2, z}, {value / 2, z}, {-value / 2, 0}, {value / 2, 0}, value, deviation);
+      });
+    }
+  }
+
+  /// Of the plateau: how it sags over its window, and its width at 0.8 of the height of the middle.
+  void draw_top() {
+    const double window = mm * test_.reading.sag_window_m;
+    if (measurement("plateau_sag_mm"))
+      each_value("plateau_sag_mm", [&](DrawnBy by, double sag, double deviation) {
+        const double height = mean_of_runs("height_mm").value_or(0);
+        const char* whose = by == DrawnBy::laboratory ? "laboratory" : "simulated";
+        drawing_.lines.push_back({std::string(whose) + format(", top sags by %.1f mm over %g mm", sag, window),
+                                  by,
+                                  {{-window / 2, height + sag / 2}, {window / 2, height - sag / 2}},
+                                  deviation});
+      });
+    if (measurement("plateau_width_mm"))
+      each_value("plateau_width_mm", [&](DrawnBy by, double width, double deviation) {
+        const double level = 0.8 * mean_of_runs("height_mm").value_or(0);
+        const double z = level + (by == DrawnBy::laboratory ? 0.02 : -0.02) * rim();
+        add("plateau_width_mm", by, {-width / 2, z}, {width / 2, z}, {-width / 2, level}, {width / 2, level}, width,
+            deviation);
+      });
+  }
+
+  const Measurement* measurement(const std::string& name) const {
+    return find_measurement(measured_, step_ + "." + name);
+  }
+  std::optional<double> mean_of_runs(const std::string& name) const { return mean_reading(runs_, step_ + "." + name); }
+
+  /// Calls `draw(by, value, standard deviation)` for what the laboratory and what the simulations say of a reading.
+  template <class Draw>
+  void each_value(const std::string& name, const Draw& draw) const {
+    if (const Measurement* one = measurement(name)) draw(DrawnBy::laboratory, one->value, one->standard_deviation);
+    if (const auto mean = mean_of_runs(name)) draw(DrawnBy::simulation, *mean, 0.0);
+  }
+
+  void add(const char* name, DrawnBy by, DrawnPoint from, DrawnPoint to, DrawnPoint first, DrawnPoint last,
+           double value, double deviation) {
+    drawing_.lengths.push_back({step_ + "." + name, by, from, to, first, last, value, deviation});
+  }
+
+  const SlumpTest& test_;
+  std::string step_;
+  std::span<const SeenRun> runs_;
+  std::span<const Measurement> measured_;
+  std::vector<const Outline*> outlines_;
+  double half_width_ = 0;  // of what is drawn [mm]
+  Drawing drawing_;
+};
+
+}  // namespace
+
+std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  std::vector<Drawing> out{HeapDrawing(test, "step1", runs, measured).drawn()};
+  if (test.drop) out.push_back(HeapDrawing(test, "step2", runs, measured).drawn());
+  return out;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/step/run.h"
+#include "core/vec3.h"
+#include "core/world/walls.h"
+
+namespace pastefit {
+
+/// A wall as it stands in one picture.
+struct FilmWall {
+  std::string name;
+  Shape shape;
+};
+
+/// One picture: a value for each grain of its reel, in the order of their identities.
+struct FilmFrame {
+  double time_s = 0;  ///< on the film's own clock
+  std::string phase;
+  std::vector<Vec3> centres_m;
+  std::vector<float> speeds_m_s;
+  std::vector<std::uint8_t> coordination;  ///< grains that touch it
+  std::vector<FilmWall> walls;
+};
+
+/// Pictures of the same grains.
+struct Reel {
+  std::vector<double> radii_m;
+  std::vector<FilmFrame> frames;
+};
+
+/// A run as a film: one reel after the other, on one clock.
+struct Film {
+  std::vector<Reel> reels;
+
+  std::size_t grains() const;  ///< of the largest reel
+  std::size_t frames() const;
+};
+
+/// Makes a film of the moments of a run (`RunOptions::watch`). A reel ends where the grains are other ones: a stage of
+/// the test that begins its own clock. Of the drops of one heap only the first is filmed.
+class FilmRecorder {
+ public:
+  static constexpr double kInterval = 0.02;  ///< [s] between two pictures, for `RunOptions::watch_interval_s`
+
+  void add(const Moment& moment);
+
+  /// The film, thinned to what a page can hold: about 140 pictures, fewer of many grains, a quarter of them of the
+  /// filling. First and last of each reel are in it.
+  Film film() &&;
+
+ private:
+  Film film_;
+  double begun_s_ = 0, last_s_ = 0;  // start of the reel on the film's clock; time of the run
+};
+
+}  // namespace pastefit

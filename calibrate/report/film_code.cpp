@@ -1,0 +1,169 @@
+#include "calibrate/report/film_code.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "calibrate/base/base64.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kQuantum = 5e-5;  // [m]
+
+/// The box that holds all centres, and the length that one step of 16 bits is.
+struct Box {
+  std::array<double, 3> low{};
+  double quantum = kQuantum;
+};
+
+std::array<double, 3> coordinates(const Vec3& point) {
+  return {point.x, point.y, point.z};
+}
+
+Box box_of(const Film& film) {
+  constexpr double kSteps = 65535;
+  Box box;
+  std::array<double, 3> high{};
+  bool first = true;
+  for (const Reel& reel : film.reels)
+    for (const FilmFrame& frame : reel.frames)
+      for (const Vec3& centre : frame.centres_m) {
+        const auto place = coordinates(centre);
+        for (std::size_t c = 0; c < 3; ++c) {
+          box.low[c] = first ? place[c] : std::min(box.low[c], place[c]);
+          high[c] = first ? place[c] : std::max(high[c], place[c]);
+        }
+        first = false;
+      }
+  for (std::size_t c = 0; c < 3; ++c) box.quantum = std::max(box.quantum, (high[c] - box.low[c]) / kSteps);
+  return box;
+}
+
+std::uint16_t steps(double length, double quantum) {
+  return static_cast<std::uint16_t>(std::clamp(std::lround(length / quantum), 0L, 65535L));
+}
+
+std::uint8_t code_of_speed(float speed) {
+  constexpr double kPerDecade = 51, kSlowest = 1e-4;
+  return static_cast<std::uint8_t>(
+      std::clamp(std::lround(kPerDecade * std::log10(std::max<double>(speed, kSlowest) / kSlowest)), 0L, 255L));
+}
+
+void append(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
+  for (const auto number : numbers) bytes += static_cast<char>(number & 0xFFu);
+  for (const auto number : numbers) bytes += static_cast<char>(number >> 8);
+}
+
+/// What of a reel is coded as difference from the frame before.
+struct Columns {
+  std::array<std::vector<std::uint16_t>, 3> places;
+  std::vector<std::uint8_t> speeds, touching;
+};
+
+Columns columns_of(const FilmFrame& frame, const Box& box) {
+  Columns out;
+  for (const Vec3& centre : frame.centres_m) {
+    const auto place = coordinates(centre);
+    for (std::size_t c = 0; c < 3; ++c) out.places[c].push_back(steps(place[c] - box.low[c], box.quantum));
+  }
+  for (const float speed : frame.speeds_m_s) out.speeds.push_back(code_of_speed(speed));
+  out.touching = frame.coordination;
+  return out;
+}
+
+template <class Number>
+std::vector<Number> difference(const std::vector<Number>& now, const std::vector<Number>& before) {
+  std::vector<Number> out(now);
+  for (std::size_t i = 0; i < before.size(); ++i) out[i] = static_cast<Number>(now[i] - before[i]);
+  return out;
+}
+
+void append(std::string& bytes, const Columns& now, const Columns& before) {
+  for (std::size_t c = 0; c < 3; ++c) append(bytes, difference(now.places[c], before.places[c]));
+  for (const auto& [column, earlier] :
+       {std::pair(&now.speeds, &before.speeds), std::pair(&now.touching, &before.touching)})
+    for (const auto byte : difference(*column, *earlier)) bytes += static_cast<char>(byte);
+}
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
+                Z_BEST_COMPRESSION) != Z_OK)
+    throw std::runtime_error("the film could not be deflated");
+  out.resize(size);
+  return out;
+}
+
+ordered_json json_of(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+ordered_json json_of(const FilmWall& wall) {
+  ordered_json out{{"name", wall.name}};
+  if (const auto* plane = std::get_if<Plane>(&wall.shape)) {
+    out["shape"] = "plane";
+    out["point_m"] = json_of(plane->point);
+    out["normal"] = json_of(plane->normal);
+  } else if (const auto* plate = std::get_if<Plate>(&wall.shape)) {
+    out["shape"] = "plate";
+    out["centre_m"] = json_of(plate->centre);
+    out["along"] = json_of(plate->along);
+    out["across"] = json_of(plate->across);
+    out["half_m"] = {plate->half_length, plate->half_width};
+  } else if (const auto* shell = std::get_if<Shell>(&wall.shape)) {
+    out["shape"] = "shell";
+    out["base_m"] = json_of(shell->base);
+    out["radii_m"] = {shell->base_radius, shell->top_radius};
+    out["height_m"] = shell->height;
+  }
+  return out;
+}
+
+}  // namespace
+
+ordered_json film_index(const Film& film) {
+  const Box box = box_of(film);
+  ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}};
+  auto& reels = out["reels"] = ordered_json::array();
+  for (const Reel& reel : film.reels) {
+    ordered_json of_reel{{"grains", reel.radii_m.size()}};
+    ordered_json standing;
+    for (const FilmFrame& frame : reel.frames) {
+      ordered_json of_frame{{"time_s", frame.time_s}, {"phase", frame.phase}};
+      auto walls = ordered_json::array();
+      for (const FilmWall& wall : frame.walls) walls.push_back(json_of(wall));
+      if (walls != standing) of_frame["walls"] = standing = std::move(walls);
+      of_reel["frames"].push_back(std::move(of_frame));
+    }
+    reels.push_back(std::move(of_reel));
+  }
+  return out;
+}
+
+std::string film_bytes(const Film& film) {
+  const Box box = box_of(film);
+  std::string bytes;
+  for (const Reel& reel : film.reels) {
+    std::vector<std::uint16_t> radii;
+    for (const double radius : reel.radii_m) radii.push_back(steps(radius, box.quantum));
+    append(bytes, radii);
+    Columns before;
+    for (const FilmFrame& frame : reel.frames) {
+      Columns now = columns_of(frame, box);
+      append(bytes, now, before);
+      before = std::move(now);
+    }
+  }
+  return base64(deflated(bytes));
+}
+
+}  // namespace pastefit

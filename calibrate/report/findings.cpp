@@ -1,0 +1,121 @@
+#include "calibrate/report/findings.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "calibrate/card/card_study.h"
+#include "calibrate/inference/examination.h"
+#include "calibrate/search/record.h"
+
+namespace pastefit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Faults as the end of a sentence.
+std::string in_words(const Faults& faults) {
+  constexpr std::size_t kMost = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i)
+    out += (i > 0 ? "; " : "") + faults[i].where + " " + faults[i].what;
+  if (faults.size() > kMost) out += "; and " + std::to_string(faults.size() - kMost) + " more";
+  return out;
+}
+
+/// What the simulations say of the card's parameters.
+void infer_from(const Store& store, const std::optional<Inference>& known, Findings& findings) {
+  const Card& card = *findings.card;
+  const auto record = everything_of(*findings.study, store);
+  const bool of_use =
+      std::ranges::any_of(record, [](const StoredEvaluation& one) { return !one.failure && !one.run.ended_early; });
+  if (!of_use) {
+    findings.missing.push_back(
+        "None of the stored simulations is one of the card's tests run to its end: nothing is inferred from them.");
+    return;
+  }
+  findings.evidence = evidence_of(*findings.study, record);
+  if (card.search.status == "out_of_reach") {
+    findings.missing.push_back(
+        "The laboratory was out of reach, and readings that no material meets say nothing of the parameters.");
+    return;
+  }
+  findings.inference = known;
+  if (known) return;
+  InferenceOptions options;
+  options.seed = card.search.seed;
+  findings.inference = infer(*findings.evidence, point_of(card), options);
+  findings.inference->recommended_because =
+      reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
+}
+
+void take_evaluations(const Store& store, const std::optional<Inference>& inference, Findings& findings) {
+  for (const std::string& remark : store.remarks())
+    findings.missing.push_back("The record of the search is not whole: " + remark + ".");
+  findings.evaluations = store.all();
+  findings.program = store.identity().program;
+  if (findings.card) infer_from(store, inference, findings);
+}
+
+/// Brings readings into the order in which their test gives them; a card that was read has them in the alphabet's.
+void order_readings(CardTest& test) {
+  const auto kinds = reading_kinds(test.test);
+  std::ranges::stable_sort(test.observables, {}, [&](const CardObservable& one) {
+    return std::ranges::find(kinds, one.name, &ReadingKind::name) - kinds.begin();
+  });
+}
+
+void take_card(Card card, Findings& findings) {
+  for (CardTest& test : card.tests) order_readings(test);
+  findings.study = study_of(card);
+  findings.card = std::move(card);
+}
+
+}  // namespace
+
+Result<Findings> read_findings(const fs::path& folder, const std::string& store) {
+  std::error_code error;
+  const fs::path card_file = folder / kCardFile, store_file = folder / store;
+  if (!fs::is_directory(folder, error))
+    return Fault{folder.string(), "is no folder", "the folder of a calibration, as given to --out"};
+  const bool has_card = fs::exists(card_file, error);
+  if (!has_card && !fs::exists(store_file, error))
+    return Fault{folder.string(), "holds neither " + kCardFile + " nor " + store,
+                 "the folder of a calibration, as given to --out"};
+  Findings findings;
+  if (!has_card) {
+    findings.missing.push_back("There is no " + kCardFile +
+                               ": the calibration has not ended, or was interrupted before it had an answer.");
+  } else if (auto card = read_card(card_file); card.ok()) {
+    take_card(std::move(card).value(), findings);
+  } else {
+    findings.missing.push_back("The card cannot be read: " + in_words(card.faults()) + ".");
+  }
+  if (const auto kept = Store::read(store_file); kept.ok())
+    take_evaluations(kept.value(), {}, findings);
+  else
+    findings.missing.push_back("The simulations of the search are not shown: " + in_words(kept.faults()) + ".");
+  return findings;
+}
+
+Findings findings_without_card(const Study& study, const Store& store) {
+  Findings findings;
+  findings.study = study;
+  take_evaluations(store, {}, findings);
+  return findings;
+}
+
+Findings findings_under_way(const Study& study, const Store& store) {
+  Findings findings = findings_without_card(study, store);
+  findings.under_way = true;
+  return findings;
+}
+
+Findings findings_of(const Card& card, const Store& store, const std::optional<Inference>& inference) {
+  Findings findings;
+  take_card(card, findings);
+  take_evaluations(store, inference, findings);
+  return findings;
+}
+
+}  // namespace pastefit

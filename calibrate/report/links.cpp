@@ -1,0 +1,89 @@
+#include "calibrate/report/links.h"
+
+#include <cmath>
+
+#include "core/laws/table.h"
+
+namespace pastefit {
+
+namespace {
+
+/// The force of the laws between two grains at this overlap. `root_contact_radius`: of the contact, 0 if there is none.
+double force_of(const World& world, double effective_radius, double overlap, bool touching,
+                double root_contact_radius) {
+  const PairConstants& pair = world.grain_pair;
+  const double scale = pair.size_per_radius * effective_radius;
+  if (!touching)
+    return with_law(Attractions{}, world.attraction, [&](auto law) {
+      if constexpr (law.present)
+        return -law.at(pair, std::min(overlap, 0.0), scale).force;
+      else
+        return 0.0;
+    });
+  const double press = with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
+    return law.at(pair, std::sqrt(effective_radius), overlap, root_contact_radius).force;
+  });
+  return press - pair.cohesion * scale * scale;
+}
+
+class LinkFinder {
+ public:
+  explicit LinkFinder(const World& world)
+      : world_(world),
+        reaches_(with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; })) {
+  }
+
+  void add_contacts(const ContactList& contacts) {
+    for (std::int32_t k = 0; k < contacts.count; ++k)
+      add(contacts.first(k), contacts.second(k), contacts.bridge(k) > 0, contacts.contact(k).root_contact_radius);
+  }
+
+  void add_bridges(const BridgeList& bridges) {
+    for (std::int32_t k = 0; k < bridges.count; ++k) {
+      const BridgeBatch& batch = bridges.batches[k / kBatch];
+      add(batch.i[k % kBatch], batch.j[k % kBatch], bridges.bridge(k) > 0, 0);
+    }
+  }
+
+  std::vector<Link> take() { return std::move(links_); }
+
+ private:
+  /// Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
+  void add(std::int32_t i, std::int32_t j, bool bridge, double root_contact_radius) {
+    const auto& grains = world_.particles;
+    if (i >= grains.count() || j >= grains.count()) return;  // padding
+    const Motion &one = grains.motion[i], &other = grains.motion[j];
+    const double overlap = one.radius + other.radius - norm(one.position - other.position);
+    const double effective_radius = one.radius * other.radius / (one.radius + other.radius);
+    const double tear_gap = world_.grain_pair.tear_gap * world_.grain_pair.size_per_radius * effective_radius;
+    const bool touching = overlap > 0 || (reaches_ && root_contact_radius > 0 && overlap > -tear_gap);
+    if (!touching && !bridge) return;
+    links_.push_back(
+        {i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, root_contact_radius)});
+  }
+
+  const World& world_;
+  const bool reaches_;
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+std::vector<Link> links_of(const World& world) {
+  LinkFinder finder(world);
+  for (const Block& block : world.pairs.blocks) {
+    finder.add_contacts(block.contacts);
+    finder.add_bridges(block.bridges);
+  }
+  return finder.take();
+}
+
+std::vector<std::uint8_t> coordination_of(const World& world) {
+  std::vector<std::uint8_t> touching(static_cast<std::size_t>(world.particles.count()), 0);
+  for (const Link& link : links_of(world))
+    for (const std::int32_t grain : {link.first, link.second})
+      if (link.touching && touching[grain] < 255) ++touching[grain];
+  return touching;
+}
+
+}  // namespace pastefit

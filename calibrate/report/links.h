@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// Two grains that act on each other at a moment.
+struct Link {
+  std::int32_t first = 0, second = 0;  ///< places in the world
+  bool touching = false;               ///< else a liquid bridge across a gap
+  double overlap_m = 0;                ///< negative: a gap
+  double force_n = 0;  ///< of the laws along the normal, repulsion positive; without the dampers, which need the past
+};
+
+/// All contacts and living bridges between grains.
+std::vector<Link> links_of(const World& world);
+
+/// How many grains each grain touches, by its place in the world; 255 stands for more too.
+std::vector<std::uint8_t> coordination_of(const World& world);
+
+}  // namespace pastefit

@@ -1,0 +1,78 @@
+// The apparatus of a run: its walls as surfaces that can be looked through.
+import * as THREE from "three";
+
+const around = 72; // corners of what is round
+
+function shellOf({ base_m: base, radii_m: [lower, upper], height_m: height }) {
+  const side = new THREE.CylinderGeometry(upper, lower, height, around, 1, true);
+  side.rotateX(Math.PI / 2).translate(base[0], base[1], base[2] + height / 2);
+  const rims = [[lower, 0], [upper, height]].map(([radius, z]) => {
+    const corners = Array.from({ length: around + 1 }, (_, k) => {
+      const angle = (2 * Math.PI * k) / around;
+      return new THREE.Vector3(base[0] + radius * Math.cos(angle), base[1] + radius * Math.sin(angle), base[2] + z);
+    });
+    return new THREE.BufferGeometry().setFromPoints(corners);
+  });
+  return { side, rims };
+}
+
+function rectangleOf(centre, along, across, [half, halfAcross]) {
+  const corner = (a, b) => new THREE.Vector3(...centre).addScaledVector(along, a * half).addScaledVector(across, b * halfAcross);
+  const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+  const side = new THREE.BufferGeometry().setFromPoints([0, 1, 2, 0, 2, 3].map((k) => corners[k]));
+  side.computeVertexNormals();
+  return { side, rims: [new THREE.BufferGeometry().setFromPoints([...corners, corners[0]])] };
+}
+
+function plateOf(wall) {
+  return rectangleOf(wall.centre_m, new THREE.Vector3(...wall.along), new THREE.Vector3(...wall.across), wall.half_m);
+}
+
+/// Of an infinite plane a square about where the grains are.
+function planeOf(wall, reach) {
+  const normal = new THREE.Vector3(...wall.normal);
+  const along = Math.abs(normal.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 1, 0);
+  along.addScaledVector(normal, -along.dot(normal)).normalize();
+  return rectangleOf(wall.point_m, along, new THREE.Vector3().crossVectors(normal, along), [reach, reach]);
+}
+
+const geometryOf = (wall, reach) =>
+  wall.shape === "shell" ? shellOf(wall) : wall.shape === "plate" ? plateOf(wall) : planeOf(wall, reach);
+
+export class Apparatus {
+  constructor(reach) {
+    this.group = new THREE.Group();
+    this.reach = reach;
+    const glass = (opacity) =>
+      new THREE.MeshBasicMaterial({ transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false });
+    this.materials = { shell: glass(0.16), plate: glass(0.5), plane: glass(0.35) };
+    this.edges = new THREE.LineBasicMaterial();
+    this.shown = null;
+  }
+
+  paint(surface, edge) {
+    for (const material of Object.values(this.materials)) material.color.set(surface);
+    this.edges.color.set(edge);
+  }
+
+  clip(plane) {
+    this.materials.shell.clippingPlanes = plane ? [plane] : null;
+  }
+
+  /// Shows the walls of a frame; those of the next one `share` on its way are too near to be told apart.
+  show(walls) {
+    if (walls === this.shown) return;
+    this.shown = walls;
+    for (const child of [...this.group.children]) {
+      child.geometry.dispose();
+      this.group.remove(child);
+    }
+    for (const wall of walls) {
+      if (wall.shape === "plane" && wall.point_m[2] < -1e-6) continue; // the ground below a table
+      const { side, rims } = geometryOf(wall, this.reach);
+      const surface = new THREE.Mesh(side, this.materials[wall.shape]);
+      surface.renderOrder = wall.shape === "shell" ? 2 : 1;
+      this.group.add(surface, ...rims.map((rim) => new THREE.Line(rim, this.edges)));
+    }
+  }
+}

@@ -1,0 +1,69 @@
+// The drawings of a test (calibrate/laboratory/drawing.h): a heap with its dimensions, a curve over its strength.
+import { element, figure } from "./dom.js";
+import { plusMinus, unitOf } from "./numbers.js";
+import { colour, legend, Plot } from "./plots.js";
+
+const middle = ([x1, y1], [x2, y2]) => [(x1 + x2) / 2, (y1 + y2) / 2];
+const isUpright = ({ from, to }) => from[0] === to[0];
+
+/// The box of all that is drawn.
+function boxOf({ bands, lines, lengths }) {
+  const points = [...bands.flatMap(({ points: some }) => some.flatMap(([x, low, high]) => [[x, low], [x, high]])),
+    ...lines.flatMap((line) => line.points), ...lengths.flatMap(({ from, to }) => [from, to])];
+  const range = (axis) => [Math.min(...points.map((point) => point[axis])), Math.max(...points.map((point) => point[axis]))];
+  return { x: range(0), y: range(1) };
+}
+
+/// A length: thin lines from what it is the distance of, arrows at both ends, and its value.
+function lengthMarks(length) {
+  const stroke = colour[length.by], centre = middle(length.from, length.to);
+  const unit = unitOf(length.reading);
+  const text = `${plusMinus(length.value, length.deviation)} ${unit}`;
+  const links = [[length.first, length.from], [length.last, length.to]].map(([[x1, y1], [x2, y2]]) => ({ x1, y1, x2, y2 }));
+  const arrows = [length.from, length.to].map(([x2, y2]) => ({ x1: centre[0], y1: centre[1], x2, y2 }));
+  const ends = { x1: "x1", y1: "y1", x2: "x2", y2: "y2", stroke };
+  return [
+    Plot.link(links, { ...ends, strokeWidth: 0.7, strokeDasharray: "2 3" }),
+    Plot.arrow(arrows, { ...ends, strokeWidth: 1.4, headLength: 7, headAngle: 40 }),
+    Plot.text([{ x: centre[0], y: centre[1] }], { x: "x", y: "y", text: () => text, fill: stroke, stroke: "var(--page)", strokeWidth: 4,
+      rotate: isUpright(length) ? -90 : 0, dy: isUpright(length) ? 0 : -8, dx: isUpright(length) ? -8 : 0, fontWeight: 600 }),
+  ];
+}
+
+function lineMarks({ by, points, deviation }) {
+  const stroke = colour[by];
+  const band = deviation > 0 ? [Plot.areaY(points, { x: "0", y1: ([, y]) => y - deviation, y2: ([, y]) => y + deviation, fill: stroke, fillOpacity: 0.15 })] : [];
+  return [...band, Plot.line(points, { stroke, strokeWidth: by === "apparatus" ? 1.2 : 2.2, strokeDasharray: by === "apparatus" ? "5 3" : by === "laboratory" ? "8 3" : null })];
+}
+
+function drawn(drawing, width) {
+  const { x, y } = boxOf(drawing);
+  const margins = { marginLeft: 52, marginRight: 24, marginTop: 16, marginBottom: 42 };
+  const scale = (width - margins.marginLeft - margins.marginRight) / (x[1] - x[0]);
+  const height = drawing.to_scale ? Math.round((y[1] - y[0]) * scale * 1.08 + margins.marginTop + margins.marginBottom) : Math.round(Math.min(420, 0.6 * width));
+  const pad = drawing.to_scale ? 0.04 * (y[1] - y[0]) : 0;
+  return Plot.plot({
+    width, height, ...margins, style: { fontSize: "13px", background: "none" },
+    x: { label: drawing.x, domain: x, labelAnchor: "center", labelArrow: "none" },
+    y: { label: drawing.y, domain: drawing.to_scale ? [y[0] - pad, y[1] + pad] : [Math.min(0, y[0]), 1.05 * y[1]], labelArrow: "none", ticks: drawing.to_scale ? 5 : undefined },
+    marks: [
+      ...drawing.bands.map(({ points }) => Plot.areaY(points, { x: "0", y1: "1", y2: "2", fill: colour.simulation, fillOpacity: 0.22 })),
+      ...drawing.lines.flatMap(lineMarks),
+      ...drawing.lengths.flatMap(lengthMarks),
+    ],
+  });
+}
+
+function legendOf({ bands, lines, lengths }) {
+  const entries = [...bands.map(({ name }) => [name, "band"]), ...lines.map(({ name, by }) => [name, `line ${by}`])];
+  const told = new Set();
+  for (const { by } of lengths) if (!told.has(by)) told.add(by);
+  for (const by of told) entries.push([by === "laboratory" ? "the laboratory's lengths \u00b1 deviation" : "simulated lengths, means", `line ${by}`]);
+  return legend(entries);
+}
+
+export function drawingFigure(drawing) {
+  return figure({ class: "test-drawing" }, (width) => drawn(drawing, width),
+    element("figcaption", {}, element("strong", {}, drawing.name), legendOf(drawing)));
+}
+

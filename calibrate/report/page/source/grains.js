@@ -1,0 +1,141 @@
+// Grains as impostors: each is one point, and the spheres are computed for every pixel, so that ten thousand of them
+// cost two triangles each less than one of a mesh would.
+import * as THREE from "three";
+import { interpolateViridis } from "d3";
+
+const vertexShader = /* glsl */ `
+in vec3 position;
+in float radius;
+in float value;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform float pixels;
+out vec3 centre;
+out float size;
+out float shade;
+
+const float room = 1.3; // a sphere off the axis looks longer than it is
+
+void main() {
+  vec4 place = modelViewMatrix * vec4(position, 1.0);
+  centre = place.xyz;
+  size = radius;
+  shade = value;
+  gl_Position = projectionMatrix * place;
+  gl_PointSize = room * radius * projectionMatrix[1][1] * pixels / -place.z;
+}`;
+
+// The ray of the pixel meets the sphere; where the slice has cut the near part away it meets the cut instead.
+const fragmentShader = /* glsl */ `
+precision highp float;
+in vec3 centre;
+in float size;
+in float shade;
+uniform mat4 projectionMatrix;
+uniform sampler2D ramp;
+uniform bool sliced;
+uniform vec4 slice; // in the camera's frame; what lies on its negative side is cut away
+out vec4 colour;
+
+const float room = 1.3;
+const vec3 light = normalize(vec3(-0.4, 0.7, 0.8));
+
+void main() {
+  vec2 off = room * size * vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
+  vec3 ray = normalize(centre + vec3(off, 0.0));
+  float along = dot(ray, centre);
+  float inside = along * along - dot(centre, centre) + size * size;
+  if (inside < 0.0) discard;
+  float half_way = sqrt(inside), way = along - half_way;
+  vec3 place = way * ray, normal = (place - centre) / size;
+  float rim = 1.0;
+  if (sliced && dot(slice.xyz, place) + slice.w < 0.0) {
+    float to_cut = -slice.w / dot(slice.xyz, ray);
+    if (to_cut < way || to_cut > along + half_way) discard;
+    place = to_cut * ray;
+    normal = -slice.xyz;
+    // A thin rim tells one cut grain from the next.
+    vec3 from_centre = place - centre;
+    float cut_radius = sqrt(max(size * size - pow(dot(from_centre, slice.xyz), 2.0), 1e-12));
+    rim = smoothstep(0.0, 0.14, 1.0 - length(from_centre - dot(from_centre, slice.xyz) * slice.xyz) / cut_radius);
+    rim = 0.45 + 0.55 * rim;
+  }
+  vec4 clip = projectionMatrix * vec4(place, 1.0);
+  gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
+  vec3 own = texture(ramp, vec2(shade, 0.5)).rgb;
+  float bright = 0.42 + 0.62 * max(dot(normal, light), 0.0);
+  colour = vec4(rim * bright * own, 1.0);
+}`;
+
+/// The colours from 0 to 1, also for legends.
+export const rampColour = interpolateViridis;
+
+function rampTexture() {
+  const count = 256, bytes = new Uint8Array(4 * count);
+  for (let i = 0; i < count; ++i) {
+    const { r, g, b } = new THREE.Color(rampColour(i / (count - 1)));
+    bytes.set([255 * r, 255 * g, 255 * b, 255], 4 * i);
+  }
+  const texture = new THREE.DataTexture(bytes, count, 1);
+  texture.magFilter = texture.minFilter = THREE.LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/// The grains of a film in a scene.
+export class Grains {
+  constructor(film) {
+    this.film = film;
+    this.extremes = film.extremes();
+    const geometry = new THREE.BufferGeometry();
+    const dynamic = (width) => new THREE.BufferAttribute(new Float32Array(width * film.most), width).setUsage(THREE.DynamicDrawUsage);
+    geometry.setAttribute("position", dynamic(3));
+    geometry.setAttribute("radius", dynamic(1));
+    geometry.setAttribute("value", dynamic(1));
+    this.material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader,
+      fragmentShader,
+      uniforms: {
+        pixels: { value: 1 },
+        ramp: { value: rampTexture() },
+        sliced: { value: false },
+        slice: { value: new THREE.Vector4() },
+      },
+    });
+    this.points = new THREE.Points(geometry, this.material);
+    this.points.frustumCulled = false;
+  }
+
+  /// Moves the grains to a time, straight from one frame to the next; `by`: "height", "speed" or "coordination".
+  show(time, by) {
+    const { reel, one, other, share } = this.film.at(time);
+    const { low, quantum } = this.film;
+    const { position, radius, value } = this.points.geometry.attributes;
+    const [places, radii, values] = [position.array, radius.array, value.array];
+    for (let axis = 0; axis < 3; ++axis) {
+      const from = one.places[axis], to = other.places[axis];
+      for (let i = 0; i < reel.count; ++i)
+        places[3 * i + axis] = low[axis] + quantum * (from[i] + share * (to[i] - from[i]));
+    }
+    radii.set(reel.radii);
+    const [fastest, top, most] = [255, this.extremes.height, this.extremes.touching];
+    for (let i = 0; i < reel.count; ++i) {
+      if (by === "speed") values[i] = (one.speeds[i] + share * (other.speeds[i] - one.speeds[i])) / fastest;
+      else if (by === "coordination") values[i] = one.touching[i] / most;
+      else values[i] = places[3 * i + 2] / top;
+    }
+    this.points.geometry.setDrawRange(0, reel.count);
+    for (const attribute of [position, radius, value]) attribute.needsUpdate = true;
+    return { one, share, other };
+  }
+
+  /// To be called before every picture: `height` of the picture in pixels; `plane` in the world, or null.
+  prepare(camera, height, plane) {
+    const { pixels, sliced, slice } = this.material.uniforms;
+    pixels.value = height;
+    sliced.value = plane !== null;
+    if (!plane) return;
+    const seen = plane.clone().applyMatrix4(camera.matrixWorldInverse);
+    slice.value.set(seen.normal.x, seen.normal.y, seen.normal.z, seen.constant);
+  }
+}

@@ -1,0 +1,57 @@
+// What the readings leave open: the misfit over two parameters, and the materials that meet them as well.
+import { element, figure, section } from "./dom.js";
+import { number } from "./numbers.js";
+import { colour, legend, plot, Plot } from "./plots.js";
+
+const levels = [1, 2, 3, 5, 8];
+const shades = ["var(--shade-0)", "var(--shade-1)", "var(--shade-2)", "var(--shade-3)", "var(--shade-4)", "var(--shade-5)"];
+
+/// The edges of the fields of an axis: its points lie in their middles.
+function edges({ lower, upper, scale }, points) {
+  const there = scale === "log" ? Math.log : (x) => x, back = scale === "log" ? Math.exp : (x) => x;
+  const at = (k) => back(there(lower) + (Math.min(Math.max(k, 0), points - 1) / (points - 1)) * (there(upper) - there(lower)));
+  return Array.from({ length: points + 1 }, (_, k) => at(k - 0.5));
+}
+
+function drawn({ x, y, points, miss, equivalent, simulated }, width) {
+  const [xs, ys] = [edges(x, points), edges(y, points)];
+  const fields = miss.map((value, k) => ({ value, column: k % points, row: Math.floor(k / points) }));
+  const axis = ({ name, scale, lower, upper }) => ({ label: name, type: scale, domain: [lower, upper], tickFormat: scale === "log" ? "~g" : undefined, nice: false, grid: false });
+  return plot(width, {
+    className: "map",
+    height: Math.round(Math.min(460, 0.7 * width)),
+    x: axis({ ...x }), y: axis({ ...y }),
+    color: { type: "threshold", domain: levels, range: shades },
+    marks: [
+      Plot.rect(fields, { x1: ({ column }) => xs[column], x2: ({ column }) => xs[column + 1], y1: ({ row }) => ys[row], y2: ({ row }) => ys[row + 1], fill: "value", inset: -0.3, shapeRendering: "crispEdges" }),
+      Plot.dot(simulated, { x: "0", y: "1", r: 2, fill: colour.quiet }),
+      Plot.dot(equivalent.slice(1), { x: "0", y: "1", r: 6, symbol: "diamond", fill: colour.equivalent, stroke: "var(--page)" }),
+      Plot.dot(equivalent.slice(0, 1), { x: "0", y: "1", r: 7, symbol: "star", fill: colour.laboratory, stroke: "var(--page)" }),
+      Plot.tip(fields, Plot.pointer({ x: ({ column }) => (xs[column] + xs[column + 1]) / 2, y: ({ row }) => (ys[row] + ys[row + 1]) / 2,
+        title: ({ value, column, row }) => `${number(value, 2)} standard deviations\n${x.name} ${number((xs[column] + xs[column + 1]) / 2, 3)}\n${y.name} ${number((ys[row] + ys[row + 1]) / 2, 3)}`, fill: "var(--card)" })),
+    ],
+  });
+}
+
+function levelLegend() {
+  const words = [`below ${levels[0]}`, ...levels.slice(1).map((level, k) => `${levels[k]} to ${level}`), `above ${levels.at(-1)}`];
+  return words.map((text, k) => [k === 0 ? `${text} standard deviations from the laboratory` : text, `field shade-${k}`]);
+}
+
+function familyTable({ family }) {
+  const names = Object.keys(family[0].values), readings = Object.keys(family[0].readings);
+  return element("div", { class: "wide" }, element("table", {}, element("caption", {}, "Materials that meet the laboratory as well as any, as far as is known; the first is the recommended one"),
+    element("thead", {}, element("tr", {}, ...[...names, ...readings].map((name) => element("th", { class: "number" }, name.replace(/[_.]/g, "$&\u200b"))), element("th", {}, "known from"))),
+    element("tbody", {}, ...family.map((one) => element("tr", {}, ...names.map((name) => element("td", { class: "number" }, number(one.values[name], 3))),
+      ...readings.map((name) => element("td", { class: "number" }, number(one.readings[name], 4))), element("td", {}, one.simulated ? "simulation" : "neighbours"))))));
+}
+
+export function openPart({ inference, search }) {
+  if (!inference) return null;
+  const map = search.map;
+  return section("open", "What is determined, and what is not", `From ${inference.simulations} simulations of this study.`,
+    element("pre", { class: "words" }, inference.words.trimEnd()),
+    map ? figure({}, (width) => drawn(map, width), element("figcaption", {}, element("strong", {}, `Predicted misfit over ${map.x.name} and ${map.y.name}, the other parameters as recommended`),
+      legend([...levelLegend(), ["recommended", "mark star"], ["equivalent materials; their other parameters differ too", "mark diamond"], ["simulated", "mark dot"]]))) : null,
+    familyTable(inference));
+}

@@ -1,0 +1,41 @@
+// Numbers as people read them.
+
+const minus = "\u2212";
+
+/// So many significant digits, plain where that is short.
+export function number(value, digits = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
+  const size = Math.abs(value);
+  const text =
+    size !== 0 && (size >= 1e6 || size < 1e-3)
+      ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+      : String(Number(value.toPrecision(digits)));
+  return text.replace(/-/g, minus);
+}
+
+export function signed(value, digits = 3) {
+  return value > 0 ? `+${number(value, digits)}` : number(value, digits);
+}
+
+export function plusMinus(value, deviation, digits = 4) {
+  return deviation > 0 ? `${number(value, digits)} \u00b1 ${number(deviation, 2)}` : number(value, digits);
+}
+
+const unitsOfNames = [["_mm", "mm"], ["_pa", "Pa"], ["_kg", "kg"], ["_g", "g"], ["_rad_s", "rad/s"], ["_s", "s"], ["_n", "N"]];
+
+/// The unit that stands at the end of a name: "step1.height_mm" -> "mm".
+export function unitOf(name) {
+  return unitsOfNames.find(([end]) => name.endsWith(end))?.[1] ?? "";
+}
+
+/// The name without its unit, for people: "step1.height_mm" -> "step 1, height".
+export function words(name) {
+  const unit = unitsOfNames.find(([end]) => name.endsWith(end))?.[0] ?? "";
+  return name.slice(0, name.length - unit.length).replace(/^step(\d)\./, "step $1, ").replace(/\./g, ", ").replace(/_/g, " ");
+}
+
+export function duration(seconds) {
+  if (seconds < 90) return `${number(seconds, 2)} s`;
+  if (seconds < 5400) return `${Math.round(seconds / 60)} min`;
+  return `${number(seconds / 3600, 2)} h`;
+}

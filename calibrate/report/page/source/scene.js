@@ -1,0 +1,125 @@
+// A film in three dimensions: camera, light, slice. Draws only when something has changed.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Apparatus } from "./apparatus.js";
+import { Grains } from "./grains.js";
+
+THREE.ColorManagement.enabled = false; // colours of the page stay as they are
+
+/// Where the camera stands, over the size of what it looks at.
+const views = { slanted: [0.9, -1.9, 0.75], front: [0, -2.2, 0.12], side: [2.2, 0, 0.12], top: [0, -0.01, 2.4] };
+
+export class Scene {
+  /// Throws if the browser does not draw in three dimensions.
+  constructor(canvas, film) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.renderer.localClippingEnabled = true;
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 20);
+    this.camera.up.set(0, 0, 1);
+    this.scene = new THREE.Scene();
+    this.grains = new Grains(film);
+    const { height } = this.grains.extremes;
+    this.size = Math.max(1.15 * height, 0.55 * this.width(film));
+    this.apparatus = new Apparatus(0.8 * this.size);
+    this.scene.add(this.grains.points, this.apparatus.group);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = this.controls.enableZoom = false;
+    // Who scrolls the page does not want to zoom, unless the picture was clicked; who swipes upwards neither.
+    canvas.addEventListener("focus", () => (this.controls.enableZoom = true));
+    canvas.addEventListener("blur", () => (this.controls.enableZoom = false));
+    canvas.style.touchAction = "pan-y";
+    this.controls.minDistance = 0.3 * this.size;
+    this.controls.maxDistance = 6 * this.size;
+    this.controls.target.set(0, 0, 0.42 * height);
+    this.controls.addEventListener("change", () => this.ask());
+    this.plane = null;
+    this.colouredBy = "height";
+    this.time = film.begin;
+    this.pictures = 0;
+    this.look("slanted");
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
+  }
+
+  /// How wide the grains lie in the end.
+  width(film) {
+    const last = film.reels.at(-1).frames.at(-1);
+    let far = 0;
+    for (const axis of [0, 1])
+      for (const steps of last.places[axis]) far = Math.max(far, Math.abs(film.low[axis] + steps * film.quantum));
+    return 2 * far;
+  }
+
+  look(name) {
+    const [x, y, z] = views[name];
+    this.camera.position.set(this.size * x, this.size * y, this.size * z + this.controls.target.z);
+    this.controls.update();
+    this.ask();
+  }
+
+  turn(around, up) {
+    const from = this.camera.position.clone().sub(this.controls.target);
+    const round = new THREE.Spherical().setFromVector3(new THREE.Vector3(from.x, from.z, -from.y));
+    round.theta += around;
+    round.phi = Math.min(Math.max(round.phi - up, 0.05), Math.PI - 0.05);
+    const to = new THREE.Vector3().setFromSpherical(round);
+    this.camera.position.copy(this.controls.target).add(new THREE.Vector3(to.x, -to.z, to.y));
+    this.controls.update();
+    this.ask();
+  }
+
+  slice(on) {
+    this.plane = on ? new THREE.Plane(new THREE.Vector3(0, 1, 0), 0) : null;
+    this.apparatus.clip(this.plane);
+    this.ask();
+  }
+
+  colourBy(what) {
+    this.colouredBy = what;
+    this.ask();
+  }
+
+  show(time) {
+    this.time = time;
+    this.ask();
+  }
+
+  /// Takes the colours of the page, which has to hold the canvas.
+  paint() {
+    const style = getComputedStyle(this.canvas);
+    this.renderer.setClearColor(style.getPropertyValue("--stage").trim());
+    this.apparatus.paint(style.getPropertyValue("--glass").trim(), style.getPropertyValue("--edge").trim());
+    this.ask();
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth === 0) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    // A narrow picture shows as much of the width as a square one.
+    this.camera.fov = 32 * Math.max(1, 1.25 / this.camera.aspect);
+    this.camera.updateProjectionMatrix();
+    this.paint();
+  }
+
+  ask() {
+    if (this.asked) return;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.draw();
+    });
+  }
+
+  draw() {
+    const { one } = this.grains.show(this.time, this.colouredBy);
+    this.apparatus.show(one.walls);
+    this.camera.updateMatrixWorld();
+    this.grains.prepare(this.camera, this.renderer.domElement.height, this.plane);
+    this.renderer.render(this.scene, this.camera);
+    ++this.pictures;
+  }
+}

@@ -1,0 +1,255 @@
+#include "calibrate/report/page_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/inference/words.h"
+#include "calibrate/report/film_code.h"
+#include "calibrate/report/law_curves.h"
+#include "calibrate/report/rounded.h"
+#include "calibrate/report/search_history.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tolerance.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json parameters_of(const Findings& findings) {
+  const Card& card = *findings.card;
+  auto out = ordered_json::array();
+  for (const Parameter& parameter : card.material.parameters) {
+    if (!has_parameter(card.material.contact, parameter.name)) continue;
+    const auto kind = std::ranges::find(parameter_kinds(), parameter.name, &ParameterKind::name);
+    ordered_json one{{"name", parameter.name},
+                     {"meaning", kind == parameter_kinds().end() ? "" : std::string(kind->meaning)},
+                     {"value", parameter.value},
+                     {"free", parameter.free}};
+    if (parameter.free) {
+      one["lower"] = parameter.lower;
+      one["upper"] = parameter.upper;
+      one["scale"] = parameter.scale == Scale::logarithmic ? "log" : "linear";
+    }
+    const auto& known = card.inference;
+    for (const auto& interval : known.intervals)
+      if (interval.parameter == parameter.name) one["interval"] = {interval.lower, interval.upper};
+    for (const auto& unseen : known.not_identified)
+      if (unseen.parameter == parameter.name) one["not_identified"] = unseen.reason;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+ordered_json readings_of(const CardTest& test, std::size_t packings) {
+  auto out = ordered_json::array();
+  for (const CardObservable& one : test.observables) {
+    ordered_json reading{{"name", one.name},
+                         {"simulated", one.simulated},
+                         {"simulated_standard_deviation", one.simulated_standard_deviation},
+                         {"standard_error", one.simulated_standard_deviation /
+                                                std::sqrt(std::max<double>(1, static_cast<double>(packings)))}};
+    if (one.measured) {
+      reading["measured"] = *one.measured;
+      reading["standard_deviation"] = one.standard_deviation;
+      reading["repeats"] = one.repeats;
+      reading["weight"] = one.weight;
+      reading["tolerance"] = one.tolerance;
+    }
+    if (one.band) reading["band"] = *one.band;
+    out.push_back(std::move(reading));
+  }
+  return out;
+}
+
+ordered_json rounded_point(const DrawnPoint& point) {
+  return {rounded(point[0]), rounded(point[1])};
+}
+
+std::string word_of(DrawnBy by) {
+  return by == DrawnBy::laboratory ? "laboratory" : by == DrawnBy::simulation ? "simulation" : "apparatus";
+}
+
+ordered_json json_of(const Drawing& drawing) {
+  ordered_json out{{"name", drawing.name}, {"x", drawing.x}, {"y", drawing.y}, {"to_scale", drawing.to_scale}};
+  for (const char* part : {"bands", "lines", "lengths"}) out[part] = ordered_json::array();
+  for (const DrawnBand& band : drawing.bands) {
+    auto points = ordered_json::array();
+    for (const auto& [x, low, high] : band.points) points.push_back({rounded(x), rounded(low), rounded(high)});
+    out["bands"].push_back({{"name", band.name}, {"points", std::move(points)}});
+  }
+  for (const DrawnLine& line : drawing.lines) {
+    auto points = ordered_json::array();
+    for (const DrawnPoint& point : line.points) points.push_back(rounded_point(point));
+    out["lines"].push_back({{"name", line.name},
+                            {"by", word_of(line.by)},
+                            {"points", std::move(points)},
+                            {"deviation", rounded(line.deviation)}});
+  }
+  for (const DrawnLength& length : drawing.lengths)
+    out["lengths"].push_back({{"reading", length.reading},
+                              {"by", word_of(length.by)},
+                              {"from", rounded_point(length.from)},
+                              {"to", rounded_point(length.to)},
+                              {"first", rounded_point(length.first)},
+                              {"last", rounded_point(length.last)},
+                              {"value", length.value},
+                              {"deviation", length.deviation}});
+  return out;
+}
+
+std::vector<Measurement> measurements_of(const CardTest& test) {
+  std::vector<Measurement> out;
+  for (const CardObservable& one : test.observables)
+    if (one.measured) out.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
+  return out;
+}
+
+/// The runs of the view with the card's own readings, and those of the packings that were not looked at: means over
+/// them are the card's.
+std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
+  std::vector<SeenRun> runs = view.runs;
+  for (const auto& known : test.baseline.runs) {
+    const auto seen = std::ranges::find(runs, known.packing, &SeenRun::packing);
+    if (seen == runs.end())
+      runs.push_back({known.packing, known.observables, {}, {}});
+    else
+      seen->readings = known.observables;
+  }
+  return runs;
+}
+
+/// What the film shows, and whether it is the same run as the card's.
+ordered_json run_shown(const CardTest& test, const TestView& view) {
+  if (view.runs.empty()) return {};
+  const SeenRun& shown = view.runs.front();
+  ordered_json out{{"packing", shown.packing}, {"program", program_identity()}, {"same_as_card", false}};
+  for (const auto& run : test.baseline.runs) {
+    if (run.packing != shown.packing) continue;
+    out["same_as_card"] = std::ranges::all_of(
+        run.observables.all(), [&](const Observable& one) { return shown.readings.find(one.name) == one.value; });
+  }
+  return out;
+}
+
+ordered_json test_of(const Findings& findings, std::size_t index) {
+  const Card& card = *findings.card;
+  const CardTest& test = card.tests[index];
+  ordered_json out{{"name", test.name},
+                   {"kind", kind_of(test.test)},
+                   {"hold_out", test.hold_out},
+                   {"source", test.lab.source},
+                   {"notes", test.lab.notes},
+                   {"licence", test.lab.licence},
+                   {"twin", test.lab.twin},
+                   {"lab_file", test.lab_file},
+                   {"lab_hash", test.lab_hash},
+                   {"conditions", conditions_in_words(test.test)},
+                   {"grain_radius_mm", 1e3 * specimen_of(test.test).grains.radius_m}};
+  if (test.within_noise) out["within_noise"] = *test.within_noise;
+  out["readings"] = readings_of(test, card.confirmation.packings.size());
+  std::vector<Observables> runs;
+  for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
+  const std::string remarks = remarks_on(test.test, runs);
+  out["remarks"] = remarks.empty() ? "" : remarks + ".";
+  out["drawings"] = ordered_json::array();
+  if (index >= findings.views.size()) return out;
+  const TestView& view = findings.views[index];
+  for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), measurements_of(test)))
+    out["drawings"].push_back(json_of(drawing));
+  out["packings_drawn"] = view.runs.size();
+  if (view.film.frames() > 0) out["film"] = film_index(view.film);
+  out["run_shown"] = run_shown(test, view);
+  return out;
+}
+
+ordered_json inference_of(const Inference& inference) {
+  ordered_json out{{"words", words_of(inference)}, {"simulations", inference.simulations}};
+  for (std::size_t i = 0; i < inference.fitted.size(); ++i)
+    out["noise"][inference.fitted[i]] = rounded(inference.noise[i]);
+  for (const ParameterInterval& one : inference.intervals)
+    out["intervals"].push_back({{"name", one.name},
+                                {"lower", rounded(one.lower)},
+                                {"upper", rounded(one.upper)},
+                                {"lower_known", one.lower_known},
+                                {"upper_known", one.upper_known},
+                                {"held", {rounded(one.held_lower), rounded(one.held_upper)}}});
+  for (const EquivalentMaterial& one : inference.family) {
+    auto values = ordered_json::object(), readings = ordered_json::object();
+    for (std::size_t i = 0; i < one.values.size(); ++i) values[inference.intervals[i].name] = rounded(one.values[i]);
+    for (std::size_t i = 0; i < one.readings.size(); ++i) readings[inference.fitted[i]] = rounded(one.readings[i]);
+    out["family"].push_back({{"values", std::move(values)},
+                             {"readings", std::move(readings)},
+                             {"simulated", one.simulated},
+                             {"miss", rounded(one.miss, 3)}});
+  }
+  return out;
+}
+
+/// What the laboratory measured, by the names of readings.
+ordered_json measured_in(const Study& study) {
+  auto out = ordered_json::object();
+  for (const StudyTest& test : study.tests)
+    for (const Measurement& one : test.lab.measurements) out[one.observable] = rounded(one.value);
+  return out;
+}
+
+ordered_json search_of(const Findings& findings) {
+  ordered_json out{{"program", findings.program}, {"measured", ordered_json::object()}};
+  double seconds = 0;
+  for (const StoredEvaluation& one : findings.evaluations) seconds += one.wall_s;
+  out["wall_s"] = seconds;
+  if (findings.study) {
+    const MisfitUnit unit = misfit_unit_of(*findings.study);
+    out["misfit_unit"] = unit.name();
+    out["misfit_asked"] = unit.of(1);
+    out["measured"] = measured_in(*findings.study);
+  }
+  if (findings.card) {
+    const SearchRecord& search = findings.card->search;
+    out["strategy"] = search.strategy;
+    out["status"] = search.status;
+    out["reason"] = search.reason;
+    out["budget"] = search.budget;
+    out["coarse"] = search.coarse_simulations;
+    out["failures"] = search.failures;
+    out["seed"] = search.seed;
+  }
+  out["history"] = search_history(findings);
+  out["map"] = misfit_map(findings);
+  return out;
+}
+
+}  // namespace
+
+ordered_json page_content(const Findings& findings, const std::string& command) {
+  ordered_json out{{"format", "pastefit-page-1"}, {"command", command}, {"program", program_identity()}};
+  out["missing"] = findings.missing;
+  out["under_way"] = findings.under_way;
+  if (findings.study) out["title"] = findings.study->title;
+  if (findings.card) {
+    const Card& card = *findings.card;
+    out["verdict"] = {{"words", verdict_of(card)},        {"meets_laboratory", card.confirmation.meets_laboratory},
+                      {"status", card.search.status},     {"misfit", card.confirmation.misfit},
+                      {"fresh", card.confirmation.fresh}, {"packings", card.confirmation.packings}};
+    out["parameters"] = parameters_of(findings);
+    out["interval_level"] = card.inference.level;
+    out["radius_mm"] = 1e3 * card.material.grains.radius_m;
+    out["tests"] = ordered_json::array();
+    for (std::size_t i = 0; i < card.tests.size(); ++i) out["tests"].push_back(test_of(findings, i));
+    out["law"] = law_curves(card, findings.inference);
+    out["summary"] = summary_of(card);
+    out["provenance"] = {{"study_file", card.provenance.study_file},
+                         {"study_hash", card.provenance.study_hash},
+                         {"program", card.provenance.program}};
+  }
+  if (findings.inference) out["inference"] = inference_of(*findings.inference);
+  out["search"] = search_of(findings);
+  return out;
+}
+
+}  // namespace pastefit

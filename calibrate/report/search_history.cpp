@@ -1,0 +1,144 @@
+#include "calibrate/report/search_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "calibrate/card/card_study.h"
+#include "calibrate/inference/response_model.h"
+#include "calibrate/report/rounded.h"
+#include "calibrate/search/early_end.h"
+#include "calibrate/search/record.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tolerance.h"
+
+namespace pastefit {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kMapPoints = 41;  // along either side
+
+/// The test of the study that an evaluation is of; nothing if it is of none, as those with coarse grains are.
+std::optional<std::size_t> test_of(const Study& study, const std::string& program, const StoredEvaluation& evaluation) {
+  for (std::size_t i = 0; i < study.tests.size(); ++i) {
+    const std::string key = key_of(study, i, evaluation.values, evaluation.packing, program);
+    if (key == evaluation.key) return i;
+    const auto cutoff = cutoff_of(study, i);
+    if (cutoff && key_of_ended(key, *cutoff) == evaluation.key) return i;
+  }
+  return std::nullopt;
+}
+
+/// Largest difference of a fitted reading over its tolerance; nothing if none was taken.
+std::optional<double> misfit_of(const Study& study, std::size_t index, const Observables& readings) {
+  const StudyTest& test = study.tests[index];
+  std::optional<double> largest;
+  for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
+    const Measurement& measured = test.lab.measurements[i];
+    const auto value = readings.find(measured.observable);
+    if (test.targets[i].weight <= 0 || !value || !std::isfinite(*value)) continue;
+    largest = std::max(largest.value_or(0), std::abs(*value - measured.value) / tolerance_of(study, index, i));
+  }
+  return largest;
+}
+
+ordered_json numbers_of(const Observables& readings) {
+  auto out = ordered_json::object();
+  for (const Observable& reading : readings.all())
+    if (std::isfinite(reading.value)) out[reading.name] = rounded(reading.value);
+  return out;
+}
+
+/// Values of those parameters that are told, by name.
+ordered_json values_told(const Findings& findings, const StoredEvaluation& evaluation) {
+  auto out = ordered_json::object();
+  const auto kinds = parameter_kinds();
+  for (std::size_t i = 0; i < kinds.size() && i < evaluation.values.size(); ++i) {
+    const bool told = findings.study ? findings.study->parameters[i].free : evaluation.values[i] != kinds[i].usual;
+    if (told) out[std::string(kinds[i].name)] = rounded(evaluation.values[i]);
+  }
+  return out;
+}
+
+/// The test that an evaluation is of, how far off it is, and whether it confirmed the card.
+void judge(const Findings& findings, const StoredEvaluation& evaluation, ordered_json& point) {
+  const Study& study = *findings.study;
+  const auto index = test_of(study, findings.program, evaluation);
+  if (!index) {
+    point["other_grains"] = true;
+    return;
+  }
+  if (!study.tests[*index].name.empty()) point["test"] = study.tests[*index].name;
+  if (const auto misfit = evaluation.failure ? std::nullopt : misfit_of(study, *index, evaluation.observables))
+    point["misfit"] = rounded(misfit_unit_of(study).of(*misfit));
+  if (!findings.card) return;
+  const auto& packings = findings.card->confirmation.packings;
+  const bool confirming = std::ranges::find(packings, evaluation.packing) != packings.end();
+  if (confirming && evaluation.values == values_of(findings.card->material)) point["confirmation"] = true;
+}
+
+/// The two coordinates that the readings see best, as places among the free parameters: the leads of the best
+/// determined combination and of the first one with another lead.
+std::array<std::size_t, 2> directions_that_matter(const Inference& inference) {
+  const std::size_t first = inference.combinations.front().lead;
+  for (const Combination& combination : inference.combinations)
+    if (combination.lead != first) return {first, combination.lead};
+  return {first, first == 0 ? std::size_t{1} : std::size_t{0}};
+}
+
+ordered_json axis_of(const Parameter& parameter) {
+  return {{"name", parameter.name},
+          {"lower", parameter.lower},
+          {"upper", parameter.upper},
+          {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}};
+}
+
+}  // namespace
+
+ordered_json search_history(const Findings& findings) {
+  auto out = ordered_json::array();
+  for (const StoredEvaluation& evaluation : findings.evaluations) {
+    ordered_json point{{"number", out.size() + 1}, {"packing", evaluation.packing}};
+    point["values"] = values_told(findings, evaluation);
+    point["readings"] = numbers_of(evaluation.observables);
+    if (evaluation.failure)
+      point["failure"] = std::string(name_of(evaluation.failure->reason)) + ": " + evaluation.failure->message;
+    if (evaluation.run.ended_early) point["ended_early"] = true;
+    point["wall_s"] = rounded(evaluation.wall_s, 3);
+    if (findings.study) judge(findings, evaluation, point);
+    out.push_back(std::move(point));
+  }
+  return out;
+}
+
+ordered_json misfit_map(const Findings& findings) {
+  if (!findings.inference || !findings.evidence || findings.evidence->parameters.size() < 2) return {};
+  const Evidence& evidence = *findings.evidence;
+  const ResponseModel model(evidence);
+  const auto [x, y] = directions_that_matter(*findings.inference);
+  const Parameter &along = evidence.parameters[x], &up = evidence.parameters[y];
+  UnitPoint point = point_of(*findings.card);
+  ordered_json out{{"x", axis_of(along)}, {"y", axis_of(up)}, {"points", kMapPoints}};
+  auto& miss = out["miss"] = ordered_json::array();
+  for (int row = 0; row < kMapPoints; ++row)
+    for (int column = 0; column < kMapPoints; ++column) {
+      point[static_cast<Eigen::Index>(x)] = column / (kMapPoints - 1.0);
+      point[static_cast<Eigen::Index>(y)] = row / (kMapPoints - 1.0);
+      miss.push_back(rounded(model.miss(point), 3));
+    }
+  auto& equivalent = out["equivalent"] = ordered_json::array();
+  for (const EquivalentMaterial& one : findings.inference->family)
+    equivalent.push_back({rounded(one.values.at(x)), rounded(one.values.at(y))});
+  std::set<std::pair<double, double>> simulated;
+  for (const UnitPoint& one : evidence.points)
+    simulated.emplace(rounded(value_between(along, one[static_cast<Eigen::Index>(x)])),
+                      rounded(value_between(up, one[static_cast<Eigen::Index>(y)])));
+  auto& places = out["simulated"] = ordered_json::array();
+  for (const auto& [first, second] : simulated) places.push_back({first, second});
+  return out;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/report/links.h"
+#include "calibrate/report/vtk.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr int kSides = 72;  // of what is round
+
+/// How far from the axis grains lie: what is shown of an infinite plane.
+double reach_of(const Particles& grains) {
+  double reach = 0;
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    const Motion& motion = grains.motion[i];
+    reach =
+        std::max({reach, std::fabs(motion.position.x) + motion.radius, std::fabs(motion.position.y) + motion.radius});
+  }
+  return 1.2 * reach;
+}
+
+/// Adds walls to a frame, one after the other.
+class WallDraftsman {
+ public:
+  explicit WallDraftsman(double reach) : reach_(reach) {}
+
+  void draw(const Wall& wall) {
+    std::visit([this](const auto& shape) { add(shape); }, wall.shape);
+    frame_.walls.resize(frame_.quadrangles.size(), wall_++);
+  }
+
+  WallFrame take() { return std::move(frame_); }
+
+ private:
+  std::int64_t corner(const Vec3& place) {
+    frame_.corners_m.push_back(place);
+    return std::ssize(frame_.corners_m) - 1;
+  }
+
+  void add_rectangle(const Vec3& centre, const Vec3& along, const Vec3& across) {
+    frame_.quadrangles.push_back({corner(centre - along - across), corner(centre + along - across),
+                                  corner(centre + along + across), corner(centre - along + across)});
+  }
+
+  void add(const Plate& plate) {
+    add_rectangle(plate.centre, plate.half_length * plate.along, plate.half_width * plate.across);
+  }
+
+  void add(const Plane& plane) {
+    const Vec3 aside = std::fabs(plane.normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 along = cross(aside, plane.normal);
+    const Vec3 unit = (1 / norm(along)) * along;
+    add_rectangle(plane.point, reach_ * unit, reach_ * cross(plane.normal, unit));
+  }
+
+  void add(const Shell& shell) {
+    const auto corner_at = [&](int side, double radius, double height) {
+      const double angle = 2 * std::numbers::pi * side / kSides;
+      return corner(shell.base + Vec3{radius * std::cos(angle), radius * std::sin(angle), height});
+    };
+    for (int side = 0; side < kSides; ++side)
+      frame_.quadrangles.push_back({corner_at(side, shell.base_radius, 0), corner_at(side + 1, shell.base_radius, 0),
+                                    corner_at(side + 1, shell.top_radius, shell.height),
+                                    corner_at(side, shell.top_radius, shell.height)});
+  }
+
+  double reach_;
+  std::int32_t wall_ = 0;
+  WallFrame frame_;
+};
+
+}  // namespace
+
+GrainFrame grain_frame(const World& world) {
+  GrainFrame frame;
+  const auto touching = coordination_of(world);
+  frame.coordination.assign(touching.begin(), touching.end());
+  for (std::int32_t i = 0; i < world.particles.count(); ++i) {
+    const Motion& motion = world.particles.motion[i];
+    frame.positions_m.push_back(motion.position);
+    frame.velocities_m_s.push_back(motion.velocity);
+    frame.spins_rad_s.push_back(world.particles.spin[i].velocity);
+    frame.radii_m.push_back(motion.radius);
+  }
+  return frame;
+}
+
+LinkFrame link_frame(const World& world) {
+  LinkFrame frame;
+  for (const Link& link : links_of(world)) {
+    for (const std::int32_t grain : {link.first, link.second})
+      frame.ends_m.push_back(world.particles.motion[grain].position);
+    frame.touching.push_back(link.touching ? 1 : 0);
+    frame.overlaps_m.push_back(link.overlap_m);
+    frame.forces_n.push_back(link.force_n);
+  }
+  return frame;
+}
+
+WallFrame wall_frame(const World& world) {
+  WallDraftsman draftsman(reach_of(world.particles));
+  for (const Wall& wall : world.walls) draftsman.draw(wall);
+  return draftsman.take();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""The page of a calibration, as the program writes it; in a browser it is looked at by tests/page.
+
+usage: test_report.py PROGRAM SOURCE_DIR
+"""
+
+import base64
+import json
+import re
+import shutil
+import sys
+import unittest
+import zlib
+
+from desk import CARD, Desk, run
+
+MOST_BYTES = 3_000_000
+
+
+def element_of(page, name):
+    found = re.search(rf'<script type="[^"]*" id="{name}">(.*?)</script>', page, re.S)
+    return found.group(1) if found else None
+
+
+def content_of(folder):
+    return json.loads(element_of((folder / "report.html").read_text(), "content"))
+
+
+class Report(Desk):
+    def page_of(self, folder, *options):
+        result = run("report", folder, *options)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return result, content_of(folder)
+
+    def test_calibrate_writes_the_page_of_its_card_and_report_writes_it_again(self):
+        self.calibrates(self.study(budget=12, screening=6))
+        file = self.out / "report.html"
+        self.assertLess(file.stat().st_size, MOST_BYTES)
+        first = content_of(self.out)
+        card = json.loads((self.out / "card.json").read_text())
+        self.assertEqual(first["title"], card["title"])
+        self.assertEqual(first["missing"], [])
+        self.assertEqual({one["name"]: one["value"] for one in first["parameters"]}.items()
+                         & card["material"]["parameters"].items(),
+                         {one["name"]: one["value"] for one in first["parameters"]}.items())
+        for reading in first["tests"][0]["readings"]:
+            known = card["tests"][0]["observables"][reading["name"]]
+            self.assertEqual(reading["simulated"], known["simulated"])
+        self.assertTrue(first["tests"][0]["run_shown"]["same_as_card"])
+        self.assertEqual(len(first["search"]["history"]), card["search"]["simulations"])
+        file.unlink()
+        _, second = self.page_of(self.out)
+        for content in (first, second):  # what is inferred is worked out anew, of all that the folder holds
+            content.pop("inference", None)
+            content["search"].pop("map")
+            content["law"] = [curve for curve in content["law"] if curve["role"] != "equivalent"]
+        self.assertEqual(first, second)
+
+    def test_the_film_holds_every_grain_of_every_frame(self):
+        self.calibrates(self.study())
+        page = (self.out / "report.html").read_text()
+        film = content_of(self.out)["tests"][0]["film"]
+        data = zlib.decompress(base64.b64decode(element_of(page, "film-0")))
+        self.assertEqual(len(data), sum(reel["grains"] * (2 + 8 * len(reel["frames"])) for reel in film["reels"]))
+        phases = {frame["phase"] for reel in film["reels"] for frame in reel["frames"]}
+        self.assertEqual(phases, {"fill.pour", "fill.strike", "fill.rest", "fill.settle", "step1.lift", "step1.rest"})
+
+    def test_a_card_alone_has_a_page_that_says_what_it_lacks(self):
+        self.out.mkdir()
+        shutil.copy(CARD, self.out / "card.json")
+        result, content = self.page_of(self.out, "--quick")
+        self.assertIn("The simulations of the search are not shown", result.stderr)
+        self.assertEqual(content["search"]["history"], [])
+        self.assertNotIn("film", content["tests"][0])
+
+    def test_a_store_alone_has_a_page_of_its_search(self):
+        self.calibrates(self.study())
+        (self.out / "card.json").unlink()
+        result, content = self.page_of(self.out)
+        self.assertIn("There is no card.json", result.stderr)
+        self.assertEqual(len(content["search"]["history"]), 4)
+        self.assertNotIn("verdict", content)
+
+    def test_hostile_texts_stay_texts(self):
+        self.out.mkdir()
+        card = json.loads(CARD.read_text())
+        card["title"] = "</script><script>alert(1)</script>"
+        (self.out / "card.json").write_text(json.dumps(card))
+        _, content = self.page_of(self.out, "--quick")
+        self.assertEqual(content["title"], card["title"])
+        self.assertNotIn("<script>alert", (self.out / "report.html").read_text())
+
+    def test_what_is_no_result_is_refused_and_nothing_is_written(self):
+        self.out.mkdir()
+        self.fails(run("report", self.out), 2, "holds neither card.json nor evaluations.sqlite")
+        self.assertEqual(list(self.out.iterdir()), [])
+        self.fails(run("report", self.out / "none"), 2, "is no folder")
+        self.fails(run("report", CARD), 2, "is no folder")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,154 @@
+// The page of a calibration in a browser: node --test page.test.js, with
+//   PASTEFIT_PAGE   the page of a calibration that ended
+//   PASTEFIT_PARTS  a folder with pages of folders that lack something, each NAME.html
+//   PASTEFIT_SHOTS  a folder for pictures of the page, to be looked at by a person
+import assert from "node:assert/strict";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
+
+const file = process.env.PASTEFIT_PAGE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
+const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
+let browser, page;
+
+before(async () => {
+  browser = await openBrowser();
+  page = await openPage(browser, file);
+});
+after(async () => browser.close());
+
+test("the page loads without a fault, and asks nothing of a network", async () => {
+  const ready = await filmIsThere(page);
+  console.log(`film shown after ${Math.round(ready)} ms`);
+  assert.deepEqual(page.faults, []);
+  assert.deepEqual(page.requests.filter((url) => !url.startsWith("data:") && !url.startsWith("blob:")), [page.own]);
+  assert.equal(await page.locator(".notice").filter({ hasText: "could not be drawn" }).count(), 0);
+});
+
+test("a request that somebody puts into the page is refused", async () => {
+  const refused = await page.evaluate(() => fetch("https://example.org/").then(() => false, () => true));
+  assert.ok(refused);
+  page.faults.length = 0;
+});
+
+test("the page says what the card says", async () => {
+  const content = JSON.parse(await page.locator("#content").textContent());
+  assert.equal(await page.locator("h1").textContent(), card.title);
+  for (const [name, value] of Object.entries(card.material.parameters)) {
+    const told = content.parameters.find((one) => one.name === name);
+    if (told) assert.equal(told.value, value, name);
+  }
+  const readings = card.tests[0].observables;
+  assert.deepEqual(content.tests[0].readings.map((one) => one.name).sort(), Object.keys(readings).sort());
+  for (const reading of content.tests[0].readings) {
+    assert.equal(reading.simulated, readings[reading.name].simulated);
+    assert.equal(reading.measured ?? null, readings[reading.name].measured);
+  }
+  assert.deepEqual(content.tests[0].run_shown, { packing: card.confirmation.packings[0], program: content.program, same_as_card: true });
+  assert.equal(content.search.history.filter((point) => point.confirmation).length, card.confirmation.packings.length);
+  const free = await page.locator("#parameters tbody tr").count();
+  assert.equal(free, Object.keys(card.material.free).length);
+});
+
+test("the scene draws, plays, turns and is sliced", async () => {
+  const first = await pixels(page);
+  assert.ok(first.colours > 50, `${first.colours} colours`);
+  assert.ok(first.drawn > 0.1, `${first.drawn} of the picture is drawn`);
+  await page.locator(".play").click();
+  const before = await page.evaluate(() => [document.querySelector(".player").player.time, document.querySelector(".player").player.scene.pictures, performance.now()]);
+  await page.waitForTimeout(1500);
+  const later = await page.evaluate(() => [document.querySelector(".player").player.time, document.querySelector(".player").player.scene.pictures, performance.now()]);
+  console.log(`${(((later[1] - before[1]) * 1e3) / (later[2] - before[2])).toFixed(1)} pictures a second`);
+  assert.ok(later[0] > before[0]);
+  await page.locator(".play").click();
+  await drawn(page);
+  const played = await pixels(page);
+  assert.notEqual(played.sum, first.sum);
+  await page.locator(".toggle input").check();
+  await drawn(page);
+  const sliced = await pixels(page);
+  assert.notEqual(sliced.sum, played.sum);
+  await page.locator("canvas.stage").focus();
+  await page.keyboard.press("ArrowLeft");
+  await drawn(page);
+  assert.notEqual((await pixels(page)).sum, sliced.sum);
+  await page.locator("label.choice", { hasText: "Colour" }).locator("select").selectOption("speed");
+  await drawn(page);
+  assert.notEqual((await pixels(page)).sum, sliced.sum);
+  assert.deepEqual(page.faults, []);
+});
+
+test("every phase of the test is in the film", async () => {
+  const phases = await page.locator(".phases button").evaluateAll((buttons) => buttons.map((button) => button.dataset.phase));
+  assert.deepEqual(phases, ["fill.pour", "fill.strike", "fill.rest", "fill.settle", "step1.lift", "step1.rest"]);
+});
+
+test("every plot has its data", async () => {
+  const content = JSON.parse(await page.locator("#content").textContent());
+  const count = (selector) => page.locator(selector).count();
+  assert.ok((await count(".test-drawing svg path")) >= 5);
+  assert.ok((await count(".test-drawing svg text")) >= 4);
+  assert.ok((await count("#law svg path")) >= content.law.length);
+  const marks = await page.locator("#search .with-card svg g[aria-label=dot] path, #search .with-card svg g[aria-label=dot] circle").count();
+  assert.ok(marks >= content.search.history.length, `${marks} marks of ${content.search.history.length} simulations`);
+  assert.equal(await count("#open svg g[aria-label=rect] rect"), content.search.map.miss.length);
+  assert.ok((await count("#open tbody tr")) >= 1);
+});
+
+test("hovering shows a candidate, and so do the arrow keys", async () => {
+  const plot = page.locator("#search .with-card svg.history");
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
+  await page.mouse.move(box.x + box.width * 0.52, box.y + box.height * 0.5);
+  await page.locator(".candidate").waitFor({ timeout: 5000 });
+  assert.match(await page.locator(".candidate").textContent(), /Simulation \d+/);
+  assert.ok((await page.locator(".candidate-picture circle").count()) > 0);
+  await page.locator(".with-card").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.match(await page.locator(".candidate").textContent(), /Simulation \d+/);
+});
+
+for (const [name, options] of Object.entries({
+  light: { colorScheme: "light" },
+  dark: { colorScheme: "dark" },
+  phone: { colorScheme: "light", viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 },
+}))
+  test(`the page fits its window: ${name}`, async () => {
+    const other = await openPage(browser, file, options);
+    await filmIsThere(other);
+    await drawn(other);
+    const [wide, window] = await other.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(wide <= window, `${wide} pixels in a window of ${window}`);
+    if (shots) await other.screenshot({ path: join(shots, `${name}.png`), fullPage: true });
+    assert.deepEqual(other.faults, []);
+    await other.context().close();
+  });
+
+test("the page can be printed", async () => {
+  const paper = await openPage(browser, file, { viewport: { width: 794, height: 1123 } });
+  await filmIsThere(paper);
+  await paper.emulateMedia({ media: "print" });
+  await drawn(paper);
+  assert.equal(await paper.locator("nav").isVisible(), false);
+  if (shots) await paper.screenshot({ path: join(shots, "print.png"), fullPage: true });
+  assert.deepEqual(paper.faults, []);
+  await paper.context().close();
+});
+
+for (const name of parts && existsSync(parts) ? readdirSync(parts).filter((one) => one.endsWith(".html")) : [])
+  test(`a page of what is not whole says what is missing and shows the rest: ${name}`, async () => {
+    const other = await openPage(browser, join(parts, name));
+    await other.locator("h1").waitFor();
+    await drawn(other);
+    if (name !== "hostile.html") assert.ok((await other.locator("#missing li").count()) > 0);
+    if (name === "hostile.html") {
+      assert.equal(await other.locator("h1").textContent(), "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;");
+      assert.equal(await other.locator("h1 *").count(), 0);
+    }
+    assert.equal(await other.locator(".notice").filter({ hasText: "could not be drawn" }).count(), 0);
+    if (shots) await other.screenshot({ path: join(shots, `${name}.png`), fullPage: true });
+    assert.deepEqual(other.faults, []);
+    await other.context().close();
+  });

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Tests of the page of a calibration that need npm, node and a browser; without them they are skipped (status 77).
+
+usage: run.py bundle SOURCE_DIR WORK_DIR              builds the page anew and compares it with the one that is shipped
+       run.py browser PROGRAM SOURCE_DIR WORK_DIR     looks at the page of a calibration in Chromium
+       run.py picture PROGRAM SOURCE_DIR WORK_DIR     makes the picture of the README, of the shipped card of concrete mix 20
+
+WORK_DIR keeps the packages of npm between runs, the pages, and pictures of them (WORK_DIR/shots).
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+SKIPPED = 77
+HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;"
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(SKIPPED)
+
+
+def need(*commands):
+    for command in commands:
+        if not shutil.which(command):
+            skip(f"there is no {command} (.ci/install .ci/packages-page.txt)")
+
+
+def with_packages(source, work):
+    """Copies a folder with a package-lock.json, without what was built in it, and installs what it locks."""
+    work.mkdir(parents=True, exist_ok=True)
+    shutil.copytree(source, work, dirs_exist_ok=True, ignore=shutil.ignore_patterns("node_modules", "built"))
+    lock, installed = work / "package-lock.json", work / "node_modules/installed.json"
+    if installed.exists() and installed.read_bytes() == lock.read_bytes():
+        return
+    result = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=work, capture_output=True,
+                            text=True)
+    if result.returncode != 0:
+        skip(f"npm could not install the packages of {source.name}:\n{result.stderr}")
+    shutil.copy(lock, installed)
+
+
+def bundle(source, work):
+    page = source / "calibrate/report/page"
+    with_packages(page, work / "bundle")
+    subprocess.run(["node", "build.mjs", "built"], cwd=work / "bundle", check=True)
+    different = [name for name in ("page.html", "licences.txt")
+                 if (work / "bundle/built" / name).read_bytes() != (page / "built" / name).read_bytes()]
+    if different:
+        sys.exit(f"{', '.join(different)} in {page / 'built'} is not what its sources give: npm ci && npm run build there")
+    print("the shipped page is what its sources give")
+
+
+def pastefit(program, *arguments):
+    return subprocess.run([program, *arguments], capture_output=True, text=True)
+
+
+def report(program, folder, page):
+    """The page of a folder, without simulating, as `page`."""
+    result = pastefit(program, "report", folder, "--quick")
+    if result.returncode != 0:
+        sys.exit(f"{folder}: {result.stderr}")
+    shutil.copy(folder / "report.html", page)
+
+
+def part_of(result, place, *names):
+    place.mkdir()
+    for name in names:
+        shutil.copy(result / name, place)
+    return place
+
+
+def make_parts(program, result, work):
+    """Pages of folders that are not whole: {work}/NAME.html."""
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    card, store = "card.json", "evaluations.sqlite"
+    report(program, part_of(result, work / "1", card), work / "no-store.html")
+    report(program, part_of(result, work / "2", store), work / "no-card.html")
+    damaged = part_of(result, work / "3", card, store)
+    (damaged / card).write_text((damaged / card).read_text()[:3000])
+    report(program, damaged, work / "damaged-card.html")
+    damaged = part_of(result, work / "4", card, store)
+    (damaged / store).write_bytes((damaged / store).read_bytes()[:5000])
+    report(program, damaged, work / "damaged-store.html")
+    hostile = part_of(result, work / "5", card, store)
+    content = json.loads((hostile / card).read_text())
+    content["title"] = HOSTILE
+    content["search"]["reason"] = HOSTILE
+    content["tests"][0]["lab"].update(source=HOSTILE, notes=HOSTILE + "<!--", licence="<script>alert(3)</script>")
+    (hostile / card).write_text(json.dumps(content))
+    report(program, hostile, work / "hostile.html")
+
+
+def browser(program, source, work):
+    if not any(pathlib.Path("/usr/bin", name).exists() for name in ("chromium-headless-shell", "chromium")):
+        skip("there is no Chromium (.ci/install .ci/packages-page.txt)")
+    with_packages(source / "tests/page", work / "browser")
+    result = work / "result"
+    study = source / "tests/reliability/coarse-study.json"
+    made = pastefit(program, "calibrate", study, "--out", result, "--force")
+    if not (result / "report.html").exists():
+        sys.exit(made.stdout + made.stderr)
+    make_parts(program, result, work / "parts")
+    (work / "shots").mkdir(exist_ok=True)
+    environment = dict(os.environ, PASTEFIT_PAGE=str(result / "report.html"), PASTEFIT_PARTS=str(work / "parts"),
+                       PASTEFIT_SHOTS=str(work / "shots"))
+    sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=work / "browser", env=environment).returncode)
+
+
+def picture(program, source, work):
+    with_packages(source / "tests/page", work / "browser")
+    result = work / "mix-20"
+    result.mkdir(exist_ok=True)
+    shutil.copy(source / "data/cards/concrete-mix-20.json", result / "card.json")
+    pastefit(program, "report", result)
+    subprocess.run(["node", "picture.js", result / "report.html", source / "tests/page/concrete-mix-20.jpg"],
+                   cwd=work / "browser", check=True)
+
+
+def main():
+    need("node", "npm")
+    what, *places = sys.argv[1:]
+    {"bundle": bundle, "browser": browser, "picture": picture}[what](*[pathlib.Path(place).resolve() for place in places])
+
+
+if __name__ == "__main__":
+    main()
