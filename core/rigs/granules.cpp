@@ -38,7 +38,7 @@ LooseGrains struck_off(const LooseGrains& grains, double height) {
 
 }  // namespace
 
-FilledVessel fill_vessel(const Specimen& granules, const Filling& filling, LooseGrains loose, const Vessel& vessel,
+FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, LooseGrains loose, const Vessel& vessel,
                          const Posture& posture, const RunOptions& asked) {
   RunOptions options = with_bounds_of(granules, asked);
   // A fixed step, sleep and the ledger are meant for the test.
@@ -52,9 +52,9 @@ FilledVessel fill_vessel(const Specimen& granules, const Filling& filling, Loose
     take_grains(world, filled.grains);
   };
   World sinking = vessel(loose);
-  sinking.drag = kGravity / filling.pour_speed_m_s;
-  settle(std::move(sinking), "fill.pour", top_of(loose) / filling.pour_speed_m_s);
-  if (!filled.failure) settle(vessel(struck_off(filled.grains, filling.height_m)), "fill.strike", 0);
+  sinking.drag = kGravity / pouring.pour_speed_m_s;
+  settle(std::move(sinking), "fill.pour", top_of(loose) / pouring.pour_speed_m_s);
+  if (!filled.failure) settle(vessel(struck_off(filled.grains, pouring.height_m)), "fill.strike", 0);
   return filled;
 }
 

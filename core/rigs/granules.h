@@ -22,7 +22,7 @@ struct FilledVessel {
 using Vessel = std::function<World(const LooseGrains&)>;
 
 /// How a vessel is filled.
-struct Filling {
+struct Pouring {
   double height_m = 0;        ///< to which it is filled and struck off
   double pour_speed_m_s = 1;  ///< at which granules arrive
 };
@@ -30,7 +30,7 @@ struct Filling {
 /// Fills a vessel under the test's own laws: how densely granules that stick come to lie follows from how much they
 /// stick and how fast they arrive. They sink as in a liquid; what lies above the fill height is scraped away, and the
 /// rest closes up where its neighbours are gone. `loose`: more than enough of them, above each other.
-FilledVessel fill_vessel(const Specimen& granules, const Filling& filling, LooseGrains loose, const Vessel& vessel,
+FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, LooseGrains loose, const Vessel& vessel,
                          const Posture& posture, const RunOptions& options);
 
 /// The run failed because less than `emptiest` of the vessel is solid.

@@ -34,8 +34,8 @@ struct ShearCell : Specimen {
   double normal_stress_pa = 2000;     ///< of the lid, weight and force together
   double lid_speed_m_s = 0.1;         ///< at which the lid sinks where nothing resists
   double shear_speed_m_s = 3.813e-5;  ///< of the base: the laboratory's
-  double shear_speedup = 100;
-  double final_displacement_m = 0.009;  ///< of the base
+  double shear_speedup = 500;
+  double final_displacement_m = 0.0114;  ///< of the base
 
   WallContact tools{2.11e11, 0.33, 0.2, 0.0, 0.0, 0.0};  ///< plates, ribs and sides: polished steel
 };
