@@ -38,8 +38,8 @@ LooseGrains struck_off(const LooseGrains& grains, double height) {
 
 }  // namespace
 
-FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, LooseGrains loose, const Vessel& vessel,
-                         const Posture& posture, const RunOptions& asked) {
+FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
+                         const Vessel& vessel, const Posture& posture, const RunOptions& asked) {
   RunOptions options = with_bounds_of(granules, asked);
   // A fixed step, sleep and the ledger are meant for the test.
   options.steps.fixed_step_s.reset();

@@ -30,8 +30,8 @@ struct Pouring {
 /// Fills a vessel under the test's own laws: how densely granules that stick come to lie follows from how much they
 /// stick and how fast they arrive. They sink as in a liquid; what lies above the fill height is scraped away, and the
 /// rest closes up where its neighbours are gone. `loose`: more than enough of them, above each other.
-FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, LooseGrains loose, const Vessel& vessel,
-                         const Posture& posture, const RunOptions& options);
+FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
+                         const Vessel& vessel, const Posture& posture, const RunOptions& options);
 
 /// The run failed because less than `emptiest` of the vessel is solid.
 Failure bridged(const FilledVessel& filled, double solid_fraction, double emptiest);
