@@ -14,6 +14,7 @@
 #include "calibrate/laboratory/drop.h"
 #include "calibrate/laboratory/measurement.h"
 #include "calibrate/laboratory/pellet.h"
+#include "calibrate/laboratory/shear.h"
 #include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
@@ -21,7 +22,7 @@ namespace pastefit {
 /// A laboratory test of any kind. To add a kind: a folder in core/rigs with the apparatus as a value that begins with a
 /// `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what each
 /// does, calibrate/laboratory/usual_answers.h what a kind need not say), and its row in this list.
-using Test = std::variant<SlumpTest, DropTest, PelletCrush>;
+using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&

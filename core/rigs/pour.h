@@ -20,6 +20,15 @@ struct LooseGrains {
 LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double solid_volume_m3, double widest_m,
                  const std::function<double(double)>& inner_radius);
 
+/// A box to pour into: 0 <= x < `length_m`, which repeats, and sides at y = -`width_m`/2 and `width_m`/2, above
+/// `floor_m`.
+struct OpenBox {
+  double length_m = 0, width_m = 0, floor_m = 0;
+};
+
+/// The same in such a box, above its floor. Requirement: two of the largest grains fit across each side.
+LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double solid_volume_m3, const OpenBox& box);
+
 /// 4/3 pi r^3.
 double sphere_volume_m3(double radius_m);
 

@@ -135,7 +135,7 @@ template <class Normal, class Attraction, class Rolling>
 PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, ContactBatch& c, int lane,
                                   Tally& tally) {
   const Grains a = gather(task, c.i + lane), b = gather(task, c.j + lane);
-  const Vector between = b.position - a.position;
+  const Vector between = task.domain.way(a.position, b.position);
   const Real square = larger(dot(between, between), Real(1e-200));
   const Real distance = square_root(square);
 
@@ -175,7 +175,7 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& 
                                    Tally& tally) {
   const Real zero(0.0);
   const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
-  const Vector between = b.position - a.position;
+  const Vector between = task.domain.way(a.position, b.position);
   const Real distance = square_root(larger(dot(between, between), Real(1e-200)));
   const Real overlap = a.radius + b.radius - distance;
   Real alive = Real::load(c.bridge + lane);
@@ -197,7 +197,7 @@ PASTEFIT_INLINE bool some_touch(const KernelTask& task, const ContactBatch& c) {
   bool touch = false;
   for (int lane = 0; lane < kBatch; lane += kWidth) {
     const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
-    const Vector between = b.position - a.position;
+    const Vector between = task.domain.way(a.position, b.position);
     const Real reach = a.radius + b.radius;
     touch |= any(dot(between, between) < reach * reach) || any(Real::load(c.root_contact_radius + lane) > Real(0.0));
   }

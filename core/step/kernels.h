@@ -8,6 +8,7 @@
 #include "core/laws/contact.h"
 #include "core/laws/table.h"
 #include "core/world/batches.h"
+#include "core/world/domain.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
@@ -37,6 +38,7 @@ struct KernelTask {
   BridgeBatch* bridges;
   WallBatch* wall;  ///< beside `contacts`
   Stretch stretch;
+  Domain domain;
   PairConstants pair;
   double dt;
   EnergySums* energy;

@@ -67,7 +67,7 @@ void Lists::let_sleep() {
 
 void Lists::list_candidates() {
   Particles& particles = world_.particles;
-  rebuild(particles, world_.pairs, world_.walls.size(), world_.reach(), skin_);
+  rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_);
   listed_.resize(particles.count());
   for (std::int32_t i = 0; i < particles.count(); ++i) listed_[i] = particles.motion[i].position;
   leeway_.rooms.resize(particles.count());
@@ -122,8 +122,8 @@ Deepest Lists::select_pairs() {
   team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
     const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
     if (!strayed_[b] && !next_strayed) return;
-    deepest[b] = pastefit::select_pairs(world_.particles, blocks[b], world_.particles.count() + b, selections_[member],
-                                        world_.reach(), leeway_);
+    deepest[b] = pastefit::select_pairs(world_.particles, world_.domain, blocks[b], world_.particles.count() + b,
+                                        selections_[member], world_.reach(), leeway_);
     if (sleepers_) sleepers_->note_chosen(b);
   });
   return *std::max_element(deepest.begin(), deepest.end(),

@@ -53,7 +53,7 @@ double elastic_energy(const World& world) {
       const std::int32_t i = block.contacts.first(k), j = block.contacts.second(k);
       if (i == j) continue;  // padding
       const Motion &a = world.particles.motion[i], &b = world.particles.motion[j];
-      const double overlap = a.radius + b.radius - norm(b.position - a.position);
+      const double overlap = a.radius + b.radius - norm(world.domain.way(a.position, b.position));
       sum += held(world.grain_pair, block.contacts.root_radius(k), overlap);
     }
   for (const Block& block : world.pairs.blocks)
@@ -167,6 +167,7 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
   task.motion = world_.particles.motion.data();
   task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
+  task.domain = world_.domain;
   task.pair = pair;
   task.dt = dt_;
   task.energy = &energy_[block];

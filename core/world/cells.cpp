@@ -12,26 +12,35 @@ double component(const Vec3& v, int axis) {
 
 }  // namespace
 
-Cells::Cells(const Particles& particles, double size) {
+Cells::Cells(const Particles& particles, const Domain& domain, double size) {
   Vec3 low = particles.motion[0].position, high = low;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Vec3& p = particles.motion[i].position;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  rows_close_ = domain.repeats();
+  if (rows_close_) {
+    low.x = 0;
+    high.x = domain.period;
+  }
   // A handful of stray grains must not make the grid huge: larger cells are slower, never wrong.
   const double most_cells = 64.0 * particles.count() + 1000;
   const Vec3 span = high - low;
   while ((span.x / size + 1) * (span.y / size + 1) * (span.z / size + 1) > most_cells) size *= 1.3;
   origin_ = low;
-  inverse_size_ = 1 / size;
+  inverse_size_.fill(1 / size);
   const auto cells_along = [&](int axis) { return static_cast<std::int32_t>(component(span, axis) / size) + 1; };
-  std::stable_sort(axis_.begin(), axis_.end(), [&](int a, int b) { return cells_along(a) < cells_along(b); });
+  std::stable_sort(axis_.begin() + (rows_close_ ? 1 : 0), axis_.end(),
+                   [&](int a, int b) { return cells_along(a) < cells_along(b); });
   for (int k = 0; k < 3; ++k) n_[k] = cells_along(axis_[k]);
+  if (!rows_close_) return;
+  n_[0] = std::max(static_cast<std::int32_t>(domain.period / size), 1);
+  inverse_size_[0] = n_[0] / domain.period;
 }
 
 std::int32_t Cells::along(double offset, int k) const {
-  const double cell = offset * inverse_size_;
+  const double cell = offset * inverse_size_[k];
   return cell > 0 ? std::min(static_cast<std::int32_t>(std::min(cell, 1e9)), n_[k] - 1) : 0;
 }
 

@@ -42,6 +42,14 @@ inline Nearest nearest_on(const Shell& shell, const Vec3& p) {
   return towards(p, shell.base + reach * outward + Vec3{0, 0, share * shell.height}, outward);
 }
 
+inline Nearest nearest_on(const Ribs& ribs, const Vec3& p) {
+  const Vec3 q = p - ribs.base;
+  const double x = q.x - ribs.pitch * std::floor(q.x / ribs.pitch + 0.5);  // from the middle of the nearest bar
+  const double half = 0.5 * ribs.thickness, low = std::min(ribs.height, 0.0), high = std::max(ribs.height, 0.0);
+  const Vec3 way{std::clamp(x, -half, half) - x, 0, std::clamp(q.z, low, high) - q.z};
+  return towards({}, way, {x > 0 ? -1.0 : 1.0, 0, 0});
+}
+
 /// True only if no point of the shape is within `range` of the point; cheaper than to look for the nearest one.
 inline bool is_surely_beyond(const Plane& plane, const Vec3& p, double range) {
   return dot(p - plane.point, plane.normal) >= range;
@@ -50,6 +58,11 @@ inline bool is_surely_beyond(const Plane& plane, const Vec3& p, double range) {
 inline bool is_surely_beyond(const Plate& plate, const Vec3& p, double range) {
   const Vec3 from_centre = p - plate.centre;
   return std::fabs(dot(from_centre, cross(plate.along, plate.across))) >= range;
+}
+
+inline bool is_surely_beyond(const Ribs& ribs, const Vec3& p, double range) {
+  const double z = p.z - ribs.base.z;
+  return z <= std::min(ribs.height, 0.0) - range || z >= std::max(ribs.height, 0.0) + range;
 }
 
 inline bool is_surely_beyond(const Shell& shell, const Vec3& p, double range) {

@@ -134,17 +134,27 @@ std::vector<Block> blocks_of(const Cells& cells, const std::vector<std::int32_t>
   return blocks;
 }
 
-/// Calls `look(begin, end)` for half of the neighbourhood of a cell's grains besides those of the cell: the cell after
-/// it, and the three cells above it in each later row. Cells of a row are neighbours in memory: three are one range.
+/// Calls `look(begin, end)` for half of the neighbourhood of a cell's grains besides those of the cell and the one
+/// after it: the cell before the first one of a closed row, and the three cells above it in each later row. Cells of a
+/// row are neighbours in memory: three are one range, across the seam two. A grain is always looked at by one before
+/// it.
 template <class Look>
 void look_around(const Cells& cells, const std::vector<std::int32_t>& first, std::int32_t x, std::int32_t y,
                  std::int32_t z, const Look& look) {
-  const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, cells.row_length() - 1);
+  const std::int32_t last = cells.row_length() - 1;
+  const bool across = cells.rows_close() && last > 1;  // the seam; in shorter rows all are beside each other
+  const std::int32_t left = std::max(x - 1, 0), right = std::min(x + 1, last);
   const auto look_row = [&](std::int32_t row_y, std::int32_t row_z) {
     if (row_y < 0 || row_y >= cells.rows() || row_z >= cells.layers()) return;
     const std::int32_t row = (row_z * cells.rows() + row_y) * cells.row_length();
     look(first[row + left], first[row + right + 1]);
+    if (across && x == 0) look(first[row + last], first[row + last + 1]);
+    if (across && x == last) look(first[row], first[row + 1]);
   };
+  if (across && x == 0) {
+    const std::int32_t row = (z * cells.rows() + y) * cells.row_length();
+    look(first[row + last], first[row + last + 1]);
+  }
   look_row(y + 1, z);
   for (std::int32_t dy = -1; dy <= 1; ++dy) look_row(y + dy, z + 1);
 }
@@ -162,11 +172,14 @@ void Candidates::add(std::int32_t j, std::int32_t place) {
   place_.push_back(place);
 }
 
-void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const AttractionReach& reach, double skin) {
+void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
+             double skin) {
   const std::int32_t n = particles.count();
+  if (domain.repeats())
+    for (std::int32_t i = 0; i < n; ++i) particles.motion[i].position = domain.put_back(particles.motion[i].position);
   const double largest = largest_radius(particles);
   const double farthest = std::max({reach.formation_gap, reach.rupture_gap, reach.tear_gap}) / reach.reference_radius;
-  const Cells cells(particles, 2 * largest + farthest * largest + skin);
+  const Cells cells(particles, domain, 2 * largest + farthest * largest + skin);
   const Sorted sorted = sort_by_cell(particles, cells);
   const std::vector<std::int32_t>& first = sorted.first;
   reorder(particles, sorted.order);
@@ -184,7 +197,7 @@ void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const Attrac
     const double widest = a.radius + largest + farthest * 2 * a.radius * largest / (a.radius + largest) + skin;
     for (std::int32_t j = begin; j < end; ++j) {
       const Motion& b = particles.motion[j];
-      const Vec3 between = b.position - a.position;
+      const Vec3 between = domain.way(a.position, b.position);
       if (dot(between, between) >= widest * widest) continue;
       const double range = a.radius + b.radius + farthest * 2 * a.radius * b.radius / (a.radius + b.radius) + skin;
       if (dot(between, between) >= range * range) continue;
@@ -223,8 +236,8 @@ void Selection::pad(std::int32_t dummy) {
   for (BridgeList* list : {&bridges, &dormant_bridges}) list->pad(dummy);
 }
 
-Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dummy, Selection& chosen,
-                     const AttractionReach& reach, const Leeway& leeway) {
+Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
+                     Selection& chosen, const AttractionReach& reach, const Leeway& leeway) {
   Candidates& candidates = block.candidates;
   chosen.clear();
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
@@ -235,7 +248,7 @@ Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dumm
     __builtin_prefetch(&leeway.rooms[ahead]);
     __builtin_prefetch(&leeway.own[ahead]);
     const Motion &a = particles.motion[i], &b = particles.motion[j];
-    const Vec3 between = b.position - a.position;
+    const Vec3 between = domain.way(a.position, b.position);
     const double square = dot(between, between), touch = a.radius + b.radius;
     const bool contact = place >= 0;
     const double alive = contact                     ? block.contacts.bridge(place)

@@ -6,6 +6,7 @@
 
 #include "core/team.h"
 #include "core/world/contacts.h"
+#include "core/world/domain.h"
 #include "core/world/particles.h"
 #include "core/world/walls.h"
 
@@ -109,8 +110,10 @@ struct AttractionReach {
 
 /// Sorts the grains in space (cells of the largest interaction plus skin), divides them into blocks, and lists all
 /// pairs whose gap is below reach + skin. Contacts and bridges keep their memory; it is turned where a pair's order
-/// changes. Of the walls the first ones stay what they were, if their number is another one now.
-void rebuild(Particles& particles, Pairs& pairs, std::size_t walls, const AttractionReach& reach, double skin);
+/// changes. Of the walls the first ones stay what they were, if their number is another one now. Where the domain
+/// repeats, grains are put back into it.
+void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
+             double skin);
 
 /// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
 /// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
@@ -138,8 +141,8 @@ struct Selection {
 /// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
 /// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
 /// for padding.
-Deepest select_pairs(const Particles& particles, Block& block, std::int32_t dummy, Selection& selection,
-                     const AttractionReach& reach, const Leeway& leeway);
+Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
+                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
 
 /// Lists the block's grains that touch a wall or may do so while they stay within their leeway, and the wall within its
 /// own [m].

@@ -34,6 +34,8 @@ void move(Wall& wall, double dt) {
     plate->across = turn_about_y(plate->across, sine, cosine);
   } else if (auto* shell = std::get_if<Shell>(&wall.shape)) {
     shell->base += shift;
+  } else if (auto* ribs = std::get_if<Ribs>(&wall.shape)) {
+    ribs->base += shift;
   }
   wall.pivot += shift;
 }

@@ -31,7 +31,15 @@ struct Shell {
   double base_radius = 0, top_radius = 0, height = 0;
 };
 
-using Shape = std::variant<Plane, Plate, Shell>;
+/// A row of equal bars across, along y, without end: solid, rectangular, one every `pitch` along x. `base` is the
+/// middle of one bar's foot; they stand on it where the height is positive, and hang from it where it is negative.
+/// Requirement: a grain fits between two of them, so that it touches one at a time.
+struct Ribs {
+  Vec3 base;
+  double thickness = 0, height = 0, pitch = 1;  ///< along x, along z, along x [m]
+};
+
+using Shape = std::variant<Plane, Plate, Shell, Ribs>;
 
 /// The nearest point of a wall as a grain sees it: unit vector from the grain's centre to it, and its distance.
 /// Behind a one-sided plane the distance is negative.

@@ -5,6 +5,7 @@
 
 #include "core/laws/constants.h"
 #include "core/laws/materials.h"
+#include "core/world/domain.h"
 #include "core/world/neighbours.h"
 #include "core/world/particles.h"
 #include "core/world/walls.h"
@@ -16,6 +17,7 @@ inline constexpr double kGravity = 9.81;  ///< [m/s^2], downwards along z
 /// What exists: grains, walls, their contacts, and the moment they are at.
 class World {
  public:
+  Domain domain;
   Particles particles;
   Pairs pairs;
   std::vector<Wall> walls;

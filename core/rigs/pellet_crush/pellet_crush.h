@@ -46,10 +46,6 @@ std::vector<ReadingKind> reading_kinds(const PelletCrush& test);
 /// Number of granules that are poured.
 double poured_grains(const PelletCrush& test);
 
-/// Speed of sound in a bed of these granules [m/s]: of a row of equal ones that overlap by a hundredth of their
-/// diameter, 2 R sqrt(S_n/m) with S_n = 2 E* a, a^2 = R* d. A loose bed is slower, a pressed one faster.
-double sound_speed_m_s(const Specimen& granules);
-
 /// Inner volume of the die up to the height to which it is filled [m^3], and the area of the pellet [m^2].
 double filled_volume_m3(const PelletCrush& test);
 double area_m2(const PelletCrush& test);

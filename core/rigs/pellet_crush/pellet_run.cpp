@@ -22,7 +22,7 @@ constexpr std::size_t kPunch = 1;
 /// Pressing and crushing, phase by phase, each as a person in the laboratory would say it.
 class Pressing {
  public:
-  Pressing(const PelletCrush& test, const FilledDie& filled, const RunOptions& options)
+  Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
       : test_(test), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {}
 
   std::optional<Failure> run() {
@@ -37,7 +37,7 @@ class Pressing {
   const std::vector<CurvePoint>& stress_over_strain() const { return curve_; }
 
  private:
-  static World filled_world(const PelletCrush& test, const FilledDie& filled) {
+  static World filled_world(const PelletCrush& test, const FilledVessel& filled) {
     World world;
     world.particles = make_particles(filled.grains.centres, filled.grains.radii, test.bulk_density_kg_m3);
     set_contact_model(world, test.contact, test.grains.radius_m);
@@ -144,7 +144,7 @@ class Pressing {
 
 Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   Outcome outcome;
-  const FilledDie filled = fill_die(test, asked);
+  const FilledVessel filled = fill_die(test, asked);
   outcome.run = filled.run;
   outcome.failure = filled.failure;
   if (outcome.failure) return outcome;

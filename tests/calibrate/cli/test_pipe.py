@@ -54,6 +54,8 @@ class Pipe(Desk):
             lab["grains"]["radius_mm"] = 14
         if kind == "pellet":
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.8}
+        if kind == "shear":
+            lab["grains"] = {"distribution": "mono", "radius_mm": 1.05}
         jsonschema.validate(lab, schema("lab"))
         study["search"].update(FEW)
         jsonschema.validate(study, schema("study"))
@@ -81,7 +83,7 @@ class Pipe(Desk):
                     self.done("export", card, "--to", target, "--out", out / target)
                     self.assertTrue((out / target / "parameters.csv").read_text().startswith("name,value,meaning"))
                 self.assertEqual((out / LAWS[0] / "grains.csv").exists(), is_slump(kind))
-                self.assertEqual((out / "film/curve.csv").exists(), kind == "pellet")
+                self.assertEqual((out / "film/curve.csv").exists(), kind in ("pellet", "shear"))
                 resumed = self.calibrated(self.folder / "study.json", "--out", out, "--resume")
                 self.assertEqual(json.loads(card.read_text()), document, resumed)
 

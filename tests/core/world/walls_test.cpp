@@ -92,3 +92,25 @@ TEST_CASE("a sliding sphere ends up rolling at five sevenths of its speed") {
   scene.run_by_itself(0.5);
   CHECK(scene.motion(0).velocity.x == Approx(0.1 * 5 / 7).epsilon(2e-3));
 }
+
+TEST_CASE("the nearest point of ribs is on the nearest bar: beside it, above it and at its edge") {
+  const Ribs standing{{0.1, 0, 0.02}, 0.004, 0.01, 0.05};
+  for (const double turns : {0.0, 3.0, -7.0}) {
+    const double x = 0.1 + turns * standing.pitch;
+    const Nearest beside = nearest(standing, {x + 0.012, 0.3, 0.025});
+    CHECK(beside.distance == Approx(0.01));
+    CHECK(beside.direction.x == Approx(-1));
+    const Nearest above = nearest(standing, {x - 0.001, 0.3, 0.036});
+    CHECK(above.distance == Approx(0.006));
+    CHECK(above.direction.z == Approx(-1));
+    const Nearest at_edge = nearest(standing, {x - 0.005, -0.3, 0.034});
+    CHECK(at_edge.distance == Approx(0.005));
+    CHECK(at_edge.direction.x == Approx(0.6));
+    CHECK(at_edge.direction.z == Approx(-0.8));
+  }
+  const Ribs hanging{{0, 0, 0.1}, 0.004, -0.01, 0.05};
+  const Nearest below = nearest(hanging, {0.05, 0, 0.08});
+  CHECK(below.distance == Approx(0.01));
+  CHECK(below.direction.z == Approx(1));
+  CHECK(nearest(hanging, {0.02, 0, 0.095}).distance == Approx(0.018));
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/rigs/granules.h"
 #include "core/world/world.h"
 
 namespace pastefit {

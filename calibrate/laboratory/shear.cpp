@@ -1,0 +1,236 @@
+#include "calibrate/laboratory/shear.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/object_writer.h"
+#include "calibrate/laboratory/specimen_json.h"
+
+namespace pastefit {
+namespace {
+
+constexpr double mm = 1000;  // millimetres in a metre
+constexpr std::array<std::string_view, 2> series{"filling", "grains"};
+constexpr Range any;  // the test's own `validate` knows the ranges
+constexpr Need required = Need::required;
+
+constexpr std::string_view lab_text =
+    R"(// What a laboratory measured in a shear cell: granules between a ribbed base that moves and a ribbed lid that is pressed on.
+// Lines like this one are comments; the unit is in each key.
+{
+  "format": "pastefit-lab-1",
+  "test": "shear",
+  "title": "my granules, batch 1",
+
+  // Where the data come from; it is carried through to the material card.
+  "provenance": {
+    "source": "laboratory, person, date",
+    "licence": "",
+    "notes": "",
+    "twin": false  // true: not measured, but made by a simulation with known parameters
+  },
+
+  "apparatus": {
+    "length_mm": 18,             // of the piece that is simulated, along the motion; it repeats without end
+    "width_mm": 23,              // between the sides
+    "fill_height_mm": 16,        // above the base plate, to which granules are poured and struck off
+    "lid_ribs": {"height_mm": 3, "thickness_mm": 0.8, "pitch_mm": 10.5},
+    "base_ribs": {"height_mm": 2, "thickness_mm": 1, "pitch_mm": 5.35},
+    "normal_stress_pa": 2000,    // of the lid, its weight and what presses on it
+    "shear_speed_mm_s": 0.03813, // of the base
+    "shear_speedup": 500,        // the simulation shears so many times as fast
+    "final_displacement_mm": 11.4 // of the base
+    // How the granules arrive in the cell decides how densely they lie: "pour_speed_mm_s": 1000
+    // How fast the lid sinks where nothing resists: "lid_speed_mm_s": 100
+    // Polished steel, to which nothing sticks: "tools": {"friction": 0, "rolling_friction": 0, "restitution": 0.2, "cohesion_factor": 0}
+  },
+
+  // Of a granule, not of the bed: how much of the cell the granules fill is a reading.
+  "material": {"bulk_density_kg_m3": 1000},
+
+  // Granules may be coarser than the laboratory's: forces keep their share of R^2. At least five between the ribs.
+  "grains": {"distribution": "normal", "radius_mm": 0.7, "standard_deviation_mm": 0.21, "smallest_mm": 0.7, "largest_mm": 1},
+
+  // Either value and standard deviation of one reading, or all repeats. The stress is what drags the lid along over its
+  // area, once it is steady. Besides: shear.peak_stress_pa, shear.height_mm of the lid above the base while sheared,
+  // bed.height_mm before that, bed.mass_g.
+  "measurements": {
+    "shear.stress_pa": {"value": 1050, "standard_deviation": 60}
+  }
+}
+)";
+
+constexpr std::string_view study_text =
+    R"(// Which contact parameters are fitted to a shear cell, and how. Lines like this one are comments.
+{
+  "format": "pastefit-study-1",
+  "title": "friction of my granules",
+  "lab": "lab.json",  // path as seen from this file
+
+  // Granules that stick where they touch. More laws: `pastefit template study`.
+  "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
+
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  "parameters": {
+    "friction": {"free": [0.1, 1]},
+    "adhesion_pa": {"value": 1286},  // surface energy over R, the mean radius
+    "rolling_friction": {"value": 0.01},
+    "restitution": {"value": 0.2},
+    "youngs_modulus_pa": {"value": 2400000},
+    "poissons_ratio": {"value": 0.2}
+  },
+
+  "search": {
+    "screening": 6,              // candidates spread over the bounds at the start
+    "budget_simulations": 40,    // in all, confirmation included
+    "packings": 2,               // random packings on which candidates are tried in turn
+    "confirmation_packings": 6,  // fresh packings for the best candidate
+    "examination_simulations": 6,
+    "tolerance_mm": 1,           // good enough, for heights; for a stress the laboratory's deviation
+    "seed": 1
+  }
+}
+)";
+
+template <class Fields, class Sizes>
+void describe_ribs(Fields& fields, Sizes& ribs) {
+  fields.number("height_m", ribs.height_m, any, required);
+  fields.number("thickness_m", ribs.thickness_m, any, required);
+  fields.number("pitch_m", ribs.pitch_m, any, required);
+}
+
+template <class Fields, class Test>
+void describe_test(Fields& fields, Test& test) {
+  fields.number("length_m", test.length_m, any, required);
+  fields.number("width_m", test.width_m, any, required);
+  fields.number("fill_height_m", test.fill_height_m, any, required);
+  fields.number("pour_speed_m_s", test.pour_speed_m_s, any, required);
+  fields.object("lid_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.lid_ribs); });
+  fields.object("base_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.base_ribs); });
+  fields.number("normal_stress_pa", test.normal_stress_pa, any, required);
+  fields.number("lid_speed_m_s", test.lid_speed_m_s, any, required);
+  fields.number("shear_speed_m_s", test.shear_speed_m_s, any, required);
+  fields.number("shear_speedup", test.shear_speedup, any, required);
+  fields.number("final_displacement_m", test.final_displacement_m, any, required);
+  describe_specimen(fields, test);
+  fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
+}
+
+void read_ribs(ObjectReader& apparatus, const char* key, RibSizes& ribs, Need need) {
+  constexpr Range height{0, 1000}, length{0, 1000, true};
+  apparatus.object(key, need, [&](ObjectReader& reader) {
+    reader.number("height_mm", ribs.height_m, height, need, mm);
+    reader.number("thickness_mm", ribs.thickness_m, length, need, mm);
+    reader.number("pitch_mm", ribs.pitch_m, length, need, mm);
+  });
+}
+
+}  // namespace
+
+std::vector<Surface> surfaces_of(ShearCell&) {
+  return {};
+}
+
+double grains_needed(const ShearCell& test) {
+  return poured_grains(test);
+}
+
+void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need) {
+  constexpr Range length{0, 1000, true}, speed{0, 10000, true}, factor{0, 10};
+  constexpr Need optional = Need::optional;
+  apparatus.number("length_mm", test.length_m, length, need, mm);
+  apparatus.number("width_mm", test.width_m, length, need, mm);
+  apparatus.number("fill_height_mm", test.fill_height_m, length, need, mm);
+  apparatus.number("pour_speed_mm_s", test.pour_speed_m_s, speed, optional, mm);
+  read_ribs(apparatus, "lid_ribs", test.lid_ribs, need);
+  read_ribs(apparatus, "base_ribs", test.base_ribs, need);
+  apparatus.number("normal_stress_pa", test.normal_stress_pa, Range{}, need);
+  apparatus.number("lid_speed_mm_s", test.lid_speed_m_s, speed, optional, mm);
+  apparatus.number("shear_speed_mm_s", test.shear_speed_m_s, speed, need, mm);
+  apparatus.number("shear_speedup", test.shear_speedup, {1, 1e6}, optional);
+  apparatus.number("final_displacement_mm", test.final_displacement_m, length, need, mm);
+  apparatus.object("tools", optional, [&](ObjectReader& tools) {
+    tools.number("friction", test.tools.friction, factor, optional);
+    tools.number("rolling_friction", test.tools.rolling_friction, factor, optional);
+    tools.number("restitution", test.tools.restitution, {0.001, 1}, optional);
+    tools.number("cohesion_factor", test.tools.cohesion_factor, factor, optional);
+  });
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 16> places{
+      {{"length_m", "apparatus.length_mm"},
+       {"width_m", "apparatus.width_mm"},
+       {"fill_height_m", "apparatus.fill_height_mm"},
+       {"pour_speed_m_s", "apparatus.pour_speed_mm_s"},
+       {"lid_ribs.height_m", "apparatus.lid_ribs.height_mm"},
+       {"lid_ribs.thickness_m", "apparatus.lid_ribs.thickness_mm"},
+       {"lid_ribs.pitch_m", "apparatus.lid_ribs.pitch_mm"},
+       {"base_ribs.height_m", "apparatus.base_ribs.height_mm"},
+       {"base_ribs.thickness_m", "apparatus.base_ribs.thickness_mm"},
+       {"base_ribs.pitch_m", "apparatus.base_ribs.pitch_mm"},
+       {"normal_stress_pa", "apparatus.normal_stress_pa"},
+       {"lid_speed_m_s", "apparatus.lid_speed_mm_s"},
+       {"shear_speed_m_s", "apparatus.shear_speed_mm_s"},
+       {"shear_speedup", "apparatus.shear_speedup"},
+       {"final_displacement_m", "apparatus.final_displacement_mm"},
+       {"tools", "apparatus.tools"}}};
+  return places;
+}
+
+nlohmann::json to_json(const ShearCell& test) {
+  nlohmann::json document;
+  ObjectWriter writer(document);
+  describe_test(writer, test);
+  return document;
+}
+
+ShearCell usual_test(const ShearCell&) {
+  return {};
+}
+
+void read_test(ObjectReader& reader, ShearCell& test) {
+  describe_test(reader, test);
+}
+
+Templates templates_of(const ShearCell&) {
+  return {lab_text, study_text};
+}
+
+std::span<const std::string_view> series_of(const ShearCell&) {
+  return series;
+}
+
+std::size_t series_at(const ShearCell&, const Moment& moment) {
+  return moment.phase.starts_with("fill.") ? 0 : 1;
+}
+
+std::optional<double> grain_density_of(const ShearCell& test, const Observables&) {
+  return test.bulk_density_kg_m3;
+}
+
+nlohmann::ordered_json conditions_of(const ShearCell& test) {
+  return {{"normal_stress_pa", test.normal_stress_pa},
+          {"inertial_number", inertial_number(test)},
+          {"shear_speedup", test.shear_speedup}};
+}
+
+std::string conditions_in_words(const ShearCell& test) {
+  return format("  cell                     %g mm of it, %g mm wide, filled to %g mm, under %g Pa\n",
+                mm * test.length_m, mm * test.width_m, mm * test.fill_height_m, test.normal_stress_pa) +
+         format("  base                     %g mm at %g mm/s (simulated %g times as fast)\n",
+                mm * test.final_displacement_m, mm * test.shear_speed_m_s, test.shear_speedup);
+}
+
+std::string remarks_on(const ShearCell& test, std::span<const Observables> runs) {
+  const double half_way = 0.5 * mm * test.final_displacement_m;
+  const auto changing = std::ranges::count_if(
+      runs, [&](const Observables& run) { return run.find("shear.steady_from_mm").value_or(0) > half_way; });
+  if (changing == 0) return {};
+  return format("the stress of %d of %zu beds still changed beyond half of the displacement of %g mm: it is not steady",
+                static_cast<int>(changing), runs.size(), mm * test.final_displacement_m);
+}
+
+}  // namespace pastefit
