@@ -27,6 +27,8 @@ if(gzip)
     install(FILES ${documents}/copyright ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
             COMPONENT ${part})
   endforeach()
+  install(CODE "file(GLOB pages \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/pastefit*.1)
+                execute_process(COMMAND ${gzip} -9nf \${pages})" COMPONENT program)
 endif()
 
 set(CPACK_GENERATOR DEB)
@@ -49,5 +51,5 @@ set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "calibration of DEM contact models, as a
  The mechanics and the calibration of pastefit as static libraries with their
  headers and CMake package files.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libeigen3-dev, libnlopt-cxx-dev, libceres-dev, libsqlite3-dev, nlohmann-json3-dev, libboost-dev")
+    "libeigen3-dev, libnlopt-cxx-dev, libceres-dev, libsqlite3-dev, nlohmann-json3-dev, libboost-dev, zlib1g-dev")
 include(CPack)

@@ -48,11 +48,11 @@ double band_of(const Sample& first, const Sample& second, double false_alarm) {
 double usual_variance(std::vector<WeighedSquare> squares) {
   constexpr double median_of_normal = 0.4549364231195724;
   std::ranges::sort(squares, {}, &WeighedSquare::square);
-  double half = 0;
-  for (const WeighedSquare& one : squares) half += one.weight / 2;
+  double below = 0;
+  for (const WeighedSquare& one : squares) below += one.weight / 2;
   for (const WeighedSquare& one : squares) {
-    half -= one.weight;
-    if (half <= 0) return one.square / median_of_normal;
+    below -= one.weight;
+    if (below <= 0) return one.square / median_of_normal;
   }
   return squares.back().square / median_of_normal;
 }

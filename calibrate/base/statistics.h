@@ -32,8 +32,7 @@ struct WeighedSquare {
 };
 
 /// Variance of normal variables of mean 0 that a few of another kind are mixed with: the weighted median of their
-/// squares over that of a variable of variance 1, 0.4549 (chi-square, one degree of freedom). Requirement: one at
-/// least, weights > 0.
+/// squares over that of a chi-square variable of one degree of freedom. Requirement: one at least, weights > 0.
 double usual_variance(std::vector<WeighedSquare> squares);
 
 /// How much wider than a known one a deviation has to be taken that was estimated from so many readings, so that their

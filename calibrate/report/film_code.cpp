@@ -124,6 +124,12 @@ ordered_json json_of(const FilmWall& wall) {
     out["base_m"] = json_of(shell->base);
     out["radii_m"] = {shell->base_radius, shell->top_radius};
     out["height_m"] = shell->height;
+  } else if (const auto* ribs = std::get_if<Ribs>(&wall.shape)) {
+    out["shape"] = "ribs";
+    out["base_m"] = json_of(ribs->base);
+    out["thickness_m"] = ribs->thickness;
+    out["height_m"] = ribs->height;
+    out["pitch_m"] = ribs->pitch;
   }
   return out;
 }

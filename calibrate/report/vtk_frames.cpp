@@ -68,6 +68,18 @@ class WallDraftsman {
                                     corner_at(side, shell.top_radius, shell.height)});
   }
 
+  /// The bars that lie among the grains: the two sides and the crest of each.
+  void add(const Ribs& ribs) {
+    const Vec3 across{0, reach_, 0}, up{0, 0, ribs.height / 2}, half{ribs.thickness / 2, 0, 0};
+    const auto first = static_cast<int>(std::ceil((-reach_ - ribs.base.x) / ribs.pitch));
+    for (int bar = first; ribs.base.x + bar * ribs.pitch <= reach_; ++bar) {
+      const Vec3 middle = ribs.base + Vec3{bar * ribs.pitch, 0, ribs.height / 2};
+      add_rectangle(middle - half, up, across);
+      add_rectangle(middle + half, up, across);
+      add_rectangle(middle + up, half, across);
+    }
+  }
+
   double reach_;
   std::int32_t wall_ = 0;
   WallFrame frame_;

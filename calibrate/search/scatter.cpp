@@ -12,8 +12,8 @@ constexpr double harmless_ones = 2;  // simulations of harmless scatter that are
 }  // namespace
 
 Scatter::Scatter(std::vector<UnitPoint> points, const Eigen::VectorXd& surprises, double harmless)
-    : points_(std::move(points)), squares_(surprises.size()), harmless_(harmless) {
-  for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] = std::pow(surprises[static_cast<Eigen::Index>(i)], 2);
+    : points_(std::move(points)), harmless_(harmless) {
+  for (const double surprise : surprises) squares_.push_back(surprise * surprise);
 }
 
 double Scatter::excess(const UnitPoint& point) const {

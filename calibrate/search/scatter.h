@@ -9,8 +9,8 @@ namespace pastefit {
 /// Where the packings of a point disagree by more than a mean over some of them stands. Between heaps that stand and
 /// heaps that shear off there are materials that do either, by the luck of the packing: their mean may be the
 /// laboratory's, and no heap of theirs is. A *surprise* is what a simulation is off from what is expected at its point.
-/// Formula: kernel regression of squared surprises over the unit cube, in which `harmless` counts as some simulations
-/// more, at every point.
+/// Formula: kernel regression of squared surprises over the unit cube, in which the harmless variance counts as some
+/// simulations more, at every point.
 class Scatter {
  public:
   /// `harmless`: variance of one simulation that is no matter, > 0. Shapes: n points of the unit cube, n surprises.

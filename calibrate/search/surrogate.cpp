@@ -115,8 +115,7 @@ double Surrogate::within(const Eigen::VectorXd& bounds, const UnitPoint& point) 
     const double bound = bounds[static_cast<Eigen::Index>(k)];
     if (!models_[k] || bound == 0) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
-    const double variance = residual.variance + luck(k, point);
-    const double scale = std::sqrt(2 * std::max(variance, std::numeric_limits<double>::min()));
+    const double scale = std::sqrt(2 * std::max(residual.variance, std::numeric_limits<double>::min()));
     probability *= 0.5 * (std::erf((bound - residual.mean) / scale) + std::erf((bound + residual.mean) / scale));
   }
   return probability;

@@ -41,8 +41,8 @@ class Surrogate : public Objective {
   /// point far from the middle of the bounds has to make up for (a weak prior).
   Outlook outlook(const UnitPoint& point) const;
 
-  /// Probability that a point's residuals, less the usual noise of the packings, are within these bounds; those with a
-  /// bound of 0 do not count. Shape: one for each residual.
+  /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
+  /// of 0 do not count. Shape: one for each residual.
   double within(const Eigen::VectorXd& bounds, const UnitPoint& point) const;
 
   /// Goes on as if `point` had answered on so many packings as it may well do: the mean residuals drawn from what is

@@ -56,6 +56,7 @@ class Pipe(Desk):
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.8}
         if kind == "shear":
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.05}
+            lab["apparatus"]["final_displacement_mm"] = 4
         jsonschema.validate(lab, schema("lab"))
         study["search"].update(FEW)
         jsonschema.validate(study, schema("study"))

@@ -53,7 +53,7 @@ TEST_CASE("height and spread of real mixes are met together, each within its tol
 }
 
 TEST_CASE("where some materials stand or shear off by luck, those are confirmed whose packings agree", "[campaign]") {
-  constexpr int seeds = 8;
+  constexpr int seeds = 12;
   int confirmed = 0, brittle = 0;
   std::vector<int> simulations;
   for (const Heap& mix : {mixes[1], mixes[2]}) {
@@ -70,7 +70,7 @@ TEST_CASE("where some materials stand or shear off by luck, those are confirmed 
   }
   std::sort(simulations.begin(), simulations.end());
   INFO("median of simulations " << simulations[simulations.size() / 2] << ", brittle " << brittle);
-  CHECK(confirmed >= 0.9 * static_cast<double>(simulations.size()));
+  CHECK(confirmed >= 0.85 * static_cast<double>(simulations.size()));
 }
 
 TEST_CASE("a reading that is off by more than its tolerance is not made up for by one that is met") {

@@ -36,8 +36,23 @@ function planeOf(wall, reach) {
   return rectangleOf(wall.point_m, along, new THREE.Vector3().crossVectors(normal, along), [reach, reach]);
 }
 
-const geometryOf = (wall, reach) =>
-  wall.shape === "shell" ? shellOf(wall) : wall.shape === "plate" ? plateOf(wall) : planeOf(wall, reach);
+/// Of an endless row of bars those about where the grains are, as the line along their feet and crests would cut them.
+function ribsOf({ base_m: [x, y, z], thickness_m: thickness, height_m: height, pitch_m: pitch }, reach) {
+  const corners = [];
+  const rims = [];
+  for (let middle = x - Math.floor((reach + x) / pitch) * pitch; middle <= reach; middle += pitch) {
+    const [left, right] = [middle - thickness / 2, middle + thickness / 2];
+    const outline = [[left, z], [left, z + height], [right, z + height], [right, z]];
+    const near = outline.map(([a, b]) => new THREE.Vector3(a, y - reach, b));
+    const far = outline.map(([a, b]) => new THREE.Vector3(a, y + reach, b));
+    for (const k of [0, 1, 2]) corners.push(near[k], near[k + 1], far[k + 1], near[k], far[k + 1], far[k]);
+    rims.push(...[near, far].map((line) => new THREE.BufferGeometry().setFromPoints(line)));
+  }
+  return { side: new THREE.BufferGeometry().setFromPoints(corners), rims };
+}
+
+const shapes = { shell: shellOf, plate: plateOf, plane: planeOf, ribs: ribsOf };
+const geometryOf = (wall, reach) => shapes[wall.shape](wall, reach);
 
 export class Apparatus {
   constructor(reach) {
@@ -45,7 +60,7 @@ export class Apparatus {
     this.reach = reach;
     const glass = (opacity) =>
       new THREE.MeshBasicMaterial({ transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false });
-    this.materials = { shell: glass(0.16), plate: glass(0.5), plane: glass(0.35) };
+    this.materials = { shell: glass(0.16), plate: glass(0.5), plane: glass(0.35), ribs: glass(0.35) };
     this.edges = new THREE.LineBasicMaterial();
     this.shown = null;
   }
