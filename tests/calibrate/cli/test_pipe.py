@@ -12,7 +12,7 @@ import jsonschema
 from desk import SOURCE, Desk, run
 
 LAWS = ("edem-notes", "csv", "mercurydpm")  # the first has every law
-FEW = {"screening": 6, "budget_simulations": 40, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
+FEW = {"screening": 6, "budget_simulations": 24, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
 
 
 def template(name):
@@ -56,7 +56,7 @@ class Pipe(Desk):
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.8}
         if kind == "shear":
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.05}
-            lab["apparatus"]["final_displacement_mm"] = 4
+            lab["apparatus"]["final_displacement_mm"] = 2
         jsonschema.validate(lab, schema("lab"))
         study["search"].update(FEW)
         jsonschema.validate(study, schema("study"))
