@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/rounded.h"
 
 namespace pastefit {
 
@@ -12,10 +13,6 @@ namespace {
 constexpr double worth_a_word = 0.2;     // part of a parameter in a combination, over the lead's
 constexpr double worth_measuring = 0.9;  // narrowing above which a measurement brings nothing to speak of
 constexpr std::size_t most_gains = 3;
-
-double rounded(double value, int digits) {
-  return std::stod(format("%.*g", digits, value));
-}
 
 /// The parameters that move the best determined combination as the lead does,
 /// in exchange rates.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/rounded.h"
 #include "calibrate/laboratory/names.h"
-#include "calibrate/report/rounded.h"
 #include "calibrate/study/parameters.h"
 #include "core/laws/table.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/rounded.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/film_code.h"
 #include "calibrate/report/law_curves.h"
-#include "calibrate/report/rounded.h"
 #include "calibrate/report/search_history.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/program.h"

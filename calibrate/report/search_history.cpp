@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibrate/base/rounded.h"
 #include "calibrate/card/card_study.h"
 #include "calibrate/inference/response_model.h"
-#include "calibrate/report/rounded.h"
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
