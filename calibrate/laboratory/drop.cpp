@@ -25,13 +25,7 @@ constexpr std::string_view lab_text =
   "test": "drop",
   "title": "my gravel, batch 1",
 
-  // Where the data come from; it is carried through to the material card.
-  "provenance": {
-    "source": "laboratory, person, date",
-    "licence": "",
-    "notes": "",
-    "twin": false  // true: not measured, but made by a simulation with known parameters
-  },
+  %provenance%
 
   // The plate is of the ball's material: a slab of it, or grains of it cast in and ground flat.
   "apparatus": {

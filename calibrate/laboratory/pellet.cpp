@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/format.h"
@@ -13,8 +12,7 @@ namespace pastefit {
 namespace {
 
 constexpr double mm = 1000;  // millimetres in a metre
-constexpr std::array<std::string_view, 2> series{"filling", "grains"};
-constexpr Range any;  // the test's own `validate` knows the ranges
+constexpr Range any;         // the test's own `validate` knows the ranges
 constexpr Need required = Need::required;
 
 constexpr std::string_view lab_text =
@@ -25,13 +23,7 @@ constexpr std::string_view lab_text =
   "test": "pellet",
   "title": "my granules, batch 1",
 
-  // Where the data come from; it is carried through to the material card.
-  "provenance": {
-    "source": "laboratory, person, date",
-    "licence": "",
-    "notes": "",
-    "twin": false  // true: not measured, but made by a simulation with known parameters
-  },
+  %provenance%
 
   "apparatus": {
     "die_diameter_mm": 25,
@@ -108,16 +100,8 @@ void describe_test(Fields& fields, Test& test) {
 
 }  // namespace
 
-std::vector<Surface> surfaces_of(PelletCrush&) {
-  return {};
-}
-
-double grains_needed(const PelletCrush& test) {
-  return poured_grains(test);
-}
-
 void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need) {
-  constexpr Range length{0, 1000, true}, speed{0, 10000, true}, factor{0, 10};
+  constexpr Range length{0, 1000, true}, speed{0, 10000, true};
   constexpr Need optional = Need::optional;
   apparatus.number("die_diameter_mm", test.die_diameter_m, length, need, mm);
   apparatus.number("fill_height_mm", test.fill_height_m, length, need, mm);
@@ -127,12 +111,7 @@ void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need) {
   apparatus.number("press_speedup", test.press_speedup, {1, 1e6}, optional);
   apparatus.number("platen_speed_mm_s", test.platen_speed_m_s, speed, need, mm);
   apparatus.number("final_strain", test.final_strain, {0.01, 0.8}, optional);
-  apparatus.object("tools", optional, [&](ObjectReader& tools) {
-    tools.number("friction", test.tools.friction, factor, optional);
-    tools.number("rolling_friction", test.tools.rolling_friction, factor, optional);
-    tools.number("restitution", test.tools.restitution, {0.001, 1}, optional);
-    tools.number("cohesion_factor", test.tools.cohesion_factor, factor, optional);
-  });
+  read_tools(apparatus, test.tools);
 }
 
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const PelletCrush&) {
@@ -168,18 +147,6 @@ Templates templates_of(const PelletCrush&) {
   return {lab_text, study_text};
 }
 
-std::span<const std::string_view> series_of(const PelletCrush&) {
-  return series;
-}
-
-std::size_t series_at(const PelletCrush&, const Moment& moment) {
-  return moment.phase.starts_with("fill.") ? 0 : 1;
-}
-
-std::optional<double> grain_density_of(const PelletCrush& test, const Observables&) {
-  return test.bulk_density_kg_m3;
-}
-
 nlohmann::ordered_json conditions_of(const PelletCrush& test) {
   return {{"pressed_share", test.pressed_height_m / test.fill_height_m},
           {"platen_speed_m_s", test.platen_speed_m_s},
@@ -208,32 +175,7 @@ std::string remarks_on(const PelletCrush& test, std::span<const Observables> run
 
 std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured) {
-  Drawing drawing;
-  drawing.name = "Crushing of the pellet";
-  drawing.x = "strain";
-  drawing.y = "stress [Pa]";
-  std::size_t points = 0, curves = 0;
-  for (const SeenRun& run : runs)
-    if (run.curve) {
-      points = curves++ == 0 ? run.curve->points.size() : std::min(points, run.curve->points.size());
-    }
-  DrawnBand band{format("%zu packings, lowest to highest", curves), {}};
-  DrawnLine mean{"simulated, mean", DrawnBy::simulation, {}};
-  for (std::size_t i = 0; i < points; ++i) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0, strain = 0;
-    for (const SeenRun& run : runs) {
-      if (!run.curve) continue;
-      const CurvePoint& point = run.curve->points[i];
-      strain = point.x;
-      low = std::min(low, point.y);
-      high = std::max(high, point.y);
-      sum += point.y;
-    }
-    band.points.push_back({strain, low, high});
-    mean.points.push_back({strain, sum / static_cast<double>(curves)});
-  }
-  if (curves > 1) drawing.bands.push_back(std::move(band));
-  if (curves > 0) drawing.lines.push_back(std::move(mean));
+  Drawing drawing = drawing_of_curves("Crushing of the pellet", "strain", "stress [Pa]", runs);
   if (const auto* strength = find_measurement(measured, "pellet.dynamic_yield_strength_pa")) {
     drawing.lines.push_back({"laboratory, strength",
                              DrawnBy::laboratory,

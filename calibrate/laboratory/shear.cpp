@@ -12,8 +12,7 @@ namespace pastefit {
 namespace {
 
 constexpr double mm = 1000;  // millimetres in a metre
-constexpr std::array<std::string_view, 2> series{"filling", "grains"};
-constexpr Range any;  // the test's own `validate` knows the ranges
+constexpr Range any;         // the test's own `validate` knows the ranges
 constexpr Need required = Need::required;
 
 constexpr std::string_view lab_text =
@@ -24,13 +23,7 @@ constexpr std::string_view lab_text =
   "test": "shear",
   "title": "my granules, batch 1",
 
-  // Where the data come from; it is carried through to the material card.
-  "provenance": {
-    "source": "laboratory, person, date",
-    "licence": "",
-    "notes": "",
-    "twin": false  // true: not measured, but made by a simulation with known parameters
-  },
+  %provenance%
 
   "apparatus": {
     "length_mm": 18,             // of the piece that is simulated, along the motion; it repeats without end
@@ -129,16 +122,8 @@ void read_ribs(ObjectReader& apparatus, const char* key, RibSizes& ribs, Need ne
 
 }  // namespace
 
-std::vector<Surface> surfaces_of(ShearCell&) {
-  return {};
-}
-
-double grains_needed(const ShearCell& test) {
-  return poured_grains(test);
-}
-
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need) {
-  constexpr Range length{0, 1000, true}, speed{0, 10000, true}, factor{0, 10};
+  constexpr Range length{0, 1000, true}, speed{0, 10000, true};
   constexpr Need optional = Need::optional;
   apparatus.number("length_mm", test.length_m, length, need, mm);
   apparatus.number("width_mm", test.width_m, length, need, mm);
@@ -151,12 +136,7 @@ void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need) {
   apparatus.number("shear_speed_mm_s", test.shear_speed_m_s, speed, need, mm);
   apparatus.number("shear_speedup", test.shear_speedup, {1, 1e6}, optional);
   apparatus.number("final_displacement_mm", test.final_displacement_m, length, need, mm);
-  apparatus.object("tools", optional, [&](ObjectReader& tools) {
-    tools.number("friction", test.tools.friction, factor, optional);
-    tools.number("rolling_friction", test.tools.rolling_friction, factor, optional);
-    tools.number("restitution", test.tools.restitution, {0.001, 1}, optional);
-    tools.number("cohesion_factor", test.tools.cohesion_factor, factor, optional);
-  });
+  read_tools(apparatus, test.tools);
 }
 
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&) {
@@ -199,18 +179,6 @@ Templates templates_of(const ShearCell&) {
   return {lab_text, study_text};
 }
 
-std::span<const std::string_view> series_of(const ShearCell&) {
-  return series;
-}
-
-std::size_t series_at(const ShearCell&, const Moment& moment) {
-  return moment.phase.starts_with("fill.") ? 0 : 1;
-}
-
-std::optional<double> grain_density_of(const ShearCell& test, const Observables&) {
-  return test.bulk_density_kg_m3;
-}
-
 nlohmann::ordered_json conditions_of(const ShearCell& test) {
   return {{"normal_stress_pa", test.normal_stress_pa},
           {"inertial_number", inertial_number(test)},
@@ -231,6 +199,18 @@ std::string remarks_on(const ShearCell& test, std::span<const Observables> runs)
   if (changing == 0) return {};
   return format("the stress of %d of %zu beds still changed beyond half of the displacement of %g mm: it is not steady",
                 static_cast<int>(changing), runs.size(), mm * test.final_displacement_m);
+}
+
+std::vector<Drawing> drawings_of(const ShearCell& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  Drawing drawing = drawing_of_curves("Shearing of the bed", "displacement of the base [mm]", "stress [Pa]", runs);
+  const double end_mm = mm * test.final_displacement_m;
+  for (const auto& [reading, name] : {std::pair("shear.stress_pa", "laboratory, steady stress"),
+                                      std::pair("shear.peak_stress_pa", "laboratory, peak stress")})
+    if (const auto* one = find_measurement(measured, reading))
+      drawing.lines.push_back(
+          {name, DrawnBy::laboratory, {{0, one->value}, {end_mm, one->value}}, one->standard_deviation});
+  return {drawing};
 }
 
 }  // namespace pastefit

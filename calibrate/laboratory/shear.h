@@ -7,23 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/base/json_reader.h"
-#include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/drawing.h"
+#include "calibrate/laboratory/granules.h"
 #include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/shear_cell/shear_cell.h"
 
 namespace pastefit {
 
-// The shear cell in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind.
+// The shear cell in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind,
+// besides calibrate/laboratory/granules.h.
 
 inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
-
-/// None that has parameters: plates and sides are of steel, and what is known of them is part of the apparatus.
-std::vector<Surface> surfaces_of(ShearCell& test);
-
-double grains_needed(const ShearCell& test);
 
 /// The keys of "apparatus" in laboratory and rig files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
@@ -35,13 +31,12 @@ void read_test(ObjectReader& reader, ShearCell& test);
 
 Templates templates_of(const ShearCell& test);
 
-/// The filling of the cell, and all that follows, each with a clock of its own.
-std::span<const std::string_view> series_of(const ShearCell& test);
-std::size_t series_at(const ShearCell& test, const Moment& moment);
-
-std::optional<double> grain_density_of(const ShearCell& test, const Observables& means);
 nlohmann::ordered_json conditions_of(const ShearCell& test);
 std::string conditions_in_words(const ShearCell& test);
+
+/// The stress that drags the lid along over the displacement of the base, over the stress that was measured.
+std::vector<Drawing> drawings_of(const ShearCell& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured);
 
 /// Beds whose stress still changed when the base stopped. A line, or nothing.
 std::string remarks_on(const ShearCell& test, std::span<const Observables> runs);

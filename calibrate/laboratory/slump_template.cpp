@@ -9,13 +9,7 @@ constexpr std::string_view lab_text =
   "format": "pastefit-lab-1",
   "title": "my paste, batch 1",
 
-  // Where the data come from; it is carried through to the material card.
-  "provenance": {
-    "source": "laboratory, person, date",
-    "licence": "",
-    "notes": "",
-    "twin": false  // true: not measured, but made by a simulation with known parameters
-  },
+  %provenance%
 
   // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann, mini-cone.
   // Give only what differs from the preset; without a preset give everything but the drop plate.

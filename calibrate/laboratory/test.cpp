@@ -33,6 +33,22 @@ std::vector<std::pair<std::string, std::string_view>> all_templates() {
   return all;
 }
 
+/// What every laboratory file begins with, in the place that its starting file has for it.
+std::string with_provenance(std::string text) {
+  constexpr std::string_view place = "  %provenance%\n", provenance = R"(
+  // Where the data come from; it is carried through to the material card.
+  "provenance": {
+    "source": "laboratory, person, date",
+    "licence": "",
+    "notes": "",
+    "twin": false  // true: not measured, but made by a simulation with known parameters
+  },
+)";
+  if (const auto at = text.find(place); at != std::string::npos)
+    text.replace(at, place.size(), provenance.substr(1));  // without the line break that it begins with here
+  return text;
+}
+
 }  // namespace
 
 Specimen& specimen_of(Test& test) {
@@ -199,7 +215,7 @@ std::vector<std::string> template_names() {
 
 std::optional<std::string> template_text(std::string_view wanted) {
   for (const auto& [name, text] : all_templates())
-    if (name == wanted) return std::string(text);
+    if (name == wanted) return with_provenance(std::string(text));
   return std::nullopt;
 }
 

@@ -19,7 +19,8 @@
 
 namespace pastefit {
 
-/// The commented starting files of a kind of test; the study names its laboratory file "lab.json", beside it.
+/// The commented starting files of a kind of test; the study names its laboratory file "lab.json", beside it. A line
+/// "  %provenance%" of the laboratory's is where it says where the data come from, in the words of all kinds.
 struct Templates {
   std::string_view lab, study;
 };

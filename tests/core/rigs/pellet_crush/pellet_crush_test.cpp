@@ -7,6 +7,7 @@
 
 #include "core/rigs/granules.h"
 #include "core/world/world.h"
+#include "tests/core/rigs/soft_granules.h"
 
 namespace pastefit {
 namespace {
@@ -14,19 +15,10 @@ namespace {
 /// Some two hundred soft granules in a die of six across.
 PelletCrush small(double surface_energy_j_m2) {
   PelletCrush test;
-  test.bulk_density_kg_m3 = 1000;
-  test.grains.radius_m = 0.0005;
+  make_soft_granules(test, surface_energy_j_m2);
   test.die_diameter_m = 0.006;
   test.fill_height_m = 0.0075;
   test.pressed_height_m = 0.006;
-  test.contact.youngs_modulus_pa = 2.4e6;
-  test.contact.poissons_ratio = 0.2;
-  test.contact.restitution = 0.2;
-  test.contact.friction = 0.4;
-  test.contact.rolling_friction = 0.01;
-  test.contact.rolling = RollingModel::constant_torque;
-  test.contact.normal = NormalLaw::jkr;
-  test.contact.surface_energy_j_m2 = surface_energy_j_m2;
   return test;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/world/world.h"
+#include "tests/core/rigs/soft_granules.h"
 
 namespace pastefit {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 /// Some two hundred soft granules in a cell of six across.
 ShearCell small_cell(double surface_energy_j_m2) {
   ShearCell test;
-  test.bulk_density_kg_m3 = 1000;
-  test.grains.radius_m = 0.0005;
+  make_soft_granules(test, surface_energy_j_m2);
   test.length_m = 0.006;
   test.width_m = 0.006;
   test.fill_height_m = 0.0065;
@@ -21,14 +21,6 @@ ShearCell small_cell(double surface_energy_j_m2) {
   test.base_ribs = {0.0006, 0.0003, 0.002};
   test.shear_speedup = 500;
   test.final_displacement_m = 0.004;
-  test.contact.youngs_modulus_pa = 2.4e6;
-  test.contact.poissons_ratio = 0.2;
-  test.contact.restitution = 0.2;
-  test.contact.friction = 0.4;
-  test.contact.rolling_friction = 0.01;
-  test.contact.rolling = RollingModel::constant_torque;
-  test.contact.normal = NormalLaw::jkr;
-  test.contact.surface_energy_j_m2 = surface_energy_j_m2;
   return test;
 }
 

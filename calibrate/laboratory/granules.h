@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/drawing.h"
+#include "calibrate/laboratory/surface.h"
+#include "core/rigs/pellet_crush/pellet_crush.h"
+#include "core/rigs/shear_cell/shear_cell.h"
+
+namespace pastefit {
+
+// What tests of small granules that stick have in common in the words of files and people (core/rigs/granules.h).
+
+template <class T>
+concept GranuleTest = std::same_as<T, PelletCrush> || std::same_as<T, ShearCell>;
+
+/// None that has parameters: the tools are of steel, and what is known of them is part of the apparatus.
+template <GranuleTest T>
+std::vector<Surface> surfaces_of(T&) {
+  return {};
+}
+
+template <GranuleTest T>
+double grains_needed(const T& test) {
+  return poured_grains(test);
+}
+
+/// The filling of the vessel, and all that follows, each with a clock of its own.
+template <GranuleTest T>
+std::span<const std::string_view> series_of(const T&) {
+  static constexpr std::array<std::string_view, 2> both{"filling", "grains"};
+  return both;
+}
+
+template <GranuleTest T>
+std::size_t series_at(const T&, const Moment& moment) {
+  return moment.phase.starts_with("fill.") ? 0 : 1;
+}
+
+/// What a laboratory file calls the bulk density is that of a granule, not of the bed.
+template <GranuleTest T>
+std::optional<double> grain_density_of(const T& test, const Observables&) {
+  return test.bulk_density_kg_m3;
+}
+
+/// The surface of the tools, "tools" in laboratory and rig files.
+void read_tools(ObjectReader& apparatus, WallContact& tools);
+
+/// What the runs drew, as the mean and, of several, the band from the lowest to the highest.
+/// Requirement: curves of one kind, whose points stand at the same places; the longer ones count as far as all go.
+Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs);
+
+}  // namespace pastefit
