@@ -10,11 +10,9 @@
 namespace pastefit {
 namespace {
 
-constexpr double shortest_length = 0.15,
-                 longest_length = 15;  // of the unit cube
+constexpr double shortest_length = 0.15, longest_length = 15;  // of the unit cube
 constexpr double usual_length = 1.0;
-constexpr double least_noise = 1e-4,
-                 most_noise = 1;  // noise variance over signal variance
+constexpr double least_noise = 1e-4, most_noise = 1;  // noise variance over signal variance
 constexpr double usual_noise = 0.01;
 
 double correlation(const UnitPoint& a, const UnitPoint& b, const Eigen::VectorXd& lengths) {
@@ -28,8 +26,7 @@ double between(double low, double high, double share) {
 
 }  // namespace
 
-/// The fit of lengths and noise as an objective over the unit cube, so that
-/// NLopt serves here too.
+/// The fit of lengths and noise as an objective over the unit cube, so that NLopt serves here too.
 class GaussianProcess::Likelihood : public Objective {
  public:
   explicit Likelihood(GaussianProcess& process) : process_(process) {}
@@ -53,8 +50,7 @@ class GaussianProcess::Likelihood : public Objective {
       for (const double length : process_.lengths_) prior += std::pow(std::log(length / usual_length), 2);
       Response response;
       response.point = point;
-      // The concentrated likelihood to the power -2/n: positive, as a misfit
-      // should be.
+      // The concentrated likelihood to the power -2/n: positive, as a misfit should be.
       response.misfit = process_.signal_variance_ * std::exp((process_.log_determinant_ + prior) / process_.answers_);
       responses.push_back(std::move(response));
     }
