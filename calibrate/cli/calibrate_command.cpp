@@ -105,14 +105,14 @@ std::string notes_on_readings(const Study& study) {
 /// Card, summary and page, to the folder and to the person. Only a confirmed material is what was asked for. Who
 /// interrupts gets the page without its film.
 int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
-            const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop) {
+            const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop, Looks& looks) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   print("\n%s", summary.c_str());
   if (faults.empty()) {
     Findings findings = findings_of(card, store, inference);
-    look_at_tests(findings, options.threads, stop);
+    look_at_tests(findings, options.threads, stop, &looks);
     faults = write_page(options.out, findings);
   }
   if (!faults.empty()) return report(faults, kFailed);
@@ -181,8 +181,11 @@ int calibrate(const CalibrateOptions& options) {
   evaluator.core_budget_s = options.core_budget_s;
   evaluator.stop = &listen_for_stop();
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
+  Looks looks;
+  evaluator.onlooker = &looks;
   SimulationObjective objective(study, store.value(), evaluator);
   evaluator.observer = {};
+  evaluator.onlooker = nullptr;
   SimulationObjective coarse(coarse_study, store.value(), evaluator);
   const auto calibration = search(
       objective, for_the_search,
@@ -212,7 +215,7 @@ int calibrate(const CalibrateOptions& options) {
   }
   auto card = card_of(study, calibration, search_options, store.value(), counts, options.study);
   if (inference) card.inference = card_inference(*inference);
-  return deliver(card, inference, store.value(), options, folder.value(), *evaluator.stop);
+  return deliver(card, inference, store.value(), options, folder.value(), *evaluator.stop, looks);
 }
 
 }  // namespace

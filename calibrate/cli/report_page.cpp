@@ -7,7 +7,7 @@
 
 namespace pastefit {
 
-void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop) {
+void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop, Looks* seen) {
   constexpr std::size_t kMostPackings = 8;
   if (!findings.card) return;
   if (stop) {
@@ -20,7 +20,8 @@ void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& sto
     findings.missing.push_back("The drawings show " + std::to_string(shown.size()) + " of the " +
                                std::to_string(packings.size()) + " packings that the readings are means over.");
   for (const CardTest& test : findings.card->tests) {
-    findings.views.push_back(view_of(test, shown, threads, [&] { return !stop; }));
+    findings.views.push_back(view_of(
+        test, shown, threads, [&] { return !stop; }, seen));
     if (stop) findings.missing.push_back("The run was interrupted while the tests were simulated for this page.");
     for (const std::string& failure : findings.views.back().failures)
       findings.missing.push_back(heading_of(test) + "a run that should be shown failed, " + failure);

@@ -12,9 +12,9 @@ namespace pastefit {
 
 inline const std::string kPage = "report.html";
 
-/// Simulates the card's tests on the packings that confirmed it, the first eight at most, to show them; until `stop`
-/// becomes true. What could not be shown is then missing in the findings.
-void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop);
+/// Shows the card's tests on the packings that confirmed it, the first eight at most: as `seen` has them; what it lacks
+/// is simulated, until `stop` becomes true. What could not be shown is then missing in the findings.
+void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop, Looks* seen = nullptr);
 
 /// The page of a calibration that goes on, written anew every now and then.
 class LivePage {

@@ -38,7 +38,8 @@ constexpr std::string_view lab_text =
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {
     "step1.slump_mm": {"repeats": [158, 165, 163], "standard_deviation": 7.5},  // beside repeats: the least deviation
-    "step1.spread_mm": {"value": 320, "standard_deviation": 25}
+    "step1.spread_mm": {"value": 320, "standard_deviation": 25},
+    "step1.lateral_shift_mm": {"value": 0, "standard_deviation": 20}  // it did not shear off, or it would have been repeated
   }
 }
 )";
@@ -75,7 +76,8 @@ constexpr std::string_view study_text =
   },
 
   // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
-  "weights": {"step1.height_mm": 1, "step1.spread_mm": 1},
+  // Materials whose heaps shear off may have the right height by luck: the shift of the top keeps the search from them.
+  "weights": {"step1.height_mm": 1, "step1.spread_mm": 1, "step1.lateral_shift_mm": 1},
   // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
   // deviation of the laboratory.
   "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25},

@@ -6,6 +6,7 @@
 #include "calibrate/card/card.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/report/film.h"
+#include "calibrate/report/looks.h"
 
 namespace pastefit {
 
@@ -16,10 +17,11 @@ struct TestView {
   std::vector<std::string> failures;
 };
 
-/// Simulates a test of a card on so many of the packings that confirmed it, one on each processor, and looks at it.
+/// A test of a card on so many of the packings that confirmed it, as it was seen before; what was not is simulated, one
+/// on each processor, and looked at.
 /// `goes_on` is asked between steps; once it answers false, what has not ended is left out.
 /// `threads` 0: one for each processor.
 TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, int threads,
-                 const std::function<bool()>& goes_on);
+                 const std::function<bool()>& goes_on, Looks* seen = nullptr);
 
 }  // namespace pastefit

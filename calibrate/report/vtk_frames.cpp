@@ -58,9 +58,9 @@ class WallDraftsman {
   }
 
   void add(const Shell& shell) {
-    const auto corner_at = [&](int side, double radius, double height) {
+    const auto corner_at = [&](int side, double radius, double above) {
       const double angle = 2 * std::numbers::pi * side / kSides;
-      return corner(shell.base + Vec3{radius * std::cos(angle), radius * std::sin(angle), height});
+      return corner(shell.base + Vec3{radius * std::cos(angle), radius * std::sin(angle), above});
     };
     for (int side = 0; side < kSides; ++side)
       frame_.quadrangles.push_back({corner_at(side, shell.base_radius, 0), corner_at(side + 1, shell.base_radius, 0),

@@ -129,6 +129,8 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
         evaluation.values = values;
         evaluation.packing = seed;
         evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
+        if (!tried && options_.onlooker)
+          task.look = options_.onlooker->begin(test_with(study_.tests[test].lab.test, values, seed));
         task.done = pool_.submit([this, &task] { run(task); });
       }
     }
@@ -206,7 +208,7 @@ void SimulationObjective::run(Task& task) {
   RunOptions options = options_.run;
   const auto& values = task.evaluation.values;
   const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
-  if (!options.own_fill) options.packing = packing(task.index, test);
+  if (!options.own_fill) options.packing = packing(task.index, test, task.look);
   if (stop_requested()) return;
   options.steps.ledger = options.steps.ledger && !task.tried;
   options.cutoff = task.cutoff;
@@ -214,13 +216,10 @@ void SimulationObjective::run(Task& task) {
   bool by_user = false;
   const auto start = Clock::now();
   const double core_start = thread_seconds();
-  options.watch_interval_s = kWatchInterval;
-  options.watch = options.pulse = [&](const Moment&) {
-    by_user = by_user || stop_requested();
-    return !by_user && seconds_since(start) < options_.wall_limit_s;
-  };
+  watch(options, start, task.look, &by_user);
   auto outcome = options_.engine.run(test, options);
   if (by_user) return;
+  if (task.look) options_.onlooker->end(test, outcome);
 
   auto& evaluation = task.evaluation;
   if (outcome.failure && outcome.failure->reason == FailureReason::stopped)
@@ -253,7 +252,22 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
   if (options_.observer) options_.observer(counts_);
 }
 
-std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const Test& test) {
+void SimulationObjective::watch(RunOptions& options, Clock::time_point start, const Onlooker::Watch& look,
+                                bool* by_user) const {
+  options.watch_interval_s = look ? options_.onlooker->interval_s() : kWatchInterval;
+  options.pulse = [this, start, by_user](const Moment&) {
+    const bool stopped = (by_user && *by_user) || stop_requested();
+    if (by_user) *by_user = stopped;
+    return !stopped && seconds_since(start) < options_.wall_limit_s;
+  };
+  options.watch = [look, goes_on = options.pulse](const Moment& moment) {
+    if (look) look(moment);
+    return goes_on(moment);
+  };
+}
+
+std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const Test& test,
+                                                            const Onlooker::Watch& look) {
   std::promise<std::shared_ptr<const Packing>> promise;
   std::shared_future<std::shared_ptr<const Packing>> future;
   bool ours = false;
@@ -266,12 +280,8 @@ std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, c
   }
   if (ours) {
     try {
-      const auto start = Clock::now();
       RunOptions options = options_.run;
-      options.watch_interval_s = kWatchInterval;
-      options.watch = options.pulse = [&](const Moment&) {
-        return !stop_requested() && seconds_since(start) < options_.wall_limit_s;
-      };
+      watch(options, Clock::now(), look);
       promise.set_value(options_.engine.prepare(test, options));
     } catch (...) {
       promise.set_exception(std::current_exception());

@@ -90,12 +90,13 @@ def study_file(row, kind):
             "friction": {"free": [0.05, 0.8]} if both else {"value": 0.15},
             "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
         },
-        "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both), "step1.lateral_shift_mm": 0},
+        "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both), "step1.lateral_shift_mm": int(both)},
     }
     if both:
         study["tolerances"] = {
             "step1.height_mm": HEIGHT_DEVIATION_MM,
             "step1.spread_mm": SPREAD_DEVIATION_MM,
+            "step1.lateral_shift_mm": SHEAR_MM,
         }
     study["search"] = {
         "strategy": "default",

@@ -66,7 +66,7 @@ TEST_CASE("the noise of a mean is the scatter of its packings over the root of t
   CHECK(objective.evaluate({&point, 1}, one).at(0).noise == 0);
 }
 
-TEST_CASE("where packings scatter, more of them are asked until luck cannot confirm a candidate") {
+TEST_CASE("where packings scatter, more of them are asked until luck cannot confirm a candidate", "[campaign]") {
   int confirmed = 0, widened = 0, near = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     CAPTURE(seed);
@@ -93,7 +93,7 @@ TEST_CASE("where packings scatter, more of them are asked until luck cannot conf
   CHECK(near >= confirmed - 2);  // a mean is within two of its errors of the truth, 5 mm each
 }
 
-TEST_CASE("nothing is refined on packings whose luck is more than the tolerance") {
+TEST_CASE("nothing is refined on packings whose luck is more than the tolerance", "[campaign]") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Synthetic objective = noisy_slump(80 + 160 * uniform(seed, 77), 25, seed);
@@ -106,7 +106,7 @@ TEST_CASE("nothing is refined on packings whose luck is more than the tolerance"
   }
 }
 
-TEST_CASE("a mean within the tolerance that may be luck is told so when the budget is spent") {
+TEST_CASE("a mean within the tolerance that may be luck is told so when the budget is spent", "[campaign]") {
   int luck = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SearchOptions options = generous_options(seed);
@@ -143,7 +143,8 @@ TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit 
   }
 }
 
-TEST_CASE("packings are not asked for where their scatter says that no affordable number of them would do") {
+TEST_CASE("packings are not asked for where their scatter says that no affordable number of them would do",
+          "[campaign]") {
   Synthetic objective;
   objective.dimension = 2;
   objective.measured = {100};

@@ -56,7 +56,7 @@ TEST_CASE("a test without any noise is calibrated and confirmed, with one packin
   }
 }
 
-TEST_CASE("where a test without noise cannot be met the reason is no scatter") {
+TEST_CASE("where a test without noise cannot be met the reason is no scatter", "[campaign]") {
   Synthetic objective = deterministic(Eigen::Vector2d(0.5, 0.5));
   objective.measured[2] = 60;  // beyond 40
   const Calibration beyond = search(objective, options());

@@ -137,7 +137,7 @@ TEST_CASE("what is under way is spent, and answered in the order of asking") {
   CHECK(archive.under_way().empty());
 }
 
-TEST_CASE("with a lag so many candidates more are under way, and no more than the budget allows") {
+TEST_CASE("with a lag so many candidates more are under way, and no more than the budget allows", "[campaign]") {
   for (const int lag : {0, 1, 3}) {
     CAPTURE(lag);
     std::size_t most = 0;

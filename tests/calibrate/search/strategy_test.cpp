@@ -85,7 +85,7 @@ TEST_CASE("coarse grains that always fail leave the search as it is without them
   CHECK(calibration.simulations <= without.simulations + 20);
 }
 
-TEST_CASE("a height beyond the model is out of reach with coarse grains as well") {
+TEST_CASE("a height beyond the model is out of reach with coarse grains as well", "[campaign]") {
   Synthetic fine = fake_slump(10, 2), coarse = coarse_fake_slump(10, 2);
   CHECK(search(fine, options_with(2), {}, {}, {}, &coarse).status == CalibrationStatus::out_of_reach);
 }
@@ -231,7 +231,8 @@ TEST_CASE("readings that contradict each other end unconfirmed, not out of reach
   CHECK(calibration.best.miss < 4);
 }
 
-TEST_CASE("of the materials that meet the laboratory the search finds one that agrees with what is known") {
+TEST_CASE("of the materials that meet the laboratory the search finds one that agrees with what is known",
+          "[campaign]") {
   int agree = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic objective = fake_slump(150, seed);

@@ -57,7 +57,7 @@ Stand stand_of(const SlumpTest& test, const Packing& packing) {
 
 }  // namespace
 
-TEST_CASE("what is lifted fills the mould, whatever the strength and the friction") {
+TEST_CASE("what is lifted fills the mould, whatever the strength and the friction", "[campaign]") {
   constexpr int kPackings = 3;
   for (const double friction : {0.05, 0.8})
     for (const double strength : {1.0, 1000.0, 10000.0, 40000.0}) {
@@ -90,7 +90,7 @@ TEST_CASE("what is lifted fills the mould, whatever the strength and the frictio
     }
 }
 
-TEST_CASE("what is lifted stays as high as it was struck off when lid and drag are gone") {
+TEST_CASE("what is lifted stays as high as it was struck off when lid and drag are gone", "[campaign]") {
   for (const double friction : {0.15, 0.5})
     for (const double strength : {1.0, 1000.0, 10000.0, 40000.0}) {
       SlumpTest test = paste(strength, friction);
@@ -113,7 +113,8 @@ TEST_CASE("what is lifted stays as high as it was struck off when lid and drag a
 }
 
 TEST_CASE(
-    "a reported height is the surface above the table and the roughness of the struck-off packing, at any strength") {
+    "a reported height is the surface above the table and the roughness of the struck-off packing, at any strength",
+    "[campaign]") {
   std::vector<double> added;
   for (const double friction : {0.15, 0.5})
     for (const double strength : {300.0, 1500.0, 12000.0}) {

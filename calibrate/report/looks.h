@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "calibrate/laboratory/drawing.h"
+#include "calibrate/report/film.h"
+#include "calibrate/search/onlooker.h"
+
+namespace pastefit {
+
+/// One simulation, and what is seen of it.
+struct Look {
+  SeenRun seen;
+  std::optional<FilmRecorder> film;  ///< none if it is not filmed
+  std::optional<Failure> failure;
+  bool ended = false;
+
+  /// A moment of this test.
+  void see(const Test& test, const Moment& moment);
+  void end(const Outcome& outcome);
+};
+
+/// What was seen of simulations while a search ran them. The first packing of each material is filmed, of the first few
+/// materials: those that are confirmed.
+class Looks : public Onlooker {
+ public:
+  Watch begin(const Test& test) override;
+  void end(const Test& test, const Outcome& outcome) override;
+  double interval_s() const override { return FilmRecorder::kInterval; }
+
+  /// What was seen of this very simulation; nothing if it was not seen to its end. Given away once.
+  std::optional<Look> take(const Test& test);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<Look>> looks_;  // by the simulation's name
+  std::set<std::string> filmed_;                        // materials
+};
+
+}  // namespace pastefit

@@ -1,0 +1,68 @@
+#include "calibrate/report/looks.h"
+
+#include <catch2/catch.hpp>
+
+#include "calibrate/report/views.h"
+
+namespace pastefit {
+namespace {
+
+/// Simulated as a search does it: on a packing that was prepared before, with somebody looking on.
+Outcome simulated(const Test& test, Looks& looks) {
+  const Onlooker::Watch watch = looks.begin(test);
+  RunOptions options;
+  options.watch_interval_s = looks.interval_s();
+  options.watch = [&](const Moment& moment) {
+    watch(moment);
+    return true;
+  };
+  options.packing = prepare(test, options);
+  Outcome outcome = simulate(test, options);
+  looks.end(test, outcome);
+  return outcome;
+}
+
+TEST_CASE("what was seen during a search is shown without simulating it again") {
+  CardTest of_card;
+  of_card.test = SlumpTest{};
+  Specimen& specimen = specimen_of(of_card.test);
+  specimen.grains.radius_m = 0.014;
+  const std::vector<std::uint64_t> packings{5, 6};
+  Looks looks;
+  std::vector<Outcome> outcomes;
+  for (const std::uint64_t packing : packings) {
+    specimen.packing_seed = packing;
+    outcomes.push_back(simulated(of_card.test, looks));
+  }
+  int asked = 0;
+  const auto goes_on = [&] { return ++asked < 0; };  // whatever is simulated ends at once
+  const TestView view = view_of(of_card, packings, 1, goes_on, &looks);
+  CHECK(asked == 0);
+  CHECK(view.failures.empty());
+  REQUIRE(view.runs.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(view.runs[i].packing == packings[i]);
+    CHECK(view.runs[i].readings.find("step1.height_mm") == outcomes[i].observables.find("step1.height_mm"));
+    CHECK(view.runs[i].outlines.contains("step1"));
+  }
+
+  // The film is the one that a simulation for its own sake gives.
+  const TestView anew = view_of(of_card, {packings.data(), 1}, 1, [] { return true; });
+  REQUIRE(view.film.reels.size() == anew.film.reels.size());
+  for (std::size_t i = 0; i < view.film.reels.size(); ++i) {
+    const auto &one = view.film.reels[i].frames, &other = anew.film.reels[i].frames;
+    REQUIRE(one.size() == other.size());
+    CHECK(one.back().centres_m.front().z == other.back().centres_m.front().z);
+    CHECK(one.back().phase == other.back().phase);
+  }
+}
+
+TEST_CASE("a simulation that was not seen to its end counts as not seen") {
+  Looks looks;
+  const Test test = SlumpTest{};
+  (void)looks.begin(test);
+  CHECK_FALSE(looks.take(test));
+}
+
+}  // namespace
+}  // namespace pastefit
