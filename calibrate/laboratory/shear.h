@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/laboratory/granules.h"
+#include "calibrate/laboratory/granule_test.h"
 #include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/shear_cell/shear_cell.h"
 
 namespace pastefit {
 
 // The shear cell in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind,
-// besides calibrate/laboratory/granules.h.
+// besides calibrate/laboratory/granule_test.h.
 
 inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";

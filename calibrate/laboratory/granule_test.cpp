@@ -1,4 +1,4 @@
-#include "calibrate/laboratory/granules.h"
+#include "calibrate/laboratory/granule_test.h"
 
 #include <algorithm>
 #include <limits>
