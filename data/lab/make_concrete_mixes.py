@@ -85,7 +85,7 @@ def study_file(row, kind):
             "strength_pa": {"free": [10 if both else 300, 40000], "scale": "log"},
             "rupture_force_ratio": {"free": [0, 0.5]},
             "curvature": {"free": [-0.5, 1]},
-            "rupture_gap_ratio": {"free": [0.05, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
+            "rupture_gap_ratio": {"free": [0.15, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
             "formation_ratio": {"free": [0, 1]},
             "friction": {"free": [0.05, 0.8]} if both else {"value": 0.15},
             "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
@@ -100,7 +100,7 @@ def study_file(row, kind):
         }
     study["search"] = {
         "strategy": "default",
-        "screening": 8,
+        "screening": 16 if both else 8,
         "budget_simulations": 150 if both else 80,
         "packings": 2,
         "confirmation_packings": 8,
