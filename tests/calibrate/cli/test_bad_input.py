@@ -5,11 +5,21 @@ usage: test_bad_input.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import os
+import subprocess
 import sys
 import time
 import unittest
 
-from desk import STUDY, CARD, LAB, RIG, Desk, run
+from desk import PROGRAM, SOURCE, STUDY, CARD, LAB, RIG, Desk, run
+
+
+def numbers_in(schema, place=""):
+    """Every number of an object's schema: its place and its bounds."""
+    for key, inner in schema.get("properties", {}).items():
+        if inner.get("type") == "number":
+            yield place + key, inner
+        else:
+            yield from numbers_in(inner, f"{place}{key}.")
 
 
 class BadInput(Desk):
@@ -41,6 +51,37 @@ class BadInput(Desk):
         self.fails(run("rescale", CARD, "--radius", "0.02"), 2, "grains", "GB", "larger")
         self.assertLess(time.monotonic() - start, 20)
         self.assertFalse(self.out.exists())
+
+    def test_schema_and_program_agree_on_the_bounds_of_every_apparatus(self):
+        # Where another length or the granules say how far one may go, the program may be stricter at that end.
+        stricter = {"top_diameter_mm", "probe_diameter_mm", "die_diameter_mm", "length_mm", "width_mm", "fill_height_mm",
+                    "sag_window_mm", "lift_height_mm", "pressed_height_mm", "ribs", "speed_mm_s", "speedup"}
+        schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
+        presets, _, *others = schema["properties"]["apparatus"]["oneOf"]
+        checked = 0
+        for template, apparatus in zip(("lab", "drop-lab", "pellet-lab", "shear-lab"), (presets, *others)):
+            lab = self.folder / f"{template}.json"
+            lab.write_text(run("template", template).stdout.replace('"abrams"', '"en12350-5"'))  # that has a drop plate
+            for place, number in numbers_in(apparatus):
+                bounds = [(number["maximum"], 1)]
+                bounds += [(number[key], -1) for key in ("minimum", "exclusiveMinimum") if key in number]
+                for bound, outwards in bounds:
+                    beyond = bound + outwards * max(abs(bound), 1e-3) * 1e-3
+                    self.assertTrue(self.refused(lab, place, beyond, 60), f"{template}: {place} = {beyond}")
+                    checked += 1
+                    if not any(word in place for word in stricter):
+                        within = bound if "exclusiveMinimum" not in number or outwards > 0 else bound + 1e-3
+                        self.assertFalse(self.refused(lab, place, within, 0.5), f"{template}: {place} = {within}")
+        self.assertGreater(checked, 60)
+
+    def refused(self, lab, place, value, patience_s):
+        """Whether that value is refused for itself; what is not is simulated, and stopped."""
+        command = [PROGRAM, "simulate", str(lab), "--set", f"apparatus.{place}={value!r}"]
+        try:
+            result = subprocess.run(command, capture_output=True, text=True, timeout=patience_s)
+        except subprocess.TimeoutExpired:
+            return False
+        return f"apparatus.{place}: " in result.stderr
 
     def test_every_fault_of_a_study_is_listed_and_nothing_is_written(self):
         study = self.study(tittle="x", parameters={"strength_pa": {"free": [5, 1]}, "frction": {"value": 1}})
