@@ -80,7 +80,8 @@ constexpr std::string_view study_text =
   "weights": {"step1.height_mm": 1, "step1.spread_mm": 1, "step1.lateral_shift_mm": 1},
   // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
   // deviation of the laboratory.
-  "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25},
+  // A top that is further off than 0.4 of the mould's base radius has sheared off.
+  "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25, "step1.lateral_shift_mm": 40},
 
   "search": {
     "strategy": "default",
