@@ -38,7 +38,7 @@ constexpr std::string_view lab_text =
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {
     "step1.slump_mm": {"repeats": [158, 165, 163], "standard_deviation": 7.5},  // beside repeats: the least deviation
-    "step1.spread_mm": {"value": 320, "standard_deviation": 25},
+    "step1.spread_mm": {"value": 310, "standard_deviation": 25},
     "step1.lateral_shift_mm": {"value": 0, "standard_deviation": 20}  // it did not shear off, or it would have been repeated
   }
 }
@@ -68,7 +68,7 @@ constexpr std::string_view study_text =
     "strength_pa": {"free": [10, 40000], "scale": "log"},  // attraction at touch over R^2
     "rupture_force_ratio": {"free": [0, 0.5]},   // share of it left when the bridge ruptures
     "curvature": {"free": [-0.5, 1]},            // decay: -1 flat at touch, 0 straight, 1 flat at rupture
-    "rupture_gap_ratio": {"free": [0.3, 1]},     // gap at rupture over R; below 0.1 heaps stand or shear off by luck
+    "rupture_gap_ratio": {"free": [0.15, 1], "scale": "log"},  // gap at rupture over R; below 0.1 heaps shear off by luck
     "formation_ratio": {"free": [0, 1]},         // gap at which a bridge forms over the one at which it ruptures
     "friction": {"free": [0.05, 0.8]},           // between grains; where the spread is not fitted: {"value": 0.15}
     "rolling_friction": {"free": [0, 1]}         // the same: {"value": 0.02}
@@ -85,7 +85,7 @@ constexpr std::string_view study_text =
 
   "search": {
     "strategy": "default",
-    "screening": 8,              // candidates spread over the bounds at the start
+    "screening": 16,             // candidates spread over the bounds at the start
     "budget_simulations": 150,   // in all, confirmation included
     "packings": 2,               // random packings on which candidates are tried in turn
     "lag": 0,                    // candidates under way when the next is proposed; 1 saves time and costs simulations
