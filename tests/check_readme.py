@@ -128,7 +128,7 @@ class Readme(unittest.TestCase):
 
 
 # Files that the text speaks of, but that come into being elsewhere.
-NAMED_OTHERWISE = {"card.json", "summary.txt", "evaluations.sqlite", "lab.json", "study.json", "NOTES.txt"}
+NAMED_OTHERWISE = {"card.json", "summary.txt", "evaluations.sqlite", "views.json", "lab.json", "study.json", "NOTES.txt"}
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -17,6 +17,7 @@
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
+#include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
@@ -45,7 +46,7 @@ struct CalibrateOptions {
 
 const std::string kCard = "card.json";
 const std::string kSummary = "summary.txt";
-const std::vector<std::string> kCalibration = with_store({kCard, kSummary, kPage});
+const std::vector<std::string> kCalibration = with_store({kCard, kSummary, kPage, kViewsFile});
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
 
 std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
@@ -103,7 +104,7 @@ std::string notes_on_readings(const Study& study) {
 }
 
 /// Card, summary and page, to the folder and to the person. Only a confirmed material is what was asked for. Who
-/// interrupts gets the page without its film.
+/// interrupts gets the page with what was seen until then.
 int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
             const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop, Looks& looks) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
@@ -112,8 +113,8 @@ int deliver(const Card& card, const std::optional<Inference>& inference, const S
   print("\n%s", summary.c_str());
   if (faults.empty()) {
     Findings findings = findings_of(card, store, inference);
-    look_at_tests(findings, options.threads, stop, &looks);
-    faults = write_page(options.out, findings);
+    faults = look_at_tests(findings, options.out, stop, {.threads = options.threads, .seen = &looks});
+    if (faults.empty()) faults = write_page(options.out, findings);
   }
   if (!faults.empty()) return report(faults, kFailed);
   print("\n");

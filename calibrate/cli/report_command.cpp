@@ -25,10 +25,12 @@ int write_report(const ReportOptions& options) {
   auto findings = read_findings(options.folder, kStore);
   if (!findings.ok()) return report(findings.faults());
   const std::filesystem::path folder = options.folder;
-  if (!options.quick) look_at_tests(findings.value(), options.threads, listen_for_stop());
+  const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
+                                    {.threads = options.threads, .simulate = !options.quick});
   for (const std::string& sentence : findings.value().missing)
     std::fprintf(stderr, "pastefit: %s\n", one_line(sentence).c_str());
   if (const auto faults = write_page(folder, findings.value()); !faults.empty()) return report(faults, kFailed);
+  if (!unkept.empty()) return report(unkept, kFailed);
   print("wrote %s\n", (folder / kPage).c_str());
   return kDone;
 }
@@ -38,7 +40,7 @@ int write_report(const ReportOptions& options) {
 Command add_report(CLI::App& verb) {
   const auto options = std::make_shared<ReportOptions>();
   verb.add_option("DIR", options->folder, "folder of a calibration, also of one that is still running")->required();
-  verb.add_flag("--quick", options->quick, "do not simulate: no film, no heaps");
+  verb.add_flag("--quick", options->quick, "do not simulate what the folder lacks, film and heaps");
   add_threads(verb, options->threads);
   return [options] { return write_report(*options); };
 }

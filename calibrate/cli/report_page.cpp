@@ -1,31 +1,49 @@
 #include "calibrate/cli/report_page.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"
 
 namespace pastefit {
 
-void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop, Looks* seen) {
+Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, const std::atomic<bool>& stop,
+                     const LookOptions& options) {
   constexpr std::size_t kMostPackings = 8;
-  if (!findings.card) return;
-  if (stop) {
-    findings.missing.push_back("The tests were not simulated for this page, because the run was interrupted.");
-    return;
-  }
-  const auto& packings = findings.card->confirmation.packings;
+  if (!findings.card) return {};
+  const Card& card = *findings.card;
+  const auto& packings = card.confirmation.packings;
   const std::span shown(packings.data(), std::min(packings.size(), kMostPackings));
   if (packings.size() > shown.size())
     findings.missing.push_back("The drawings show " + std::to_string(shown.size()) + " of the " +
                                std::to_string(packings.size()) + " packings that the readings are means over.");
-  for (const CardTest& test : findings.card->tests) {
-    findings.views.push_back(view_of(
-        test, shown, threads, [&] { return !stop; }, seen));
-    if (stop) findings.missing.push_back("The run was interrupted while the tests were simulated for this page.");
-    for (const std::string& failure : findings.views.back().failures)
-      findings.missing.push_back(heading_of(test) + "a run that should be shown failed, " + failure);
+  auto kept = read_views(folder / kViewsFile, card, shown);
+  if (kept.ok()) {
+    findings.views = std::move(kept).value();
+  } else {
+    if (const Fault& why = kept.faults().front(); options.simulate && !options.seen)
+      std::fprintf(stderr, "pastefit: %s %s: the tests are simulated anew\n", why.where.c_str(), why.what.c_str());
+    const auto goes_on = [&] { return options.simulate && !stop; };
+    for (const CardTest& test : card.tests)
+      findings.views.push_back(view_of(test, shown, options.threads, goes_on, options.seen));
   }
+  std::size_t lacking = 0;
+  for (std::size_t i = 0; i < findings.views.size(); ++i) {
+    lacking += findings.views[i].lacking;
+    for (const std::string& failure : findings.views[i].failures)
+      findings.missing.push_back(heading_of(card.tests[i]) + "a run that should be shown failed, " + failure);
+  }
+  if (lacking > 0) {
+    const Fault& why = kept.faults().front();
+    findings.missing.push_back("Film and heaps of " + std::to_string(lacking) + " of " +
+                               std::to_string(shown.size() * card.tests.size()) + " runs are not shown: " + why.where +
+                               " " + why.what + ", and they were not simulated anew" +
+                               (stop ? ", because the run was interrupted." : "."));
+    return {};
+  }
+  return kept.ok() ? Faults{} : write_views(folder / kViewsFile, card, shown, findings.views);
 }
 
 void LivePage::show(const Study& study, const Store& store) {

@@ -12,9 +12,18 @@ namespace pastefit {
 
 inline const std::string kPage = "report.html";
 
-/// Shows the card's tests on the packings that confirmed it, the first eight at most: as `seen` has them; what it lacks
-/// is simulated, until `stop` becomes true. What could not be shown is then missing in the findings.
-void look_at_tests(Findings& findings, int threads, const std::atomic<bool>& stop, Looks* seen = nullptr);
+/// Where the looks at a card's tests come from.
+struct LookOptions {
+  int threads = 0;
+  bool simulate = true;  ///< what was neither seen nor kept
+  Looks* seen = nullptr;
+};
+
+/// Shows the card's tests on the packings that confirmed it, the first eight at most: as they were seen, or as the
+/// folder has kept them (`kViewsFile`); what is neither is simulated, until `stop` becomes true, and then kept. What
+/// could not be shown is missing in the findings. Errors: what was seen could not be kept.
+Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, const std::atomic<bool>& stop,
+                     const LookOptions& options);
 
 /// The page of a calibration that goes on, written anew every now and then.
 class LivePage {

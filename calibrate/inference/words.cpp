@@ -149,9 +149,13 @@ std::string enumerated(const std::vector<std::string>& words) {
   return out;
 }
 
-std::string words_of(const Inference& inference) {
+std::string what_is_determined(const Inference& inference) {
   return "What the readings say of the parameters (" + std::to_string(inference.simulations) + " simulations)\n" +
-         determined(inference) + intervals(inference) + "What to measure next\n" + next(inference) + family(inference);
+         determined(inference) + intervals(inference) + "What to measure next\n" + next(inference);
+}
+
+std::string words_of(const Inference& inference) {
+  return what_is_determined(inference) + family(inference);
 }
 
 CardInference card_inference(const Inference& inference) {

@@ -13,6 +13,9 @@ namespace pastefit {
 /// ended.
 std::string words_of(const Inference& inference);
 
+/// The same without the table of equivalent materials.
+std::string what_is_determined(const Inference& inference);
+
 /// The part of it that a card keeps: 95 % intervals that have an end set by the data, how parameters move together
 /// (from 0.2 on), and what is not identified. Rounded to the digits that the sample behind them is worth.
 CardInference card_inference(const Inference& inference);

@@ -158,6 +158,11 @@ std::size_t series_at(const SlumpTest&, const Moment& moment) {
   return moment.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(moment.drop) + 1;
 }
 
+std::optional<Outline> heap_at(const SlumpTest& test, const Moment& moment) {
+  if (moment.drop > 0 || !moment.phase.starts_with("step")) return std::nullopt;
+  return outline(on_table(moment.world->particles), test.grains.radius_m);
+}
+
 std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment) {
   const bool first = moment.phase == "step1.rest";
   if (moment.drop > 0 || (!first && moment.phase != "step2.rest")) return std::nullopt;

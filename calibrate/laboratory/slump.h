@@ -58,6 +58,9 @@ std::optional<double> grain_density_of(const SlumpTest& test, const Observables&
 std::span<const std::string_view> series_of(const SlumpTest& test);
 std::size_t series_at(const SlumpTest& test, const Moment& moment);
 
+/// Of the drops of one heap the first counts.
+std::optional<Outline> heap_at(const SlumpTest& test, const Moment& moment);
+
 /// The heap at rest after each step, for a photograph beside it.
 std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment);
 

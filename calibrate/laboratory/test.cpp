@@ -111,6 +111,10 @@ std::size_t series_at(const Test& test, const Moment& moment) {
   return std::visit([&](const auto& one) { return series_at(one, moment); }, test);
 }
 
+std::optional<Outline> heap_at(const Test& test, const Moment& moment) {
+  return std::visit([&](const auto& one) { return heap_at(one, moment); }, test);
+}
+
 std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment) {
   return std::visit([&](const auto& one) { return outline_at(one, moment); }, test);
 }

@@ -48,6 +48,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { why_of_that_size(given) } -> std::same_as<std::string_view>;
   { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
   { series_at(given, moment) } -> std::same_as<std::size_t>;
+  { heap_at(given, moment) } -> std::same_as<std::optional<Outline>>;
   { outline_at(given, moment) } -> std::same_as<std::optional<NamedOutline>>;
   { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
@@ -81,6 +82,7 @@ std::optional<double> grain_density_of(const Test& test, const Observables& mean
 std::string_view why_of_that_size(const Test& test);
 std::span<const std::string_view> series_of(const Test& test);
 std::size_t series_at(const Test& test, const Moment& moment);
+std::optional<Outline> heap_at(const Test& test, const Moment& moment);
 std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment);
 std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);

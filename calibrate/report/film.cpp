@@ -22,13 +22,17 @@ FilmFrame frame_of(const World& world) {
   frame.centres_m.resize(grains);
   frame.speeds_m_s.resize(grains);
   frame.coordination.resize(grains);
-  const auto touching = coordination_of(world);
+  frame.pulls_n.resize(grains);
+  const auto links = links_of(world);
+  const auto touching = coordination_of(links, world.particles.count());
+  const auto pulls = pulls_of(links, world.particles.count());
   for (std::size_t i = 0; i < grains; ++i) {
     const auto identity = static_cast<std::size_t>(world.particles.identity[i]);
     const Motion& motion = world.particles.motion[i];
     frame.centres_m[identity] = motion.position;
     frame.speeds_m_s[identity] = static_cast<float>(norm(motion.velocity));
     frame.coordination[identity] = touching[i];
+    frame.pulls_n[identity] = pulls[i];
   }
   for (const Wall& wall : world.walls) frame.walls.push_back({wall.name, wall.shape});
   return frame;
@@ -68,12 +72,14 @@ std::size_t Film::frames() const {
 }
 
 void FilmRecorder::add(const Moment& moment) {
-  if (!moment.world || moment.drop > 0 || moment.world->particles.count() == 0) return;
+  if (!moment.world || moment.world->particles.count() == 0) return;
   const World& world = *moment.world;
   const auto grains = static_cast<std::size_t>(world.particles.count());
-  const bool anew = film_.reels.empty() || moment.time_s < last_s_ || film_.reels.back().radii_m.size() != grains;
+  const bool anew = film_.reels.empty() || moment.time_s < last_s_ || moment.drop != drop_ ||
+                    film_.reels.back().radii_m.size() != grains;
   if (anew) {
     begun_s_ = film_.reels.empty() ? 0 : film_.reels.back().frames.back().time_s;
+    first_s_ = moment.drop > 0 ? moment.time_s : 0;  // the drop goes on with the clock of the heap
     Reel reel;
     reel.radii_m.resize(grains);
     for (std::size_t i = 0; i < grains; ++i)
@@ -81,9 +87,11 @@ void FilmRecorder::add(const Moment& moment) {
     film_.reels.push_back(std::move(reel));
   }
   last_s_ = moment.time_s;
+  drop_ = moment.drop;
   FilmFrame frame = frame_of(world);
-  frame.time_s = begun_s_ + moment.time_s;
+  frame.time_s = begun_s_ + moment.time_s - first_s_;
   frame.phase = moment.phase;
+  if (moment.drop > 0) frame.phase += ", heap turned half round";
   film_.reels.back().frames.push_back(std::move(frame));
 }
 

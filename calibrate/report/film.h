@@ -23,6 +23,7 @@ struct FilmFrame {
   std::vector<Vec3> centres_m;
   std::vector<float> speeds_m_s;
   std::vector<std::uint8_t> coordination;  ///< grains that touch it
+  std::vector<float> pulls_n;              ///< what its neighbours pull on it (`pulls_of`)
   std::vector<FilmWall> walls;
 };
 
@@ -41,7 +42,7 @@ struct Film {
 };
 
 /// Makes a film of the moments of a run (`RunOptions::watch`). A reel ends where the grains are other ones: a stage of
-/// the test that begins its own clock. Of the drops of one heap only the first is filmed.
+/// the test that begins its own clock, and at each further drop of one heap, whose phases say that they are of that.
 class FilmRecorder {
  public:
   static constexpr double kInterval = 0.02;  ///< [s] between two pictures, for `RunOptions::watch_interval_s`
@@ -54,7 +55,9 @@ class FilmRecorder {
 
  private:
   Film film_;
-  double begun_s_ = 0, last_s_ = 0;  // start of the reel on the film's clock; time of the run
+  double begun_s_ = 0, first_s_ = 0;  // start of the reel on the film's clock, and on that of the run
+  double last_s_ = 0;                 // time of the run
+  int drop_ = 0;
 };
 
 }  // namespace pastefit

@@ -65,10 +65,18 @@ void append(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
 /// What of a reel is coded as difference from the frame before.
 struct Columns {
   std::array<std::vector<std::uint16_t>, 3> places;
-  std::vector<std::uint8_t> speeds, touching;
+  std::vector<std::uint8_t> speeds, touching, pulls;
 };
 
-Columns columns_of(const FilmFrame& frame, const Box& box) {
+float most_pull_n(const Film& film) {
+  float most = 0;
+  for (const Reel& reel : film.reels)
+    for (const FilmFrame& frame : reel.frames)
+      for (const float pull : frame.pulls_n) most = std::max(most, pull);
+  return most;
+}
+
+Columns columns_of(const FilmFrame& frame, const Box& box, float most_pull) {
   Columns out;
   for (const Vec3& centre : frame.centres_m) {
     const auto place = coordinates(centre);
@@ -76,6 +84,8 @@ Columns columns_of(const FilmFrame& frame, const Box& box) {
   }
   for (const float speed : frame.speeds_m_s) out.speeds.push_back(code_of_speed(speed));
   out.touching = frame.coordination;
+  for (const float pull : frame.pulls_n)
+    out.pulls.push_back(static_cast<std::uint8_t>(most_pull > 0 ? std::lround(255 * pull / most_pull) : 0));
   return out;
 }
 
@@ -89,7 +99,8 @@ std::vector<Number> difference(const std::vector<Number>& now, const std::vector
 void append(std::string& bytes, const Columns& now, const Columns& before) {
   for (std::size_t c = 0; c < 3; ++c) append(bytes, difference(now.places[c], before.places[c]));
   for (const auto& [column, earlier] :
-       {std::pair(&now.speeds, &before.speeds), std::pair(&now.touching, &before.touching)})
+       {std::pair(&now.speeds, &before.speeds), std::pair(&now.touching, &before.touching),
+        std::pair(&now.pulls, &before.pulls)})
     for (const auto byte : difference(*column, *earlier)) bytes += static_cast<char>(byte);
 }
 
@@ -136,9 +147,14 @@ ordered_json json_of(const FilmWall& wall) {
 
 }  // namespace
 
+CodedFilm coded(const Film& film) {
+  if (film.frames() == 0) return {};
+  return {film_index(film).dump(), film_bytes(film)};
+}
+
 ordered_json film_index(const Film& film) {
   const Box box = box_of(film);
-  ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}};
+  ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}, {"most_pull_n", most_pull_n(film)}};
   auto& reels = out["reels"] = ordered_json::array();
   for (const Reel& reel : film.reels) {
     ordered_json of_reel{{"grains", reel.radii_m.size()}};
@@ -157,6 +173,7 @@ ordered_json film_index(const Film& film) {
 
 std::string film_bytes(const Film& film) {
   const Box box = box_of(film);
+  const float most_pull = most_pull_n(film);
   std::string bytes;
   for (const Reel& reel : film.reels) {
     std::vector<std::uint16_t> radii;
@@ -164,7 +181,7 @@ std::string film_bytes(const Film& film) {
     append(bytes, radii);
     Columns before;
     for (const FilmFrame& frame : reel.frames) {
-      Columns now = columns_of(frame, box);
+      Columns now = columns_of(frame, box, most_pull);
       append(bytes, now, before);
       before = std::move(now);
     }

@@ -1,5 +1,6 @@
 #include "calibrate/report/links.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/laws/table.h"
@@ -78,12 +79,20 @@ std::vector<Link> links_of(const World& world) {
   return finder.take();
 }
 
-std::vector<std::uint8_t> coordination_of(const World& world) {
-  std::vector<std::uint8_t> touching(static_cast<std::size_t>(world.particles.count()), 0);
-  for (const Link& link : links_of(world))
+std::vector<std::uint8_t> coordination_of(std::span<const Link> links, std::int32_t grains) {
+  std::vector<std::uint8_t> touching(static_cast<std::size_t>(grains), 0);
+  for (const Link& link : links)
     for (const std::int32_t grain : {link.first, link.second})
       if (link.touching && touching[grain] < 255) ++touching[grain];
   return touching;
+}
+
+std::vector<float> pulls_of(std::span<const Link> links, std::int32_t grains) {
+  std::vector<float> pulls(static_cast<std::size_t>(grains), 0);
+  for (const Link& link : links)
+    for (const std::int32_t grain : {link.first, link.second})
+      pulls[grain] += static_cast<float>(std::max(-link.force_n, 0.0));
+  return pulls;
 }
 
 }  // namespace pastefit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/world/world.h"
@@ -18,7 +19,10 @@ struct Link {
 /// All contacts and living bridges between grains.
 std::vector<Link> links_of(const World& world);
 
-/// How many grains each grain touches, by its place in the world; 255 stands for more too.
-std::vector<std::uint8_t> coordination_of(const World& world);
+/// How many grains each of so many grains touches, by its place in the world; 255 stands for more too.
+std::vector<std::uint8_t> coordination_of(std::span<const Link> links, std::int32_t grains);
+
+/// What its neighbours pull on each grain, the sum over its liquid bridges and over contacts in tension [N].
+std::vector<float> pulls_of(std::span<const Link> links, std::int32_t grains);
 
 }  // namespace pastefit

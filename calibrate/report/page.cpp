@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "calibrate/base/foreign_text.h"
-#include "calibrate/report/film_code.h"
 #include "calibrate/report/page_content.h"
 
 // The page as esbuild leaves it, between two symbols. Bytes of a file in a few lines of assembler: a source made of
@@ -39,9 +38,8 @@ std::string page_of(const Findings& findings, const std::string& command) {
   out += "<script type=\"application/json\" id=\"content\">" + json_in_html(page_content(findings, command)) +
          "</script>\n";
   for (std::size_t i = 0; i < findings.views.size(); ++i)
-    if (findings.views[i].film.frames() > 0)
-      out += "<script type=\"text/plain\" id=\"film-" + std::to_string(i) + "\">" + film_bytes(findings.views[i].film) +
-             "</script>\n";
+    if (const CodedFilm& film = findings.views[i].film; !film.empty())
+      out += "<script type=\"text/plain\" id=\"film-" + std::to_string(i) + "\">" + film.grains + "</script>\n";
   out += page.substr(place + kPlace.size());
   return out;
 }

@@ -6,7 +6,6 @@
 
 #include "calibrate/base/rounded.h"
 #include "calibrate/inference/words.h"
-#include "calibrate/report/film_code.h"
 #include "calibrate/report/law_curves.h"
 #include "calibrate/report/search_history.h"
 #include "calibrate/report/summary.h"
@@ -42,6 +41,19 @@ ordered_json parameters_of(const Findings& findings) {
       if (unseen.parameter == parameter.name) one["not_identified"] = unseen.reason;
     out.push_back(std::move(one));
   }
+  return out;
+}
+
+/// What is searched where nothing was found yet.
+ordered_json parameters_of(const Study& study) {
+  auto out = ordered_json::array();
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free)
+      out.push_back({{"name", parameter.name},
+                     {"free", true},
+                     {"lower", parameter.lower},
+                     {"upper", parameter.upper},
+                     {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}});
   return out;
 }
 
@@ -127,7 +139,7 @@ std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
 ordered_json run_shown(const CardTest& test, const TestView& view) {
   if (view.runs.empty()) return {};
   const SeenRun& shown = view.runs.front();
-  ordered_json out{{"packing", shown.packing}, {"program", program_identity()}, {"same_as_card", false}};
+  ordered_json out{{"packing", shown.packing}, {"program", view.program}, {"same_as_card", false}};
   for (const auto& run : test.baseline.runs) {
     if (run.packing != shown.packing) continue;
     out["same_as_card"] = std::ranges::all_of(
@@ -162,13 +174,13 @@ ordered_json test_of(const Findings& findings, std::size_t index) {
   for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), measurements_of(test)))
     out["drawings"].push_back(json_of(drawing));
   out["packings_drawn"] = view.runs.size();
-  if (view.film.frames() > 0) out["film"] = film_index(view.film);
+  if (!view.film.empty()) out["film"] = ordered_json::parse(view.film.index);
   out["run_shown"] = run_shown(test, view);
   return out;
 }
 
 ordered_json inference_of(const Inference& inference) {
-  ordered_json out{{"words", words_of(inference)}, {"simulations", inference.simulations}};
+  ordered_json out{{"words", what_is_determined(inference)}, {"simulations", inference.simulations}};
   for (std::size_t i = 0; i < inference.fitted.size(); ++i)
     out["noise"][inference.fitted[i]] = rounded(inference.noise[i]);
   for (const ParameterInterval& one : inference.intervals)
@@ -190,11 +202,12 @@ ordered_json inference_of(const Inference& inference) {
   return out;
 }
 
-/// What the laboratory measured, by the names of readings.
+/// What the laboratory measured, by the names of readings, those of a test with a name as "name/reading".
 ordered_json measured_in(const Study& study) {
   auto out = ordered_json::object();
   for (const StudyTest& test : study.tests)
-    for (const Measurement& one : test.lab.measurements) out[one.observable] = rounded(one.value);
+    for (const Measurement& one : test.lab.measurements)
+      out[(test.name.empty() ? "" : test.name + "/") + one.observable] = rounded(one.value);
   return out;
 }
 
@@ -247,6 +260,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                          {"study_hash", card.provenance.study_hash},
                          {"program", card.provenance.program}};
   }
+  if (!findings.card && findings.study) out["parameters"] = parameters_of(*findings.study);
   if (findings.inference) out["inference"] = inference_of(*findings.inference);
   out["search"] = search_of(findings);
   return out;

@@ -10,6 +10,7 @@
 #include "calibrate/inference/response_model.h"
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
+#include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"
 
@@ -108,6 +109,7 @@ ordered_json search_history(const Findings& findings) {
       point["failure"] = std::string(name_of(evaluation.failure->reason)) + ": " + evaluation.failure->message;
     if (evaluation.run.ended_early) point["ended_early"] = true;
     point["wall_s"] = rounded(evaluation.wall_s, 3);
+    if (!evaluation.sketch.points.empty()) point["sketch"] = to_json(evaluation.sketch);
     if (findings.study) judge(findings, evaluation, point);
     out.push_back(std::move(point));
   }

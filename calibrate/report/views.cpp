@@ -5,6 +5,7 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/search/worker_pool.h"
+#include "calibrate/store/program.h"
 
 namespace pastefit {
 
@@ -29,6 +30,8 @@ Look look_at(const Test& test, bool filmed, const std::function<bool()>& goes_on
 TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, int threads,
                  const std::function<bool()>& goes_on, Looks* seen) {
   std::vector<Look> looks(packings.size());
+  TestView view;
+  view.program = program_identity();
   {
     WorkerPool pool(threads > 0 ? threads : processors());
     std::vector<std::shared_future<void>> done;
@@ -38,19 +41,20 @@ TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, 
       const bool filmed = i == 0;
       if (auto known = seen ? seen->take(one) : std::nullopt; known && (known->film || !filmed))
         looks[i] = std::move(*known);
-      else
+      else if (goes_on())
         done.push_back(pool.submit([&, i, one, filmed] { looks[i] = look_at(one, filmed, goes_on); }));
     }
     for (auto& one : done) one.get();
   }
-  TestView view;
   for (Look& look : looks) {
-    if (look.failure)
+    if (!look.ended || (look.failure && look.failure->reason == FailureReason::stopped && !goes_on()))
+      ++view.lacking;
+    else if (look.failure)
       view.failures.push_back("packing " + std::to_string(look.seen.packing) + ": " + look.failure->message);
     else
       view.runs.push_back(std::move(look.seen));
   }
-  if (!looks.empty() && looks.front().film) view.film = std::move(*looks.front().film).film();
+  if (!looks.empty() && looks.front().film) view.film = coded(std::move(*looks.front().film).film());
   return view;
 }
 

@@ -89,7 +89,7 @@ class WallDraftsman {
 
 GrainFrame grain_frame(const World& world) {
   GrainFrame frame;
-  const auto touching = coordination_of(world);
+  const auto touching = coordination_of(links_of(world), world.particles.count());
   frame.coordination.assign(touching.begin(), touching.end());
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     const Motion& motion = world.particles.motion[i];

@@ -217,6 +217,11 @@ void SimulationObjective::run(Task& task) {
   const auto start = Clock::now();
   const double core_start = thread_seconds();
   watch(options, start, task.look, &by_user);
+  Sketcher sketcher;
+  options.watch = [&, goes_on = std::move(options.watch)](const Moment& moment) {
+    sketcher.see(test, moment);
+    return goes_on(moment);
+  };
   auto outcome = options_.engine.run(test, options);
   if (by_user) return;
   if (task.look) options_.onlooker->end(test, outcome);
@@ -227,6 +232,7 @@ void SimulationObjective::run(Task& task) {
   evaluation.failure = outcome.failure;
   if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
   evaluation.run = outcome.run;
+  evaluation.sketch = sketcher.sketch(outcome);
   if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.cutoff.value());
   evaluation.wall_s = seconds_since(start);
   task.finished = true;

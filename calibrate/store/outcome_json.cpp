@@ -77,6 +77,10 @@ ordered_json to_json(const RunSummary& run, double wall_s) {
           {"energy_error", run.energy_error ? number_to_json(*run.energy_error) : ordered_json()}};
 }
 
+ordered_json to_json(const Sketch& sketch) {
+  return {{"heap", sketch.heap}, {"points", sketch.points}};
+}
+
 Observables observables_from_json(const ordered_json& in) {
   Observables out;
   for (const auto& [name, value] : in.items()) out.set(name, number_from_json(value));
@@ -115,6 +119,10 @@ RunSummary run_from_json(const json& in) {
   out.ended_early = in.at("ended_early").get<bool>();
   if (const auto& error = in.at("energy_error"); !error.is_null()) out.energy_error = number_from_json(error);
   return out;
+}
+
+Sketch sketch_from_json(const json& in) {
+  return {in.at("heap").get<bool>(), in.at("points").get<std::vector<std::array<double, 2>>>()};
 }
 
 }  // namespace pastefit

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "calibrate/laboratory/sketch.h"
 #include "core/step/run.h"
 
 namespace pastefit {
@@ -28,10 +29,14 @@ nlohmann::ordered_json to_json(const std::optional<Failure>& failure);
 /// "energy_error"}.
 nlohmann::ordered_json to_json(const RunSummary& run, double wall_s);
 
+/// {"heap", "points": [[x, y], ...]}
+nlohmann::ordered_json to_json(const Sketch& sketch);
+
 /// The inverses. Errors: throw nlohmann::json::exception or std::invalid_argument when the text is not what the
 /// functions above write; a caller that reads a file turns them into a fault.
 Observables observables_from_json(const nlohmann::ordered_json& in);
 std::optional<Failure> failure_from_json(const nlohmann::json& in);
 RunSummary run_from_json(const nlohmann::json& in);
+Sketch sketch_from_json(const nlohmann::json& in);
 
 }  // namespace pastefit

@@ -85,6 +85,12 @@ Faults defects(Database& database, const std::string& file) {
   return {};
 }
 
+std::string text_of_run(const StoredEvaluation& evaluation) {
+  auto run = to_json(evaluation.run, evaluation.wall_s);
+  if (!evaluation.sketch.points.empty()) run["sketch"] = to_json(evaluation.sketch);
+  return run.dump();
+}
+
 std::string program_of(Database& database) {
   const auto rows = database.run("SELECT value FROM identity WHERE name = 'program'");
   return rows.empty() ? "" : rows[0][0];
@@ -135,6 +141,7 @@ StoredEvaluation evaluation_of(const Row& row) {
   out.failure = failure_from_json(nlohmann::json::parse(row.at(7)));
   const auto run = nlohmann::json::parse(row.at(8));
   out.run = run_from_json(run);
+  if (const auto sketch = run.find("sketch"); sketch != run.end()) out.sketch = sketch_from_json(*sketch);
   out.wall_s = number_from_json(run.at("wall_s"));
   return out;
 }
@@ -147,7 +154,7 @@ std::string evaluation_key(std::string_view program, const Test& test) {
 }
 
 /// Everything is held in memory too: a search asks for known points often, and a damaged row shows when the store is
-/// opened instead of in the middle of a run. A record is about 1 kB.
+/// opened instead of in the middle of a run. A record is about 2 kB.
 struct Store::State {
   State(const std::filesystem::path& path, StoreIdentity who)
       : file(path.string()), identity(std::move(who)), database(path) {}
@@ -285,7 +292,7 @@ Faults Store::add(const StoredEvaluation& evaluation) {
         with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
                        text_of(evaluation.point), parameters_to_json(evaluation.values).dump(),
                        std::to_string(evaluation.packing), to_json(evaluation.observables).dump(),
-                       to_json(evaluation.failure).dump(), to_json(evaluation.run, evaluation.wall_s).dump()}));
+                       to_json(evaluation.failure).dump(), text_of_run(evaluation)}));
     state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
                          {std::to_string(state_->written + 1)});
     if (!state_->begun) add_inputs(state_->database, state_->epoch, state_->identity.inputs);

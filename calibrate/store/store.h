@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibrate/laboratory/sketch.h"
 #include "calibrate/laboratory/test.h"
 
 namespace pastefit {
@@ -29,6 +30,7 @@ struct StoredEvaluation {
   Observables observables;         ///< all readings, measured in the laboratory or not; empty after a failure
   std::optional<Failure> failure;  ///< why there are no readings
   RunSummary run;
+  Sketch sketch;      ///< without points if there is none
   double wall_s = 0;  ///< time the simulation took
 };
 
@@ -45,10 +47,11 @@ std::string evaluation_key(std::string_view program, const Test& test);
 /// machine. Safe to use from several threads; for one process at a time.
 ///
 /// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
-/// failure, run, checksum; point to run as JSON text with doubles that read back bit for bit, the parameters by name,
-/// those only that do not have their usual value; the checksum is of all before it. Table `set_aside`: rows that were
-/// found not to agree with theirs. Table `identity`: the program, and how many evaluations were ever written. Table
-/// `inputs`: epoch, content, checksum; one row for each change of the study or its laboratory files.
+/// failure, run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, the
+/// parameters by name, those only that do not have their usual value; the checksum is of all before it. Table
+/// `set_aside`: rows that were found not to agree with theirs. Table `identity`: the program, and how many evaluations
+/// were ever written. Table `inputs`: epoch, content, checksum; one row for each change of the study or its laboratory
+/// files.
 ///
 /// A search that goes on after such a change knows the evaluations of earlier epochs from the start; those of its own
 /// epoch only answer when it asks for them again, so that a run that was killed takes the same way.

@@ -12,8 +12,9 @@ export async function openBrowser() {
   });
 }
 
-/// Opens a file; what goes wrong there is kept in `page.faults`, what it asks of a network in `page.requests`.
-export async function openPage(browser, file, options = {}) {
+/// Opens a file; what goes wrong there is kept in `page.faults`, what it asks of a network in `page.requests`. `prepare` is
+/// given the page before it is opened.
+export async function openPage(browser, file, options = {}, prepare = async () => {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
   page.faults = [];
@@ -25,6 +26,7 @@ export async function openPage(browser, file, options = {}) {
     page.faults.push(`a dialog: ${dialog.message()}`);
     dialog.dismiss();
   });
+  await prepare(page);
   const url = pathToFileURL(file).href;
   await page.goto(url);
   page.own = url;

@@ -1,14 +1,15 @@
 // The page of a calibration in a browser: node --test page.test.js, with
 //   PASTEFIT_PAGE   the page of a calibration that ended
+//   PASTEFIT_LIVE   the page of a calibration that goes on
 //   PASTEFIT_PARTS  a folder with pages of folders that lack something, each NAME.html
 //   PASTEFIT_SHOTS  a folder for pictures of the page, to be looked at by a person
 import assert from "node:assert/strict";
-import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { copyFileSync, existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
 
-const file = process.env.PASTEFIT_PAGE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
+const file = process.env.PASTEFIT_PAGE, live = process.env.PASTEFIT_LIVE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
 const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
 let browser, page;
 
@@ -73,9 +74,16 @@ test("the scene draws, plays, turns and is sliced", async () => {
   await page.keyboard.press("ArrowLeft");
   await drawn(page);
   assert.notEqual((await pixels(page)).sum, sliced.sum);
-  await page.locator("label.choice", { hasText: "Colour" }).locator("select").selectOption("speed");
-  await drawn(page);
-  assert.notEqual((await pixels(page)).sum, sliced.sum);
+  const seen = new Set();
+  const colour = page.locator("label.choice", { hasText: "Colour" }).locator("select");
+  const kinds = await colour.locator("option").evaluateAll((options) => options.map((option) => option.value));
+  assert.deepEqual(kinds, ["height", "speed", "coordination", "pull"]);
+  for (const kind of kinds) {
+    await colour.selectOption(kind);
+    await drawn(page);
+    seen.add((await pixels(page)).sum);
+  }
+  assert.equal(seen.size, kinds.length, "every colouring is a picture of its own");
   assert.deepEqual(page.faults, []);
 });
 
@@ -99,12 +107,16 @@ test("every plot has its data", async () => {
 test("hovering shows a candidate, and so do the arrow keys", async () => {
   const plot = page.locator("#search .with-card svg.history");
   await plot.scrollIntoViewIfNeeded();
-  const box = await plot.boundingBox();
-  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
-  await page.mouse.move(box.x + box.width * 0.52, box.y + box.height * 0.5);
-  await page.locator(".candidate").waitFor({ timeout: 5000 });
+  const before = await page.locator(".candidate").textContent();
+  assert.match(before, /confirmation/, "a confirmed run is shown to begin with");
+  const box = await plot.locator("g[aria-label=dot]").first().locator("path, circle").first().boundingBox();
+  await page.mouse.move(box.x + 30, box.y + 30);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForFunction((text) => document.querySelector(".candidate").textContent !== text, before, { timeout: 5000 });
   assert.match(await page.locator(".candidate").textContent(), /Simulation \d+/);
   assert.ok((await page.locator(".candidate-picture circle").count()) > 0);
+  const heap = await page.locator(".candidate-picture.sketch polyline.own").getAttribute("points");
+  assert.ok(heap.split(" ").length > 20, heap);
   await page.locator(".with-card").focus();
   await page.keyboard.press("ArrowRight");
   assert.match(await page.locator(".candidate").textContent(), /Simulation \d+/);
@@ -135,6 +147,19 @@ test("the page can be printed", async () => {
   if (shots) await paper.screenshot({ path: join(shots, "print.png"), fullPage: true });
   assert.deepEqual(paper.faults, []);
   await paper.context().close();
+});
+
+test("the page of a calibration that goes on shows how far it is, and looks again by itself", { skip: !live }, async () => {
+  const other = await openPage(browser, live, {}, (one) => one.clock.install());
+  await other.locator("#verdict.goes").waitFor();
+  assert.ok((await other.locator("#search .history path, #search .history circle").count()) > 0);
+  if (shots) await other.screenshot({ path: join(shots, "live.png"), fullPage: true });
+  copyFileSync(file, live); // as the calibration does it when it ends
+  await other.clock.fastForward(11_000);
+  await other.locator("#verdict:not(.goes) h1").waitFor();
+  assert.equal(await other.locator("h1").textContent(), card.title);
+  assert.deepEqual(other.faults, []);
+  await other.context().close();
 });
 
 for (const name of parts && existsSync(parts) ? readdirSync(parts).filter((one) => one.endsWith(".html")) : [])

@@ -3,7 +3,8 @@
 
 usage: run.py bundle SOURCE_DIR WORK_DIR              builds the page anew and compares it with the one that is shipped
        run.py browser PROGRAM SOURCE_DIR WORK_DIR     looks at the page of a calibration in Chromium
-       run.py picture PROGRAM SOURCE_DIR WORK_DIR     makes the picture of the README, of the shipped card of concrete mix 20
+       run.py picture PROGRAM SOURCE_DIR WORK_DIR     makes the picture of the README, of the shipped card of the first example
+       run.py map PROGRAM SOURCE_DIR WORK_DIR         calibrates that, some minutes, and makes the picture of what is open
 
 WORK_DIR keeps the packages of npm between runs, the pages, and pictures of them (WORK_DIR/shots).
 """
@@ -12,10 +13,13 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 SKIPPED = 77
+EXAMPLE = "concrete-mix-79"  # that of .ci/try
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;"
 
 
@@ -96,6 +100,24 @@ def make_parts(program, result, work):
     report(program, hostile, work / "hostile.html")
 
 
+def interrupted(program, study, place):
+    """Begins a calibration, keeps its page of the way as place/live.html, and ends it as Ctrl-C does."""
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    made = subprocess.Popen([program, "calibrate", study, "--out", place / "out", "--budget", "1000"],
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    page, deadline = place / "out/report.html", time.monotonic() + 60
+    while not page.exists() and made.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.1)
+    if made.poll() is not None or not page.exists():
+        made.kill()
+        sys.exit("a calibration that goes on has no page")
+    shutil.copy(page, place / "live.html")
+    made.send_signal(signal.SIGINT)
+    made.wait(timeout=60)
+    return place / "out"
+
+
 def browser(program, source, work):
     if not any(pathlib.Path("/usr/bin", name).exists() for name in ("chromium-headless-shell", "chromium")):
         skip("there is no Chromium (.ci/install .ci/packages-page.txt)")
@@ -106,26 +128,37 @@ def browser(program, source, work):
     if not (result / "report.html").exists():
         sys.exit(made.stdout + made.stderr)
     make_parts(program, result, work / "parts")
+    ended = interrupted(program, study, work / "interrupted")
+    shutil.copy(ended / "report.html", work / "parts/interrupted.html")
     (work / "shots").mkdir(exist_ok=True)
-    environment = dict(os.environ, PASTEFIT_PAGE=str(result / "report.html"), PASTEFIT_PARTS=str(work / "parts"),
+    environment = dict(os.environ, PASTEFIT_PAGE=str(result / "report.html"),
+                       PASTEFIT_LIVE=str(work / "interrupted/live.html"), PASTEFIT_PARTS=str(work / "parts"),
                        PASTEFIT_SHOTS=str(work / "shots"))
     sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=work / "browser", env=environment).returncode)
 
 
 def picture(program, source, work):
     with_packages(source / "tests/page", work / "browser")
-    result = work / "mix-20"
+    result = work / EXAMPLE
     result.mkdir(exist_ok=True)
-    shutil.copy(source / "data/cards/concrete-mix-20.json", result / "card.json")
+    shutil.copy(source / f"data/cards/{EXAMPLE}.json", result / "card.json")
     pastefit(program, "report", result)
-    subprocess.run(["node", "picture.js", result / "report.html", source / "tests/page/concrete-mix-20.jpg"],
-                   cwd=work / "browser", check=True)
+    subprocess.run(["node", "picture.js", result / "report.html", source / f"tests/page/{EXAMPLE}.jpg"], cwd=work / "browser", check=True)
+
+
+def picture_of_map(program, source, work):
+    with_packages(source / "tests/page", work / "browser")
+    result = work / f"{EXAMPLE}-search"
+    if not (result / "report.html").exists():
+        pastefit(program, "calibrate", source / f"data/studies/{EXAMPLE}.json", "--out", result, "--force")
+    pastefit(program, "report", result)
+    subprocess.run(["node", "map.js", result / "report.html", source / "calibrate/inference/open.jpg"], cwd=work / "browser", check=True)
 
 
 def main():
     need("node", "npm")
     what, *places = sys.argv[1:]
-    {"bundle": bundle, "browser": browser, "picture": picture}[what](*[pathlib.Path(place).resolve() for place in places])
+    {"bundle": bundle, "browser": browser, "picture": picture, "map": picture_of_map}[what](*[pathlib.Path(place).resolve() for place in places])
 
 
 if __name__ == "__main__":

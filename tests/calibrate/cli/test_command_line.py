@@ -96,7 +96,7 @@ class CommandLine(Desk):
 
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
-        self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt"])
+        self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json"])
         self.assertNotIn("\r", result.stdout)
         for word in ("screening", "strength_pa", "c_n", "step1.height_mm", "laboratory", "card.json"):
             self.assertIn(word, result.stdout)
@@ -113,7 +113,7 @@ class CommandLine(Desk):
         self.assertEqual(height, card["tests"][0]["observables"]["step1.height_mm"]["simulated"])
 
         self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
-        kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "report.html", "summary.txt")}
+        kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json")}
         other = self.study(radius_mm=13)
         self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "none of its", "grains", "--force")
         self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)

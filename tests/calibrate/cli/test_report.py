@@ -61,9 +61,35 @@ class Report(Desk):
         page = (self.out / "report.html").read_text()
         film = content_of(self.out)["tests"][0]["film"]
         data = zlib.decompress(base64.b64decode(element_of(page, "film-0")))
-        self.assertEqual(len(data), sum(reel["grains"] * (2 + 8 * len(reel["frames"])) for reel in film["reels"]))
+        self.assertEqual(len(data), sum(reel["grains"] * (2 + 9 * len(reel["frames"])) for reel in film["reels"]))
         phases = {frame["phase"] for reel in film["reels"] for frame in reel["frames"]}
         self.assertEqual(phases, {"fill.pour", "fill.strike", "fill.rest", "fill.settle", "step1.lift", "step1.rest"})
+
+    def test_the_film_is_kept_beside_the_card_and_simulated_anew_only_where_it_is_not_whole(self):
+        self.calibrates(self.study())
+        first, views = content_of(self.out), self.out / "views.json"
+        result, second = self.page_of(self.out, "--quick")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(first["tests"], second["tests"])
+        whole = views.read_bytes()
+        for spoil, words in ((lambda: views.write_bytes(whole[:len(whole) // 2]), "not JSON"),
+                             (lambda: views.write_bytes(whole.replace(b'"packing"', b'"Packing"')), "is damaged"),
+                             (views.unlink, "there is no such file")):
+            spoil()
+            result, third = self.page_of(self.out, "--quick")
+            self.assertNotIn("film", third["tests"][0])
+            self.assertIn(words, third["missing"][0])
+        result, third = self.page_of(self.out)
+        self.assertIn("the tests are simulated anew", result.stderr)
+        self.assertEqual(first["tests"], third["tests"])
+        self.assertEqual(views.read_bytes(), whole)
+
+    def test_every_simulation_has_a_sketch_of_its_heap(self):
+        self.calibrates(self.study())
+        for point in content_of(self.out)["search"]["history"]:
+            self.assertTrue(point["sketch"]["heap"])
+            if not point.get("ended_early"):
+                self.assertAlmostEqual(max(z for _, z in point["sketch"]["points"]), point["readings"]["step1.height_max_mm"], delta=8)
 
     def test_a_card_alone_has_a_page_that_says_what_it_lacks(self):
         self.out.mkdir()

@@ -24,8 +24,10 @@ Film film_of_two_frames() {
   Film film;
   Reel reel;
   reel.radii_m = {0.01, 0.02};
-  reel.frames.push_back({0, "step1.lift", {{0, 0, 0}, {1, 2, 3}}, {0.0f, 1.0f}, {0, 1}, {{"table", Plane{}}}});
-  reel.frames.push_back({0.5, "step1.rest", {{0, 0, -0.25}, {1, 2, 3.5}}, {10.0f, 1.0f}, {3, 0}, {{"table", Plane{}}}});
+  reel.frames.push_back(
+      {0, "step1.lift", {{0, 0, 0}, {1, 2, 3}}, {0.0f, 1.0f}, {0, 1}, {0.0f, 0.5f}, {{"table", Plane{}}}});
+  reel.frames.push_back(
+      {0.5, "step1.rest", {{0, 0, -0.25}, {1, 2, 3.5}}, {10.0f, 1.0f}, {3, 0}, {2.0f, 1.0f}, {{"table", Plane{}}}});
   film.reels.push_back(std::move(reel));
   return film;
 }
@@ -57,7 +59,7 @@ TEST_CASE("a coded film says where each grain is, to half a quantum, by differen
   const double quantum = index.at("quantum_m");
   CHECK(quantum == Approx(3.75 / 65535));  // wider than 16 bits of 0.05 mm
   const std::string bytes = bytes_in(film_bytes(film));
-  REQUIRE(bytes.size() == 2 * 2 + 2 * (3 * 2 * 2 + 2 + 2));
+  REQUIRE(bytes.size() == 2 * 2 + 2 * (3 * 2 * 2 + 2 + 2 + 2));
   std::size_t place = 0;
   const auto octet = [&] { return static_cast<unsigned char>(bytes.at(place++)); };
   const auto words = [&] {
@@ -78,12 +80,18 @@ TEST_CASE("a coded film says where each grain is, to half a quantum, by differen
         CHECK(index.at("low_m")[axis].get<double>() + places[axis][i] * quantum == Approx(expected).margin(quantum));
       }
     }
-    place += 4;
+    place += 6;
   }
   // Speeds of the first frame, 0 and 1 m/s, and what the second adds to them.
   CHECK(static_cast<unsigned char>(bytes.at(4 + 12)) == 0);
   CHECK(static_cast<unsigned char>(bytes.at(4 + 13)) == 4 * 51);
-  CHECK(static_cast<unsigned char>(bytes.at(4 + 16 + 12)) == 255);
+  CHECK(static_cast<unsigned char>(bytes.at(4 + 18 + 12)) == 255);
+  // Pulls of the first frame, 0 and 0.5 N, and what the second adds to them; 2 N is the most.
+  CHECK(index.at("most_pull_n") == 2);
+  CHECK(static_cast<unsigned char>(bytes.at(4 + 16)) == 0);
+  CHECK(static_cast<unsigned char>(bytes.at(4 + 17)) == 64);
+  CHECK(static_cast<unsigned char>(bytes.at(4 + 18 + 16)) == 255);
+  CHECK(static_cast<unsigned char>(bytes.at(4 + 18 + 17)) == 64);
 }
 
 TEST_CASE("the index of a film names a wall again only where it has moved") {
@@ -105,11 +113,14 @@ TEST_CASE("a film begins a reel where the grains are other ones, and its clock g
   second_drop.drop = 1;
   recorder.add(second_drop);
   const Film film = std::move(recorder).film();
-  REQUIRE(film.reels.size() == 2);
+  REQUIRE(film.reels.size() == 3);
   CHECK(film.grains() == 2);
   CHECK(film.reels[1].frames.front().time_s == Approx(0.04));
   CHECK(film.reels[1].frames.back().time_s == Approx(0.06));
   CHECK(film.reels[1].frames.size() == 2);
+  CHECK(film.reels[1].frames.back().phase == "step1.lift");
+  CHECK(film.reels[2].frames.front().time_s == Approx(0.06));
+  CHECK(film.reels[2].frames.front().phase == "step2.rest, heap turned half round");
 }
 
 TEST_CASE("a long film is thinned to what a page holds, and keeps the last picture of each reel") {

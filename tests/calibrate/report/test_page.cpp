@@ -7,6 +7,7 @@
 #include "calibrate/report/page.h"
 #include "calibrate/report/page_content.h"
 #include "calibrate/report/views.h"
+#include "calibrate/store/program.h"
 #include "tests/calibrate/folder.h"
 
 using namespace pastefit;
@@ -109,11 +110,14 @@ TEST_CASE("a look at a test has its film, and the readings and outlines of every
   test.packing_seed = 6;
   CHECK(view.runs[1].readings.find("step1.height_mm") == simulate(test).observables.find("step1.height_mm"));
   CHECK(view.runs[0].outlines.contains("step1"));
-  CHECK(view.film.frames() > 20);
+  CHECK(view.lacking == 0);
+  CHECK(view.program == program_identity());
+  CHECK_FALSE(view.film.empty());
   const auto drawings = drawings_of(of_card.test, view.runs, {});
   REQUIRE(drawings.size() == 1);
   CHECK(drawings[0].bands.size() == 1);
   const TestView stopped = view_of(of_card, packings, 1, [] { return false; });
   CHECK(stopped.runs.empty());
-  CHECK(stopped.failures.size() == 2);
+  CHECK(stopped.failures.empty());
+  CHECK(stopped.lacking == 2);
 }

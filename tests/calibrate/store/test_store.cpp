@@ -80,6 +80,7 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   auto kept = evaluation(0.3);
   kept.point = {-0.0, 5e-324, 0.1, 1 - 0x1p-53};
   kept.packing = std::numeric_limits<std::uint64_t>::max();
+  kept.sketch = {true, {{-100, 0}, {0.1, 12.5}}};
   CHECK(opened(file).add(kept).empty());
 
   const auto found = opened(file).find(kept.key);
@@ -96,6 +97,8 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   CHECK(found->run.particle_steps == kept.run.particle_steps);
   CHECK(same_bits(found->run.time_step_s, kept.run.time_step_s));
   CHECK(same_bits(found->wall_s, kept.wall_s));
+  CHECK(found->sketch.heap);
+  CHECK(found->sketch.points == kept.sketch.points);
 }
 
 TEST_CASE("parameters are kept by name, those that are not usual, and one that is absent has its usual value") {

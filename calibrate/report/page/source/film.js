@@ -1,4 +1,4 @@
-// The film of a run: places, speeds and neighbours of its grains (calibrate/report/film_code.h says how they are coded).
+// The film of a run: places, speeds and neighbours of its grains, and what pulls on them (calibrate/report/film_code.h says how they are coded).
 
 const slowest = -4; // decimal logarithm of the slowest speed that is told apart [m/s]
 const perDecade = 51;
@@ -50,6 +50,7 @@ function reelOf(columns, index, quantum) {
       places: [0, 1, 2].map((axis) => columns.words(count, last?.places[axis])),
       speeds: columns.octets(count, last?.speeds),
       touching: columns.octets(count, last?.touching),
+      pulls: columns.octets(count, last?.pulls),
     });
   }
   return { count, radii, frames };
@@ -67,6 +68,7 @@ export class Film {
   constructor(index, reels) {
     this.quantum = index.quantum_m;
     this.low = index.low_m;
+    this.mostPull = index.most_pull_n;
     this.reels = reels;
     this.begin = reels[0].frames[0].time;
     this.end = reels.at(-1).frames.at(-1).time;
@@ -95,7 +97,7 @@ export class Film {
     return { reel, one, other, share: gap > 0 ? Math.min(Math.max((time - one.time) / gap, 0), 1) : 0 };
   }
 
-  /// The largest of heights [m] and neighbours in the film, for scales of colour.
+  /// The largest of heights [m], neighbours and pulls [N] in the film, for scales of colour.
   extremes() {
     let height = 0, touching = 1;
     for (const { frames } of this.reels) {
@@ -104,7 +106,7 @@ export class Film {
         for (const count of frame.touching) touching = Math.max(touching, count);
       }
     }
-    return { height: this.low[2] + height * this.quantum, touching };
+    return { height: this.low[2] + height * this.quantum, touching, pull: this.mostPull };
   }
 }
 

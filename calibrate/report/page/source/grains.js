@@ -106,7 +106,7 @@ export class Grains {
     this.points.frustumCulled = false;
   }
 
-  /// Moves the grains to a time, straight from one frame to the next; `by`: "height", "speed" or "coordination".
+  /// Moves the grains to a time, straight from one frame to the next; `by`: "height", "speed", "coordination" or "pull".
   show(time, by) {
     const { reel, one, other, share } = this.film.at(time);
     const { low, quantum } = this.film;
@@ -122,6 +122,7 @@ export class Grains {
     for (let i = 0; i < reel.count; ++i) {
       if (by === "speed") values[i] = (one.speeds[i] + share * (other.speeds[i] - one.speeds[i])) / fastest;
       else if (by === "coordination") values[i] = one.touching[i] / most;
+      else if (by === "pull") values[i] = (one.pulls[i] + share * (other.pulls[i] - one.pulls[i])) / 255;
       else values[i] = places[3 * i + 2] / top;
     }
     this.points.geometry.setDrawRange(0, reel.count);

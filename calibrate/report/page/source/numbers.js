@@ -28,10 +28,15 @@ export function unitOf(name) {
   return unitsOfNames.find(([end]) => name.endsWith(end))?.[1] ?? "";
 }
 
-/// The name without its unit, for people: "step1.height_mm" -> "step 1, height".
+/// The name of a reading among those of all tests, as in a study: "plate/step1.height_mm".
+export function fullName(test, reading) {
+  return test ? `${test}/${reading}` : reading;
+}
+
+/// The name without its unit, for people: "plate/step1.height_mm" -> "plate: step 1, height".
 export function words(name) {
   const unit = unitsOfNames.find(([end]) => name.endsWith(end))?.[0] ?? "";
-  return name.slice(0, name.length - unit.length).replace(/^step(\d)\./, "step $1, ").replace(/\./g, ", ").replace(/_/g, " ");
+  return name.slice(0, name.length - unit.length).replace("/", ": ").replace(/\bstep(\d)\./, "step $1, ").replace(/\./g, ", ").replace(/_/g, " ");
 }
 
 export function duration(seconds) {

@@ -17,6 +17,7 @@ function scaleOf(by, extremes) {
     height: ["0", `${number(1e3 * extremes.height, 3)} mm`],
     speed: [`${number(speedOf(0), 1)} m/s`, `${number(speedOf(255), 2)} m/s, logarithmic`],
     coordination: ["0", `${extremes.touching} grains touched`],
+    pull: ["0", `${number(1e3 * extremes.pull, 3)} mN, the sum of what bridges and sticking contacts pull on a grain`],
   }[by];
   const stops = Array.from({ length: 11 }, (_, k) => rampColour(k / 10)).join(", ");
   return element("p", { class: "scale" }, element("span", {}, ends[0]),
@@ -54,7 +55,7 @@ class Player {
       element("div", { class: "row" }, this.button, this.slider, this.clock), phases,
       element("div", { class: "row" },
         choice("Speed", [["0.25", "a quarter"], ["1", "as it is"], ["4", "four times"]], "1", (value) => (this.speed = Number(value))),
-        choice("Colour", [["height", "height"], ["speed", "speed"], ["coordination", "coordination"]], "height", (value) => this.recolour(value)),
+        choice("Colour", [["height", "height"], ["speed", "speed"], ["coordination", "coordination"], ...(this.film.mostPull > 0 ? [["pull", "bridge force"]] : [])], "height", (value) => this.recolour(value)),
         choice("View", [["slanted", "slanted"], ["front", "front"], ["side", "side"], ["top", "top"]], "slanted", (value) => this.scene.look(value)),
         toggle("Slice at the symmetry plane", false, (on) => this.scene.slice(on))));
   }
@@ -90,12 +91,13 @@ class Player {
   toggle() {
     this.playing = !this.playing;
     this.button.textContent = this.playing ? "\u23f8 Pause" : "\u25b6 Play";
-    if (!this.playing) return;
+    if (!this.playing) return this.scene.pace(0);
     if (this.time >= this.film.end) this.show(this.film.begin);
     let before = performance.now();
     const tick = (now) => {
       if (!this.playing) return;
       this.show(this.time + (this.speed * (now - before)) / 1e3);
+      this.scene.pace(now - before);
       before = now;
       if (this.time >= this.film.end) this.toggle();
       else requestAnimationFrame(tick);

@@ -8,22 +8,23 @@ function judged(reading) {
   return off <= reading.tolerance ? ["met", "\u2713 within"] : ["missed", "\u2717 beyond"];
 }
 
+const heads = ["Reading", "Measured \u00b1 deviation", "Simulated \u00b1 standard error", "From packing to packing", "Difference", "Allowed", ""];
+
 function row(reading, noise) {
   const unit = unitOf(reading.name);
   const off = reading.simulated - reading.measured;
   const [kind, verdict] = judged(reading);
   return element("tr", { class: kind }, element("th", { scope: "row" }, words(reading.name), unit ? ` [${unit}]` : ""),
-    element("td", { class: "number", title: `${reading.repeats} reading(s)` }, plusMinus(reading.measured, reading.standard_deviation)),
-    element("td", { class: "number" }, plusMinus(reading.simulated, reading.standard_error)),
-    element("td", { class: "number" }, number(noise ?? reading.simulated_standard_deviation, 2)),
-    element("td", { class: "number" }, signed(off)), element("td", { class: "number" }, number(reading.tolerance, 3)), element("td", {}, verdict));
+    ...[plusMinus(reading.measured, reading.standard_deviation), plusMinus(reading.simulated, reading.standard_error),
+      number(noise ?? reading.simulated_standard_deviation, 2), signed(off), number(reading.tolerance, 3)].map((text, k) =>
+      element("td", { class: "number", "data-head": heads[k + 1], title: k === 0 ? `${reading.repeats} reading(s)` : null }, text)),
+    element("td", {}, verdict));
 }
 
 function table(test, inference) {
   const measured = test.readings.filter((one) => one.measured !== undefined);
   const others = test.readings.filter((one) => one.measured === undefined);
   const name = (reading) => (test.name ? `${test.name}/${reading.name}` : reading.name);
-  const heads = ["Reading", "Measured \u00b1 deviation", "Simulated \u00b1 standard error", "From packing to packing", "Difference", "Allowed", ""];
   return [
     test.name ? element("h3", {}, `Test ${test.name}${test.hold_out ? ", held out: predicted, not fitted" : ""}`) : null,
     measured.length === 0 ? element("p", { class: "notice" }, "This test was not simulated, or nothing of it was measured.") :

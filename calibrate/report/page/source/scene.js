@@ -38,6 +38,8 @@ export class Scene {
     this.colouredBy = "height";
     this.time = film.begin;
     this.pictures = 0;
+    this.sharpness = 1;
+    this.interval = 0;
     this.look("slanted");
     new ResizeObserver(() => this.resize()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
@@ -97,13 +99,24 @@ export class Scene {
   resize() {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.sharpness * Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     // A narrow picture shows as much of the width as a square one.
     this.camera.fov = 32 * Math.max(1, 1.25 / this.camera.aspect);
     this.camera.updateProjectionMatrix();
     this.paint();
+  }
+
+  /// Takes coarser pictures where one takes too long: `milliseconds` since the last one, 0 when the film stops.
+  pace(milliseconds) {
+    const tooLong = 80, coarsest = 0.5, before = this.sharpness;
+    this.interval = milliseconds > 0 ? 0.7 * this.interval + 0.3 * milliseconds : 0;
+    if (milliseconds === 0) this.sharpness = 1;
+    else if (this.interval > tooLong) this.sharpness = Math.max(coarsest, 0.8 * this.sharpness);
+    if (this.sharpness === before) return;
+    this.interval = 0;
+    this.resize();
   }
 
   ask() {

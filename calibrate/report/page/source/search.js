@@ -1,7 +1,7 @@
 // How the search went: the misfit of every simulation, failures included.
 import { candidateCard, kindOf } from "./candidate.js";
 import { choice, element, figure, section } from "./dom.js";
-import { unitOf, words } from "./numbers.js";
+import { fullName, unitOf, words } from "./numbers.js";
 import { colour, legend, plot, Plot } from "./plots.js";
 
 const kinds = {
@@ -34,6 +34,12 @@ function bestSoFar(points) {
   return points.filter((point) => kindOf(point) === "search" && point.misfit !== undefined).map((point) => ({ number: point.number, at: (best = Math.min(best, point.at)) }));
 }
 
+/// What is shown to begin with: a run that confirmed the material, or else the best one.
+function best(points) {
+  const known = points.filter((point) => point.misfit !== undefined && !point.ended_early);
+  return points.find((point) => point.confirmation) ?? known.reduce((one, other) => (other.misfit < one.misfit ? other : one), known[0] ?? points[0]);
+}
+
 function historyPlot(points, search, width) {
   return plot(width, {
     className: "history",
@@ -51,20 +57,22 @@ function historyPlot(points, search, width) {
 
 /// The history with a card beside it that follows the pointer, or the arrow keys.
 function historyFigure(content, measured) {
-  const { search, parameters = [] } = content;
+  const { search } = content;
   const points = placed(search);
-  const card = element("div", { class: "beside", "aria-live": "polite" }, element("p", { class: "note" }, "Point at a simulation, or step through them with the arrow keys."));
+  const card = element("div", { class: "beside", "aria-live": "polite" });
+  const note = () => element("p", { class: "note" }, "Point at a simulation, or step through them with the arrow keys.");
   let chosen = -1;
   const choose = (point) => {
     if (!point) return;
     chosen = points.indexOf(point);
-    card.replaceChildren(candidateCard(point, parameters, measured, search.misfit_unit));
+    card.replaceChildren(candidateCard(point, content, measured), note());
   };
   const made = figure({ class: "with-card", tabindex: 0, "aria-label": "Misfit of every simulation; arrow keys step through them" }, (width) => {
     const drawn = historyPlot(points, search, width);
     drawn.addEventListener("input", () => choose(drawn.value));
     return drawn;
   }, card, element("figcaption", {}, legend([...kindsIn(points).map((kind) => [kind === "failure" ? "failed, or without a fitted reading (at the top)" : kind === "ended early" ? "ended early: at least so much" : kind, `mark ${kind.replace(" ", "-")}`]), ["best single run so far", "line simulation"]])));
+  choose(best(points));
   made.addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step || event.target.tagName === "SELECT") return;
@@ -74,6 +82,10 @@ function historyFigure(content, measured) {
   return made;
 }
 
+/// The readings of a simulation by their names among those of all tests.
+const readingsOf = (point) => new Map(Object.entries(point.readings).map(([name, value]) => [fullName(point.test, name), value]));
+const reads = (reading) => (point) => readingsOf(point).get(reading);
+
 function scatterPlot(points, { parameter, reading, spec, measured }, width) {
   const measuredAt = measured.get(reading);
   return plot(width, {
@@ -82,8 +94,8 @@ function scatterPlot(points, { parameter, reading, spec, measured }, width) {
     y: { label: `${words(reading)} [${unitOf(reading)}]` },
     marks: [
       measuredAt === undefined ? null : Plot.ruleY([measuredAt], { stroke: colour.laboratory, strokeDasharray: "6 4" }),
-      ...dots(points, (point) => point.values[parameter], (point) => point.readings[reading]),
-      Plot.tip(points, Plot.pointer({ x: (point) => point.values[parameter], y: (point) => point.readings[reading], title: (point) => `simulation ${point.number}`, fill: "var(--card)" })),
+      ...dots(points, (point) => point.values[parameter], reads(reading)),
+      Plot.tip(points, Plot.pointer({ x: (point) => point.values[parameter], y: reads(reading), title: (point) => `simulation ${point.number}`, fill: "var(--card)" })),
     ],
   });
 }
@@ -92,12 +104,12 @@ function scatterPlot(points, { parameter, reading, spec, measured }, width) {
 function scatterFigure({ search, parameters = [] }, measured) {
   const done = search.history.filter((point) => !point.failure && !point.other_grains);
   const names = [...new Set(done.flatMap((point) => Object.keys(point.values)))];
-  const readings = [...new Set(done.flatMap((point) => Object.keys(point.readings)))]
-    .sort((one, other) => measured.has(other) - measured.has(one) || one.startsWith("fill.") - other.startsWith("fill."));
+  const readings = [...new Set(done.flatMap((point) => [...readingsOf(point).keys()]))]
+    .sort((one, other) => measured.has(other) - measured.has(one) || one.includes("fill.") - other.includes("fill."));
   if (names.length === 0 || readings.length === 0) return null;
   const shown = { parameter: names[0], reading: readings[0] };
   const made = figure({}, (width) => {
-    const points = done.filter((point) => point.readings[shown.reading] !== undefined);
+    const points = done.filter((point) => reads(shown.reading)(point) !== undefined);
     return scatterPlot(points, { ...shown, spec: parameters.find((one) => one.name === shown.parameter), measured }, width);
   });
   const change = (what) => (value) => {

@@ -3,17 +3,23 @@ import { element, section } from "./dom.js";
 import { drawingFigure } from "./drawing.js";
 import { filmPlayer } from "./player.js";
 
+/// Whether there is something to be seen between the first picture of a film and its last.
+function lasts({ reels }) {
+  return reels.some(({ frames }) => frames.at(-1).time_s - frames[0].time_s > 0.02);
+}
+
 function shownWords({ run_shown: shown, film }) {
+  if (film && !lasts(film)) return "The grains meet between two pictures of a film: there is none.";
   if (!shown || !film) return "This test was not simulated for this page: there is no film of it.";
-  const same = shown.same_as_card ? "It is the same run as the card's, to the last bit." : "Its readings are not the card's to the last bit: it was simulated by another program or on another machine.";
-  return `One run with the fitted parameters, packing ${shown.packing}, simulated for this page. ${same} Between its pictures grains move in straight lines.`;
+  const same = shown.same_as_card ? "It is the same run as the card's, to the last bit." : `Its readings are not the card's to the last bit: it was simulated by ${shown.program}, on this machine or another.`;
+  return `One run with the fitted parameters, on packing ${shown.packing}. ${same} Between its pictures grains move in straight lines.`;
 }
 
 function testPart(test, index) {
   const bytes = document.getElementById(`film-${index}`);
   return [
     test.name ? element("h3", {}, `Test ${test.name}`) : null,
-    test.film && bytes ? filmPlayer(test.film, bytes.textContent) : null,
+    test.film && bytes && lasts(test.film) ? filmPlayer(test.film, bytes.textContent) : null,
     element("p", { class: "note" }, shownWords(test)),
     ...test.drawings.map(drawingFigure),
   ];

@@ -11,14 +11,18 @@ export function verdictKind({ verdict, under_way }) {
   return verdict.misfit <= 1 || !verdict.fresh ? "open" : "fails";
 }
 
-function facts({ verdict, search, parameters }) {
+function facts({ verdict, search, parameters, interval_level: level }) {
   const list = [];
   if (verdict) {
     const told = number(verdict.misfit * search.misfit_asked, 3);
     list.push([`${told} ${search.misfit_unit}`, `largest difference from the laboratory; asked for ${number(search.misfit_asked, 3)}`]);
     list.push([String(verdict.packings.length), verdict.fresh ? "random packings that the search had not seen" : "random packings, which the search had seen"]);
     const open = parameters.filter((one) => one.not_identified).length, free = parameters.filter((one) => one.free).length;
-    list.push([`${free - open} of ${free}`, "fitted parameters bounded by the readings"]);
+    if (level > 0) list.push([`${free - open} of ${free}`, "fitted parameters bounded by the readings"]);
+  } else if (search.misfit_asked) {
+    const runs = search.history.filter((one) => one.misfit !== undefined && !one.ended_early);
+    if (runs.length > 0) list.push([`${number(Math.min(...runs.map((one) => one.misfit)), 3)} ${search.misfit_unit}`,
+      `misfit of the best single run so far; asked for, as a mean over fresh packings, ${number(search.misfit_asked, 3)}`]);
   }
   list.push([`${search.history.length}`, `simulations kept, ${duration(search.wall_s)} of computing`]);
   return element("dl", { class: "facts" }, ...list.map(([value, what]) => element("div", {}, element("dt", {}, value), element("dd", {}, what))));
