@@ -1,5 +1,6 @@
 // The page of a calibration in a browser: node --test page.test.js, with
 //   PASTEFIT_PAGE   the page of a calibration that ended
+//   PASTEFIT_DROP   the page of a drop test
 //   PASTEFIT_LIVE   the page of a calibration that goes on
 //   PASTEFIT_PARTS  a folder with pages of folders that lack something, each NAME.html
 //   PASTEFIT_SHOTS  a folder for pictures of the page, to be looked at by a person
@@ -9,7 +10,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
 
-const file = process.env.PASTEFIT_PAGE, live = process.env.PASTEFIT_LIVE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
+const file = process.env.PASTEFIT_PAGE, dropped = process.env.PASTEFIT_DROP, live = process.env.PASTEFIT_LIVE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
 const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
 let browser, page;
 
@@ -137,6 +138,17 @@ for (const [name, options] of Object.entries({
     assert.deepEqual(other.faults, []);
     await other.context().close();
   });
+
+test("a test without a heap has drawings of its own, and no film of what is over at once", { skip: !dropped }, async () => {
+  const other = await openPage(browser, dropped);
+  await other.locator(".test-drawing svg").first().waitFor();
+  assert.deepEqual(await other.locator(".test-drawing strong").allTextContents(), ["Drop on the level plate", "Drop on the plate tilted by 40 degrees"]);
+  assert.ok((await other.locator(".test-drawing svg path").count()) >= 6);
+  assert.equal(await other.locator(".player").count(), 0);
+  if (shots) await other.screenshot({ path: join(shots, "drop.png"), fullPage: true });
+  assert.deepEqual(other.faults, []);
+  await other.context().close();
+});
 
 test("the page can be printed", async () => {
   const paper = await openPage(browser, file, { viewport: { width: 794, height: 1123 } });

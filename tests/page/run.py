@@ -130,8 +130,10 @@ def browser(program, source, work):
     make_parts(program, result, work / "parts")
     ended = interrupted(program, study, work / "interrupted")
     shutil.copy(ended / "report.html", work / "parts/interrupted.html")
+    pastefit(program, "calibrate", source / "data/studies/drop-twin.json", "--out", work / "drop", "--force")
     (work / "shots").mkdir(exist_ok=True)
     environment = dict(os.environ, PASTEFIT_PAGE=str(result / "report.html"),
+                       PASTEFIT_DROP=str(work / "drop/report.html"),
                        PASTEFIT_LIVE=str(work / "interrupted/live.html"), PASTEFIT_PARTS=str(work / "parts"),
                        PASTEFIT_SHOTS=str(work / "shots"))
     sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=work / "browser", env=environment).returncode)

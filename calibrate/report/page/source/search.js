@@ -1,7 +1,7 @@
 // How the search went: the misfit of every simulation, failures included.
 import { candidateCard, kindOf } from "./candidate.js";
 import { choice, element, figure, section } from "./dom.js";
-import { fullName, unitOf, words } from "./numbers.js";
+import { fullName, number, plusMinus, unitOf, words } from "./numbers.js";
 import { colour, legend, plot, Plot } from "./plots.js";
 
 const kinds = {
@@ -86,22 +86,29 @@ function historyFigure(content, measured) {
 const readingsOf = (point) => new Map(Object.entries(point.readings).map(([name, value]) => [fullName(point.test, name), value]));
 const reads = (reading) => (point) => readingsOf(point).get(reading);
 
-function scatterPlot(points, { parameter, reading, spec, measured }, width) {
+/// What a point says when it is pointed at: `noise` is that of the reading from packing to packing.
+const told = (parameter, reading, noise) => (point) =>
+  `simulation ${point.number}${point.ended_early ? ", ended early" : ""}\n${parameter} ${number(point.values[parameter])}\n${words(reading)} ${plusMinus(reads(reading)(point), noise)} ${unitOf(reading)}`;
+
+/// `deviation`: of the laboratory.
+function scatterPlot(points, { parameter, reading, spec, measured, deviation, noise }, width) {
   const measuredAt = measured.get(reading);
   return plot(width, {
     className: "scatter",
     x: { label: parameter, type: spec?.scale === "log" ? "log" : "linear", tickFormat: spec?.scale === "log" ? "~g" : undefined },
     y: { label: `${words(reading)} [${unitOf(reading)}]` },
     marks: [
+      measuredAt === undefined || !deviation ? null : Plot.rect([measuredAt], { y1: (at) => at - deviation, y2: (at) => at + deviation, fill: colour.laboratory, fillOpacity: 0.12 }),
       measuredAt === undefined ? null : Plot.ruleY([measuredAt], { stroke: colour.laboratory, strokeDasharray: "6 4" }),
       ...dots(points, (point) => point.values[parameter], reads(reading)),
-      Plot.tip(points, Plot.pointer({ x: (point) => point.values[parameter], y: reads(reading), title: (point) => `simulation ${point.number}`, fill: "var(--card)" })),
+      Plot.tip(points, Plot.pointer({ x: (point) => point.values[parameter], y: reads(reading), title: told(parameter, reading, noise), fill: "var(--card)" })),
     ],
   });
 }
 
 /// A reading against a parameter, both of the reader's choice.
-function scatterFigure({ search, parameters = [] }, measured) {
+function scatterFigure({ search, parameters = [], tests = [], inference }, measured) {
+  const deviations = new Map(tests.flatMap((test) => test.readings.map((one) => [fullName(test.name, one.name), one.standard_deviation])));
   const done = search.history.filter((point) => !point.failure && !point.other_grains);
   const names = [...new Set(done.flatMap((point) => Object.keys(point.values)))];
   const readings = [...new Set(done.flatMap((point) => [...readingsOf(point).keys()]))]
@@ -110,7 +117,8 @@ function scatterFigure({ search, parameters = [] }, measured) {
   const shown = { parameter: names[0], reading: readings[0] };
   const made = figure({}, (width) => {
     const points = done.filter((point) => reads(shown.reading)(point) !== undefined);
-    return scatterPlot(points, { ...shown, spec: parameters.find((one) => one.name === shown.parameter), measured }, width);
+    return scatterPlot(points, { ...shown, spec: parameters.find((one) => one.name === shown.parameter), measured,
+      deviation: deviations.get(shown.reading), noise: inference?.noise?.[shown.reading] }, width);
   });
   const change = (what) => (value) => {
     shown[what] = value;
@@ -130,5 +138,5 @@ export function searchPart(content) {
   return section("search", "The search", lead,
     search.history.some((point) => point.misfit !== undefined) ? historyFigure(content, measured) : element("p", { class: "notice" }, "Without the study nobody knows the misfit of these simulations."),
     element("h3", {}, "What a parameter does to a reading"),
-    scatterFigure(content, measured), element("p", { class: "note" }, "All other parameters differ from point to point; dashed: the laboratory."));
+    scatterFigure(content, measured), element("p", { class: "note" }, "All other parameters differ from point to point; dashed: the laboratory, with its standard deviation."));
 }
