@@ -178,8 +178,9 @@ std::vector<Drawing> drawings_of(const DropTest& test, std::span<const SeenRun> 
       const double rise_s = std::sqrt(2 * std::max(height_mm, 0.0) / mm / kGravity);
       drawing.lines.push_back({name, by, flight(height_mm / mm, touch_s + rise_s, rise_s), 0});
       const double top_s = touch_s + rise_s;
+      const double beside_s = top_s * (by == DrawnBy::laboratory ? 1.06 : 1.14);  // one beside the other
       drawing.lengths.push_back(
-          {reading, by, {top_s, 0}, {top_s, height_mm}, {top_s, 0}, {top_s, height_mm}, height_mm, deviation});
+          {reading, by, {beside_s, 0}, {beside_s, height_mm}, {top_s, 0}, {top_s, height_mm}, height_mm, deviation});
     };
     if (const Measurement* one = find_measurement(measured, reading))
       rebound(DrawnBy::laboratory, "rebound, laboratory", one->value, one->standard_deviation);

@@ -29,22 +29,24 @@ function plateOf(wall) {
 }
 
 /// Of an infinite plane a square about where the grains are.
-function planeOf(wall, reach) {
+function planeOf(wall, { reach, centre }) {
   const normal = new THREE.Vector3(...wall.normal);
   const along = Math.abs(normal.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 1, 0);
   along.addScaledVector(normal, -along.dot(normal)).normalize();
-  return rectangleOf(wall.point_m, along, new THREE.Vector3().crossVectors(normal, along), [reach, reach]);
+  const place = centre.clone().addScaledVector(normal, new THREE.Vector3(...wall.point_m).sub(centre).dot(normal));
+  return rectangleOf(place.toArray(), along, new THREE.Vector3().crossVectors(normal, along), [reach, reach]);
 }
 
 /// Of an endless row of bars those about where the grains are, as the line along their feet and crests would cut them.
-function ribsOf({ base_m: [x, y, z], thickness_m: thickness, height_m: height, pitch_m: pitch }, reach) {
+function ribsOf({ base_m: [x, , z], thickness_m: thickness, height_m: height, pitch_m: pitch }, { reach, centre }) {
   const corners = [];
   const rims = [];
-  for (let middle = x - Math.floor((reach + x) / pitch) * pitch; middle <= reach; middle += pitch) {
+  const from = centre.x - reach, to = centre.x + reach;
+  for (let middle = x + Math.ceil((from - x) / pitch) * pitch; middle <= to; middle += pitch) {
     const [left, right] = [middle - thickness / 2, middle + thickness / 2];
     const outline = [[left, z], [left, z + height], [right, z + height], [right, z]];
-    const near = outline.map(([a, b]) => new THREE.Vector3(a, y - reach, b));
-    const far = outline.map(([a, b]) => new THREE.Vector3(a, y + reach, b));
+    const near = outline.map(([a, b]) => new THREE.Vector3(a, centre.y - reach, b));
+    const far = outline.map(([a, b]) => new THREE.Vector3(a, centre.y + reach, b));
     for (const k of [0, 1, 2]) corners.push(near[k], near[k + 1], far[k + 1], near[k], far[k + 1], far[k]);
     rims.push(...[near, far].map((line) => new THREE.BufferGeometry().setFromPoints(line)));
   }
@@ -52,12 +54,13 @@ function ribsOf({ base_m: [x, y, z], thickness_m: thickness, height_m: height, p
 }
 
 const shapes = { shell: shellOf, plate: plateOf, plane: planeOf, ribs: ribsOf };
-const geometryOf = (wall, reach) => shapes[wall.shape](wall, reach);
+const geometryOf = (wall, about) => shapes[wall.shape](wall, about);
 
 export class Apparatus {
-  constructor(reach) {
+  /// `reach`: how far around `centre` what has no end is shown.
+  constructor(reach, centre) {
     this.group = new THREE.Group();
-    this.reach = reach;
+    this.about = { reach, centre };
     const glass = (opacity) =>
       new THREE.MeshBasicMaterial({ transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false });
     this.materials = { shell: glass(0.16), plate: glass(0.5), plane: glass(0.35), ribs: glass(0.35) };
@@ -84,7 +87,7 @@ export class Apparatus {
     }
     for (const wall of walls) {
       if (wall.shape === "plane" && wall.point_m[2] < -1e-6) continue; // the ground below a table
-      const { side, rims } = geometryOf(wall, this.reach);
+      const { side, rims } = geometryOf(wall, this.about);
       const surface = new THREE.Mesh(side, this.materials[wall.shape]);
       surface.renderOrder = wall.shape === "shell" ? 2 : 1;
       this.group.add(surface, ...rims.map((rim) => new THREE.Line(rim, this.edges)));

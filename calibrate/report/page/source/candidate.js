@@ -28,7 +28,7 @@ function sketchOf(point, history, measured) {
     svgElement("line", { x1: edge, x2: width - edge, y1: y(0), y2: y(0), class: "bounds" }),
     ...(heap ? [svgElement("polygon", { points: [...points, [points.at(-1)[0], 0], [points[0][0], 0]].map((place) => `${x(place[0]).toFixed(1)},${y(place[1]).toFixed(1)}`).join(" "), class: "heap" })] : []),
     line(points, "own"),
-    ...(confirmed && confirmed !== point ? [line(confirmed.sketch.points, "fitted")] : []),
+    ...(confirmed && confirmed.number !== point.number ? [line(confirmed.sketch.points, "fitted")] : []),
     ...(tall ? [lab(xs[0], tall, xs[1], tall)] : []),
     ...(wide ? [lab(-wide / 2, 0, -wide / 2, 0.3 * ys[1]), lab(wide / 2, 0, wide / 2, 0.3 * ys[1])] : []));
 }

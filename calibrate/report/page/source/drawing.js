@@ -38,7 +38,7 @@ function lineMarks({ by, points, deviation }) {
 
 function drawn(drawing, width) {
   const { x, y } = boxOf(drawing);
-  const margins = { marginLeft: 52, marginRight: 24, marginTop: 16, marginBottom: 42 };
+  const margins = { marginLeft: 52, marginRight: 24, marginTop: drawing.to_scale ? 16 : 30, marginBottom: 42 };
   const scale = (width - margins.marginLeft - margins.marginRight) / (x[1] - x[0]);
   const height = drawing.to_scale ? Math.round((y[1] - y[0]) * scale * 1.08 + margins.marginTop + margins.marginBottom) : Math.round(Math.min(420, 0.6 * width));
   const pad = drawing.to_scale ? 0.04 * (y[1] - y[0]) : 0;

@@ -21,8 +21,9 @@ export class Scene {
     this.scene = new THREE.Scene();
     this.grains = new Grains(film);
     const { height } = this.grains.extremes;
-    this.size = Math.max(1.15 * height, 0.55 * this.width(film));
-    this.apparatus = new Apparatus(0.8 * this.size);
+    const { centre, across } = this.box(film);
+    this.size = Math.max(1.15 * height, 0.55 * this.width(film, centre), 0.9 * across);
+    this.apparatus = new Apparatus(0.8 * this.size, centre.clone().setZ(0.5 * height));
     this.scene.add(this.grains.points, this.apparatus.group);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = this.controls.enableZoom = false;
@@ -32,7 +33,7 @@ export class Scene {
     canvas.style.touchAction = "pan-y";
     this.controls.minDistance = 0.3 * this.size;
     this.controls.maxDistance = 6 * this.size;
-    this.controls.target.set(0, 0, 0.42 * height);
+    this.controls.target.copy(centre).setZ(0.42 * height);
     this.controls.addEventListener("change", () => this.ask());
     this.plane = null;
     this.colouredBy = "height";
@@ -45,18 +46,33 @@ export class Scene {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
   }
 
-  /// How wide the grains lie in the end.
-  width(film) {
+  /// The middle of the grains as the test begins, seen from above, and their box from corner to corner.
+  box(film) {
+    const frames = film.reels.flatMap((reel) => reel.frames);
+    const first = frames.find(({ phase }) => !phase.startsWith("fill.")) ?? frames.at(-1);
+    const sides = [0, 1].map((axis) => {
+      let low = Infinity, high = -Infinity;
+      for (const steps of first.places[axis]) [low, high] = [Math.min(low, steps), Math.max(high, steps)];
+      const middle = film.low[axis] + 0.5 * (low + high) * film.quantum, width = (high - low) * film.quantum;
+      // What stands about the axis does so but for its grains.
+      return { middle: Math.abs(middle) < 0.05 * width ? 0 : middle, width };
+    });
+    return { centre: new THREE.Vector3(...sides.map(({ middle }) => middle), 0), across: Math.hypot(...sides.map(({ width }) => width)) };
+  }
+
+  /// How wide the grains lie about it in the end.
+  width(film, centre) {
     const last = film.reels.at(-1).frames.at(-1);
     let far = 0;
     for (const axis of [0, 1])
-      for (const steps of last.places[axis]) far = Math.max(far, Math.abs(film.low[axis] + steps * film.quantum));
+      for (const steps of last.places[axis])
+        far = Math.max(far, Math.abs(film.low[axis] + steps * film.quantum - centre.getComponent(axis)));
     return 2 * far;
   }
 
   look(name) {
     const [x, y, z] = views[name];
-    this.camera.position.set(this.size * x, this.size * y, this.size * z + this.controls.target.z);
+    this.camera.position.set(x, y, z).multiplyScalar(this.size).add(this.controls.target);
     this.controls.update();
     this.ask();
   }
@@ -73,7 +89,7 @@ export class Scene {
   }
 
   slice(on) {
-    this.plane = on ? new THREE.Plane(new THREE.Vector3(0, 1, 0), 0) : null;
+    this.plane = on ? new THREE.Plane(new THREE.Vector3(0, 1, 0), -this.controls.target.y) : null;
     this.apparatus.clip(this.plane);
     this.ask();
   }
