@@ -3,44 +3,45 @@
 import * as THREE from "three";
 import { interpolateViridis } from "d3";
 
+// What is the same for all pixels of a grain is computed here: by software a pixel costs most.
 const vertexShader = /* glsl */ `
 in vec3 position;
 in float radius;
 in float value;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform float pixels;
-out vec3 centre;
-out float size;
-out float shade;
-
-const float room = 1.3; // a sphere off the axis looks longer than it is
+uniform sampler2D ramp;
+flat out vec3 centre;
+flat out vec2 sizes; // radius, and half the side of the square that is drawn
+flat out vec3 own;
 
 void main() {
   vec4 place = modelViewMatrix * vec4(position, 1.0);
   centre = place.xyz;
-  size = radius;
-  shade = value;
+  // A sphere off the axis looks longer than it is, one that is near more so.
+  float away = length(centre);
+  sizes = vec2(radius, radius * (1.02 + radius / away) * away / -centre.z);
+  own = texture(ramp, vec2(value, 0.5)).rgb;
   gl_Position = projectionMatrix * place;
-  gl_PointSize = room * radius * projectionMatrix[1][1] * pixels / -place.z;
+  gl_PointSize = sizes.y * projectionMatrix[1][1] * pixels / -place.z;
 }`;
 
 // The ray of the pixel meets the sphere; where the slice has cut the near part away it meets the cut instead.
 const fragmentShader = /* glsl */ `
 precision highp float;
-in vec3 centre;
-in float size;
-in float shade;
+flat in vec3 centre;
+flat in vec2 sizes;
+flat in vec3 own;
 uniform mat4 projectionMatrix;
-uniform sampler2D ramp;
 uniform bool sliced;
 uniform vec4 slice; // in the camera's frame; what lies on its negative side is cut away
 out vec4 colour;
 
-const float room = 1.3;
 const vec3 light = normalize(vec3(-0.4, 0.7, 0.8));
 
 void main() {
-  vec2 off = room * size * vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
+  float size = sizes.x;
+  vec2 off = sizes.y * vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
   vec3 ray = normalize(centre + vec3(off, 0.0));
   float along = dot(ray, centre);
   float inside = along * along - dot(centre, centre) + size * size;
@@ -59,9 +60,7 @@ void main() {
     rim = smoothstep(0.0, 0.14, 1.0 - length(from_centre - dot(from_centre, slice.xyz) * slice.xyz) / cut_radius);
     rim = 0.45 + 0.55 * rim;
   }
-  vec4 clip = projectionMatrix * vec4(place, 1.0);
-  gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
-  vec3 own = texture(ramp, vec2(shade, 0.5)).rgb;
+  gl_FragDepth = 0.5 - 0.5 * (projectionMatrix[2][2] + projectionMatrix[3][2] / place.z);
   float bright = 0.42 + 0.62 * max(dot(normal, light), 0.0);
   colour = vec4(rim * bright * own, 1.0);
 }`;
