@@ -10,6 +10,20 @@
 
 namespace pastefit {
 
+namespace {
+
+/// Without what a stop has cut off: that counts as failed, and says nothing about the point.
+std::vector<Response> without_cut_off(std::vector<Response> responses, bool stopped) {
+  const auto cut_off = [](const Evaluation& one) {
+    return one.failure && one.failure->reason == FailureReason::stopped;
+  };
+  if (stopped)
+    std::erase_if(responses, [&](const Response& one) { return std::ranges::any_of(one.evaluations, cut_off); });
+  return responses;
+}
+
+}  // namespace
+
 Archive::Archive(Objective& objective, const SearchOptions& options,
                  const std::function<void(const Progress&)>& progress)
     : objective_(objective),
@@ -48,21 +62,21 @@ std::vector<Response> Archive::try_out(std::span<const UnitPoint> points, std::s
 std::vector<Response> Archive::ask(Ask how, std::span<const UnitPoint> points,
                                    std::span<const std::uint64_t> packings) {
   std::vector<Response> responses = (objective_.*how)(points, packings);
-  // What a stop cuts off counts as failed; it says nothing about the point.
-  if (objective_.stop_requested()) return responses;
+  const bool stopped = objective_.stop_requested();
   for (Response& response : responses) weigh(response);
+  std::vector<Response> kept = without_cut_off(responses, stopped);
   if (packings.size() == 1) {
-    for (const Response& response : responses) keep_single(response, singles_);
+    for (const Response& response : kept) keep_single(response, singles_);
   } else {
     for (const std::uint64_t packing : packings) {
-      for (Response& response : (objective_.*how)(points, {&packing, 1})) {
+      for (Response& response : without_cut_off((objective_.*how)(points, {&packing, 1}), stopped)) {
         weigh(response);
         keep_single(response, singles_);
       }
     }
   }
-  history_.insert(history_.end(), responses.begin(), responses.end());
-  for (const Response& response : responses) {
+  history_.insert(history_.end(), kept.begin(), kept.end());
+  for (const Response& response : kept) {
     if (!is_whole(response) || packings.size() < best_packings_) continue;
     if (packings.size() > best_packings_ || response.miss < best_miss_) {
       best_miss_ = response.miss;

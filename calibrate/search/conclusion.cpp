@@ -35,7 +35,10 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
                     tolerance_in_words(unit) + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;
-    result.reason = "The search was stopped; the best so far is given" + spent;
+    result.reason = (result.best.point.size() > 0
+                         ? "The search was stopped; the best so far is given"
+                         : "The search was stopped before a simulation had all its readings; --resume goes on") +
+                    spent;
   } else if (ending.out_of_reach) {
     result.status = CalibrationStatus::out_of_reach;
     result.reason = words_of(*ending.out_of_reach, readings, parameters) +

@@ -93,9 +93,10 @@ class Search {
 
   /// Says what the screening tells of the reach, and whether a search would be in vain.
   bool is_out_of_reach() {
+    if (!archive_.any_feasible() || archive_.stop_requested()) return false;
     const int spare = archive_.budget_left() - static_cast<int>(common_.size());
     out_of_reach_ = find_out_of_reach(archive_, {common_.front(), std::min(options_.screening, spare)});
-    if (!archive_.any_feasible() || archive_.stop_requested()) return false;
+    if (archive_.stop_requested()) return false;
     archive_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
                                : words_of_screening(archive_.singles(), readings_));
     return out_of_reach_.has_value();
@@ -280,6 +281,7 @@ class Search {
       if (result_.search.point.size() == 0)
         for (const Response& seen : archive_.history())
           if (is_whole(seen) && is_better(seen, result_.search)) result_.search = seen;
+      if (result_.search.point.size() == 0) result_.search = archive_.best_single().value_or(Response{});
       result_.best = result_.search;
     }
     result_.history = archive_.history();

@@ -4,11 +4,13 @@ usage: test_hostile_input.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import ast
+import contextlib
 import json
 import os
 import re
 import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -210,7 +212,7 @@ class HostileInput(Desk):
         self.assertIn(told, run("simulate", lab).stderr)
         study = self.small_study()
         study.write_text(study.read_text().replace("lab.json", "mine/lab.json"))
-        self.assertIn(told, self.calibrates(study).stdout)
+        self.assertIn(told, self.calibrates(study).stderr)
         self.assertIn(told, json.loads((self.out / "card.json").read_text())["tests"][0]["lab"]["notes"])
         shutil.rmtree(self.folder / "rigs")
         self.assertNotIn("preset", run("simulate", lab, "--set", "grains.radius_mm=14").stderr)
@@ -245,6 +247,36 @@ class HostileInput(Desk):
                                                 lambda: log.exists() and log.stat().st_size > 100_000)
         self.assertEqual(status, 1, errors)
         self.assertEqual(json.loads((self.out / "card.json").read_text())["search"]["status"], "stopped")
+
+    def test_an_interrupt_in_the_first_screening_leaves_the_best_so_far(self):
+        study = self.small_study(budget_simulations=400, screening=60, tolerance_mm=0.001)
+
+        def some_are_stored():
+            file = self.out / "evaluations.sqlite"
+            if not file.exists():
+                return False
+            with contextlib.closing(sqlite3.connect(file)) as store, contextlib.suppress(sqlite3.Error):
+                rows = store.execute("SELECT run FROM evaluations WHERE failure = 'null'").fetchall()
+                return sum(not json.loads(run).get("ended_early", False) for (run,) in rows) >= 2
+
+        status, output, errors = self.signalled(["calibrate", study, "--out", self.out], signal.SIGINT, some_are_stored)
+        self.assertEqual(status, 1, errors)
+        self.assertIn("screening", errors)
+        self.assertNotIn("confirmation", errors)
+        self.assertEqual(json.loads((self.out / "card.json").read_text())["search"]["status"], "stopped")
+        self.assertIn("the best so far", output)
+
+    def test_an_interrupt_before_the_first_simulation_is_through_says_that_resume_goes_on(self):
+        study = self.small_study(budget_simulations=400, screening=60)
+        self.changed(study, study.name, lambda one: one["parameters"].update(youngs_modulus_pa={"value": 1e10}))
+        log = self.out / "evaluations.sqlite-wal"
+        status, output, errors = self.signalled(["calibrate", study, "--out", self.out], signal.SIGINT, log.exists)
+        self.assertEqual((status, output), (1, ""), errors)
+        said = [line for line in errors.splitlines() if line.startswith("pastefit: ")]
+        self.assertEqual(len(said), 1, errors)
+        self.assertIn("no material to report: The search was stopped before a simulation had all its readings; --resume "
+                      "goes on", said[0])
+        self.assertFalse((self.out / "card.json").exists())
 
     def test_an_output_folder_that_goes_away_is_seen_at_once(self):
         study = self.small_study(budget_simulations=400, screening=4, tolerance_mm=0.001)
@@ -303,7 +335,7 @@ class HostileInput(Desk):
         content[place] ^= 1  # a digit of a reading
         store.write_bytes(content)
         result = self.calibrates(study, "--resume")
-        self.assertIn("damaged", result.stdout)
+        self.assertIn("damaged", result.stderr)
         self.assertEqual((self.out / "card.json").read_text(), card)
 
     def test_a_store_of_zero_bytes_is_said(self):
@@ -312,7 +344,7 @@ class HostileInput(Desk):
         card = (self.out / "card.json").read_text()
         (self.out / "evaluations.sqlite").write_bytes(b"")
         result = self.calibrates(study, "--resume")
-        self.assertIn("was empty", result.stdout)
+        self.assertIn("was empty", result.stderr)
         self.assertEqual((self.out / "card.json").read_text(), card)
 
     # standard output

@@ -297,6 +297,24 @@ TEST_CASE("a stop at any time gives the best so far") {
   }
 }
 
+TEST_CASE("a stop in the middle of the screening gives the best of what had finished") {
+  for (const int finished : {0, 1, 4}) {
+    CAPTURE(finished);
+    Synthetic objective = fake_slump(257, 192);
+    objective.cut_off_after = finished;
+    objective.stop = [&] { return objective.simulations > finished; };
+    const Calibration calibration = search(objective, options_with(192));
+    CHECK(calibration.status == CalibrationStatus::stopped);
+    CHECK((calibration.best.point.size() > 0) == (finished > 0));
+    CHECK((calibration.reason.find("--resume goes on") != std::string::npos) == (finished == 0));
+    if (finished == 0) continue;
+    CHECK(is_feasible(calibration.best));
+    double least = objective.answered.front().misfit;
+    for (int k = 0; k < finished; ++k) least = std::min(least, objective.answered[static_cast<std::size_t>(k)].misfit);
+    CHECK(calibration.best.misfit == least);
+  }
+}
+
 TEST_CASE("the same answers give the same calibration, and progress never goes back") {
   std::vector<Progress> seen;
   const auto watch = [&](const Progress& progress) { seen.push_back(progress); };

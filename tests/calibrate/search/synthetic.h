@@ -59,6 +59,7 @@ class Synthetic : public Objective {
   std::vector<double> tolerances = {};  ///< of each reading; empty: `tolerance_mm`
   int budget = std::numeric_limits<int>::max();
   std::function<bool()> stop = [] { return false; };
+  int cut_off_after = std::numeric_limits<int>::max();  ///< simulations: those after them are cut off by the stop
 
   std::vector<Response> answered;  ///< everything that was asked, in order
   int simulations = 0;
@@ -111,8 +112,9 @@ class Synthetic : public Objective {
     response.observables = Eigen::VectorXd::Zero(count);
     for (const std::uint64_t packing : packings) {
       Evaluation evaluation{point, packing, {}, std::nullopt};
-      if (fails(point, packing)) {
+      if (const bool cut_off = simulations >= cut_off_after; cut_off || fails(point, packing)) {
         evaluation.failure = Failure{};
+        if (cut_off) evaluation.failure->reason = FailureReason::stopped;
         response.failed = true;
       } else {
         evaluation.observables = observe(point, packing);
