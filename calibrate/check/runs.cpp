@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <system_error>
 #include <thread>
 
 #include "calibrate/base/machine.h"
@@ -23,7 +24,11 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
   };
   const auto cores = static_cast<std::size_t>(threads > 0 ? threads : processors());
   std::vector<std::jthread> workers;
-  for (std::size_t i = 1; i < std::min(cores, packings.size()); ++i) workers.emplace_back(work);
+  try {
+    for (std::size_t i = 1; i < std::min(cores, packings.size()); ++i) workers.emplace_back(work);
+  } catch (const std::system_error&) {
+    // As many threads as the system lets us have.
+  }
   work();
   workers.clear();
   return outcomes;

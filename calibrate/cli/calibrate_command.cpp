@@ -38,6 +38,7 @@ struct CalibrateOptions {
   std::string out;
   bool resume = false;
   bool force = false;
+  bool json = false;
   int threads = 0;
   int budget = 0;
   double wall_budget_s = 0, core_budget_s = 0;
@@ -110,15 +111,14 @@ int deliver(const Card& card, const std::optional<Inference>& inference, const S
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
-  print("\n%s", summary.c_str());
+  print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
   if (faults.empty()) {
     Findings findings = findings_of(card, store, inference);
     faults = look_at_tests(findings, options.out, stop, {.threads = options.threads, .seen = &looks});
     if (faults.empty()) faults = write_page(options.out, findings);
   }
   if (!faults.empty()) return report(faults, kFailed);
-  print("\n");
-  for (const std::string& name : {kCard, kSummary, kPage, kStore}) print("wrote %s\n", folder.file(name).c_str());
+  for (const std::string& name : {kCard, kSummary, kPage, kStore}) note("wrote %s\n", folder.file(name).c_str());
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
@@ -154,6 +154,7 @@ int calibrate(const CalibrateOptions& options) {
                         "leave it out, or take smaller grains"}});
   }
 
+  const std::atomic<bool>& stop = listen_for_stop();
   const auto budget = search_options.budget_simulations;
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
@@ -167,20 +168,23 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())
     return report(faults);
 
-  print("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
-        budget, store.value().size());
+  note("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
+       budget, store.value().size());
   for (const auto& remark : store.value().remarks())
-    print("%s: %s.\n", folder.value().file(kStore).c_str(), remark.c_str());
-  print("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
-        warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
-  ProgressLine line(budget, misfit_unit_of(study));
+    note("%s: %s.\n", folder.value().file(kStore).c_str(), remark.c_str());
+  note("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
+       warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
+  const int each = static_cast<int>(tests_of(study, false).size());
+  const int examination = search_options.examination_simulations * each + hold_out_simulations(study, search_options);
+  ProgressLine line({budget, search_options.screening * each, search_options.confirmation_packings * each, examination},
+                    misfit_unit_of(study));
   LivePage page(options.out);
   EvaluatorOptions evaluator;
   evaluator.threads = options.threads;
   evaluator.budget = budget;
   evaluator.wall_budget_s = options.wall_budget_s;
   evaluator.core_budget_s = options.core_budget_s;
-  evaluator.stop = &listen_for_stop();
+  evaluator.stop = &stop;
   evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
   Looks looks;
   evaluator.onlooker = &looks;
@@ -197,9 +201,10 @@ int calibrate(const CalibrateOptions& options) {
       names_of(readings_of(study), false), free_names(study), search_options.coarse_first ? &coarse : nullptr);
   const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
   std::optional<Inference> inference;
+  if (found) line.show(Progress{"examination", 0, budget, calibration.best.miss, ""});
   if (found) predict_hold_outs(study, calibration, objective);
   // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
-  if (found && calibration.status != CalibrationStatus::out_of_reach && !*evaluator.stop)
+  if (found && calibration.status != CalibrationStatus::out_of_reach && !stop)
     inference = examine(study, objective, store.value(), calibration, search_options.examination_simulations,
                         search_options.seed);
   line.end();
@@ -216,7 +221,7 @@ int calibrate(const CalibrateOptions& options) {
   }
   auto card = card_of(study, calibration, search_options, store.value(), counts, options.study);
   if (inference) card.inference = card_inference(*inference);
-  return deliver(card, inference, store.value(), options, folder.value(), *evaluator.stop, looks);
+  return deliver(card, inference, store.value(), options, folder.value(), stop, looks);
 }
 
 }  // namespace
@@ -229,6 +234,7 @@ Command add_calibrate(CLI::App& verb) {
       ->type_name("DIR");
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
+  verb.add_flag("--json", options->json, "print the card instead of the summary");
   add_threads(verb, options->threads);
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")
       ->type_name("N")

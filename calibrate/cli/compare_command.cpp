@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
@@ -33,6 +35,7 @@ struct CompareOptions {
   int threads = 0;
   bool resume = false;
   bool force = false;
+  bool json = false;
 };
 
 const std::string kTable = "comparison.csv";
@@ -61,7 +64,7 @@ std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit
 }
 
 void print_table(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
-  print("\n%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
+  print("%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
         unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
   for (const auto& row : rows) {
     print("%-22s %6d of %d %12.0f", row.strategy.c_str(), row.confirmed, row.trials, row.simulations);
@@ -74,6 +77,21 @@ void print_table(const std::vector<StrategySummary>& rows, const MisfitUnit& uni
       "Medians over the seeds; confirmed: within %s on packings that the search had not seen; judged on others,"
       " the same for all.\n",
       unit.tolerance_mm ? unit.words(1, "%g").c_str() : "the tolerances");
+}
+
+/// The same, in the words of the table.
+nlohmann::ordered_json json_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+  auto out = nlohmann::ordered_json::array();
+  const auto judged = [&](double miss) { return miss >= 0 ? nlohmann::ordered_json(unit.of(miss)) : nullptr; };
+  const std::string name = std::string("judged_misfit_") + unit.name();
+  for (const auto& row : rows)
+    out.push_back({{"strategy", row.strategy},
+                   {"trials", row.trials},
+                   {"confirmed", row.confirmed},
+                   {"simulations", row.simulations},
+                   {name, judged(row.judged)},
+                   {"worst_" + name, judged(row.worst_judged)}});
+  return {{"strategies", out}};
 }
 
 /// The strategies that were asked for, or all that can search so many parameters.
@@ -124,8 +142,7 @@ int compare(const CompareOptions& options) {
   if (options.force) folder.value().clear(kComparison);
   auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
-  for (const auto& remark : store.value().remarks())
-    std::fprintf(stderr, "pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
+  for (const auto& remark : store.value().remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
 
   const auto& stop = listen_for_stop();
   const auto objective = [&](int budget) -> std::unique_ptr<Objective> {
@@ -136,10 +153,9 @@ int compare(const CompareOptions& options) {
     return std::make_unique<SimulationObjective>(study, store.value(), evaluator);
   };
   const auto trials = compare_strategies(objective, comparison, [&](const StrategyTrial& trial) {
-    print("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
-          static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(), trial.simulations,
-          trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
-    std::fflush(stdout);
+    note("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
+         static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(), trial.simulations,
+         trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
   });
   if (trials.empty()) {
     std::fprintf(stderr, "pastefit: stopped before the first strategy was through; go on with --resume\n");
@@ -148,14 +164,17 @@ int compare(const CompareOptions& options) {
   const bool all = trials.size() == comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds);
   if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
   const auto rows = summary_of(trials);
-  print_table(rows, unit);
+  if (options.json)
+    print("%s", json_text(json_of(rows, unit)).c_str());
+  else
+    print_table(rows, unit);
   const std::vector<std::pair<std::string, std::string>> files{{kTable, table_of(trials, unit)},
                                                                {kCourse, course_of(trials, unit)},
                                                                {kFigure, misfit_figure(rows, unit, study.title)}};
   for (const auto& [name, content] : files) {
     if (const auto faults = write_atomically(folder.value().file(name), content); !faults.empty())
       return report(faults, kFailed);
-    print("wrote %s\n", folder.value().file(name).c_str());
+    note("wrote %s\n", folder.value().file(name).c_str());
   }
   return all ? kDone : kFailed;
 }
@@ -180,6 +199,7 @@ Command add_compare_optimisers(CLI::App& verb) {
   verb.add_option("--judge-packings", options->judge_packings, "on which every result is judged; default: 8")
       ->type_name("N")
       ->check(whole_number(1, 1000));
+  verb.add_flag("--json", options->json, "print the table as JSON");
   add_threads(verb, options->threads);
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +26,7 @@ struct InferOptions {
   std::string from;
   std::string out;
   bool force = false;
+  bool json = false;
 };
 
 const std::vector<std::string> kResults{"card.json", "summary.txt"};
@@ -59,8 +59,7 @@ int infer(const InferOptions& options) {
   if (const auto faults = differences(card, study.value(), card_file); !faults.empty()) return report(faults);
   const auto store = Store::read(store_file);
   if (!store.ok()) return report(store.faults());
-  for (const auto& remark : store.value().remarks())
-    std::fprintf(stderr, "pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
+  for (const auto& remark : store.value().remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
   const std::string& simulated_by = store.value().identity().program;
   const auto record = everything_of(study.value(), store.value());
   const UnitPoint recommended = point_of(card);
@@ -91,12 +90,12 @@ int infer(const InferOptions& options) {
     card.inference.method += ", by " + program_identity();
   }
   const std::string summary = summary_of(card, findings);
-  print("%s", summary.c_str());
+  print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
   if (!folder) return kDone;
   auto faults = write_atomically(folder->file(kResults[0]), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder->file(kResults[1]), summary);
   if (!faults.empty()) return report(faults, kFailed);
-  print("\nwrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
+  note("wrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
   return kDone;
 }
 
@@ -113,6 +112,7 @@ Command add_infer(CLI::App& verb) {
                   "only shown")
       ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace the card and the summary in --out");
+  verb.add_flag("--json", options->json, "print the card instead of the summary");
   return [options] { return infer(*options); };
 }
 

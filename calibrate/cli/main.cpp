@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
 #include <set>
@@ -63,6 +65,7 @@ int run(int argc, char** argv) {
   Command chosen;
   for (const auto& verb : kVerbs) {
     auto* app = program.add_subcommand(verb.name, verb.meaning);
+    app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the answer and faults");
     app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
   }
 
@@ -79,11 +82,15 @@ int run(int argc, char** argv) {
 }  // namespace pastefit
 
 int main(int argc, char** argv) {
+  int status = 70;
   try {
     pastefit::guard_standard_streams();
-    return pastefit::after_output(pastefit::run(argc, argv));
+    status = pastefit::after_output(pastefit::run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
-    return 70;
   }
+  // Nothing is left to be done. A library that the system has linked may wait for a thread of its own for ever:
+  // OpenBLAS does, where there was too little memory when it was loaded.
+  std::fflush(nullptr);
+  _exit(status);
 }

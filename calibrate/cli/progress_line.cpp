@@ -1,13 +1,12 @@
 #include "calibrate/cli/progress_line.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 
@@ -18,18 +17,17 @@ constexpr std::chrono::seconds kPlain{5};
 
 }  // namespace
 
-ProgressLine::ProgressLine(int budget, const MisfitUnit& unit)
-    : terminal_(isatty(STDOUT_FILENO) == 1), budget_(budget), unit_(unit) {}
+ProgressLine::ProgressLine(const WorkAhead& work, const MisfitUnit& unit)
+    : terminal_(is_terminal()), work_(work), unit_(unit) {}
 
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const bool new_phase = progress.phase != phase_;
+  if (new_phase) done_before_ = done();
   phase_ = progress.phase;
   best_miss_ = progress.best_miss;
   rewrite(new_phase);
-  if (progress.note.empty()) return;
-  print("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
-  std::fflush(stdout);
+  if (!progress.note.empty()) note("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
 }
 
 void ProgressLine::show(const EvaluationCounts& counts) {
@@ -38,23 +36,32 @@ void ProgressLine::show(const EvaluationCounts& counts) {
   rewrite(false);
 }
 
-std::string ProgressLine::text() const {
+std::string ProgressLine::time_left() const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const double rate = elapsed > 0 ? counts_.simulated / elapsed : 0;
-  const int done = counts_.simulated + counts_.answered;
+  if (counts_.simulated == 0 || elapsed <= 0) return "";
+  const int in_phase = done() - done_before_;
+  const int budget = std::max(0, work_.budget - done());
+  int least = work_.examination, most = budget;
+  if (phase_ == "examination")
+    least = most = std::clamp(work_.examination - in_phase, 0, budget);
+  else
+    least += phase_ == "confirmation" ? std::max(0, work_.confirmation - in_phase) : work_.confirmation;
+  if (phase_ == "screening") least += std::max(0, work_.screening - done());
+  const double each_s = elapsed / counts_.simulated;
+  return range_of_time(std::min(least, most) * each_s, most * each_s) + " left";
+}
+
+std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
-
-  std::string line = format("%-12s %d of %d simulations", phase_.c_str(), done, budget_);
-  if (counts_.answered > 0) line += format(" (%d known)", counts_.answered);
-  if (failed > 0) line += format(", %d failed", failed);
-  line += best_miss_ < 0 ? ", no misfit yet" : ", best misfit " + unit_.words(best_miss_, "%.2f");
-  line += format(", %.2f a second", rate);
-  if (rate > 0) line += format(", at most %.0f s left", std::max(0, budget_ - done) / rate);
-  return line;
+  return fitted({format("%s %d of %d simulations", phase_.c_str(), done(), work_.budget),
+                 best_miss_ < 0 ? "no misfit yet" : "misfit " + unit_.words(best_miss_, "%.2f"), time_left(),
+                 failed > 0 ? format("%d failed", failed) : "",
+                 counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
 }
 
 void ProgressLine::rewrite(bool now) {
+  if (is_quiet()) return;
   const auto time = Clock::now();
   if (!now && time - printed_ < (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain))) return;
   const auto line = text();
@@ -62,17 +69,15 @@ void ProgressLine::rewrite(bool now) {
   printed_ = time;
   last_ = line;
   if (terminal_)
-    std::printf("\r%s\033[K", one_line(line).c_str());
+    std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
   else
-    print("%s\n", line.c_str());
-  std::fflush(stdout);
+    note("%s\n", line.c_str());
 }
 
 void ProgressLine::end() {
   const std::lock_guard lock(mutex_);
   rewrite(true);
-  if (terminal_ && !last_.empty()) std::printf("\n");
-  std::fflush(stdout);
+  if (terminal_ && !last_.empty()) note("\n");
 }
 
 }  // namespace pastefit

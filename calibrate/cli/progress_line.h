@@ -9,11 +9,22 @@
 
 namespace pastefit {
 
-/// Live progress on standard output: one line that is rewritten on a terminal; elsewhere a plain line at the start of
-/// each phase and every few seconds. Thread-safe.
+/// Simulations of a calibration, in every test that is fitted.
+struct WorkAhead {
+  int budget = 0;        ///< at most, in all
+  int screening = 0;     ///< before the search
+  int confirmation = 0;  ///< of a candidate that holds
+  int examination = 0;   ///< after the search, hold-outs included
+};
+
+/// Live progress on standard error, unless it is quiet: one line that is rewritten on a terminal, cut to its width;
+/// elsewhere a plain line of at most 80 columns at the start of each phase and every few seconds. Thread-safe.
+///
+/// The time that is left is a range: from what the phases still have to do if the next candidate holds, to what the
+/// budget allows, both at the rate of simulations so far.
 class ProgressLine {
  public:
-  ProgressLine(int budget, const MisfitUnit& unit);
+  ProgressLine(const WorkAhead& work, const MisfitUnit& unit);
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
   void end();                                 ///< ends the rewritten line
@@ -21,14 +32,17 @@ class ProgressLine {
  private:
   void rewrite(bool now);
   std::string text() const;
+  std::string time_left() const;
+  int done() const { return counts_.simulated + counts_.answered; }
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start_ = Clock::now();
   const bool terminal_;
-  const int budget_;
+  const WorkAhead work_;
   const MisfitUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
+  int done_before_ = 0;  // the phase
   double best_miss_ = -1;
   EvaluationCounts counts_;
   Clock::time_point printed_{};

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "calibrate/base/atomic_file.h"
@@ -27,8 +26,7 @@ int write_report(const ReportOptions& options) {
   const std::filesystem::path folder = options.folder;
   const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
                                     {.threads = options.threads, .simulate = !options.quick});
-  for (const std::string& sentence : findings.value().missing)
-    std::fprintf(stderr, "pastefit: %s\n", one_line(sentence).c_str());
+  for (const std::string& sentence : findings.value().missing) note("pastefit: %s\n", one_line(sentence).c_str());
   if (const auto faults = write_page(folder, findings.value()); !faults.empty()) return report(faults, kFailed);
   if (!unkept.empty()) return report(unkept, kFailed);
   print("wrote %s\n", (folder / kPage).c_str());

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +23,7 @@ struct RescaleOptions {
   double radius_mm = 0;
   int packings = 4;
   bool force = false;
+  bool json = false;
   CheckOptions check;
 };
 
@@ -44,16 +44,16 @@ int rescale(const RescaleOptions& options) {
   if (options.packings > 0) {
     for (const auto& test : result.value().tests)
       if (const auto faults = validate_memory(test.test, options.check.threads); !faults.empty()) return report(faults);
-    std::fprintf(stderr, "measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
-                 options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
+    note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
+         options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
     result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
     if (!result.ok()) return report(result.faults(), kFailed);
   }
-  print("%s", text_of(result.value()).c_str());
+  const std::string card_text = json_text(to_json(result.value()));
+  print("%s", options.json ? card_text.c_str() : text_of(result.value()).c_str());
   if (options.out.empty()) return kDone;
-  if (const auto faults = write_atomically(options.out, json_text(to_json(result.value()))); !faults.empty())
-    return report(faults, kFailed);
-  print("wrote %s\n", options.out.c_str());
+  if (const auto faults = write_atomically(options.out, card_text); !faults.empty()) return report(faults, kFailed);
+  note("wrote %s\n", options.out.c_str());
   return kDone;
 }
 
@@ -68,6 +68,7 @@ Command add_rescale(CLI::App& verb) {
       ->type_name("MM");
   verb.add_option("--out", options->out, "file for the new card")->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE");
+  verb.add_flag("--json", options->json, "print the new card itself");
   verb.add_option("--packings", options->packings,
                   "simulations with either size that measure the bias; 0: carry over without measuring")
       ->check(whole_number(0, 0) | whole_number(2, 1000))

@@ -69,6 +69,9 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
     }
     Setting setting{text.substr(0, sign), json::parse(text.substr(sign + 1), nullptr, false)};
     if (setting.value.is_discarded()) setting.value = text.substr(sign + 1);
+    // The parameters of a study are known by their name alone.
+    if (std::ranges::find(parameter_kinds(), setting.path, &ParameterKind::name) != parameter_kinds().end())
+      setting.path.insert(0, kParameters);
     if (setting.path.starts_with(kParameters))
       read_parameter(setting, settings, faults);
     else

@@ -1,6 +1,7 @@
-#include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
@@ -9,19 +10,25 @@ namespace pastefit {
 
 namespace {
 
-int show(const std::string& file) {
-  const auto card = read_card(file);
+struct ShowOptions {
+  std::string card;
+  bool json = false;
+};
+
+int show(const ShowOptions& options) {
+  const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
-  print("%s", text_of(card.value()).c_str());
+  print("%s", options.json ? json_text(to_json(card.value())).c_str() : text_of(card.value()).c_str());
   return kDone;
 }
 
 }  // namespace
 
 Command add_show(CLI::App& verb) {
-  const auto file = std::make_shared<std::string>();
-  verb.add_option("CARD", *file, "card file")->required();
-  return [file] { return show(*file); };
+  const auto options = std::make_shared<ShowOptions>();
+  verb.add_option("CARD", options->card, "card file")->required();
+  verb.add_flag("--json", options->json, "print the card itself, in the form of this program's version");
+  return [options] { return show(*options); };
 }
 
 }  // namespace pastefit

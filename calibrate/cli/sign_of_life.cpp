@@ -1,9 +1,11 @@
 #include "calibrate/cli/sign_of_life.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <string>
+
+#include "calibrate/base/format.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 
@@ -14,7 +16,7 @@ constexpr std::chrono::milliseconds kRewrite{500};
 
 }  // namespace
 
-SignOfLife::SignOfLife() : terminal_(isatty(STDERR_FILENO) == 1), next_(start_ + kPatience) {}
+SignOfLife::SignOfLife() : terminal_(is_terminal()), next_(start_ + kPatience) {}
 
 SignOfLife::~SignOfLife() {
   if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
@@ -22,12 +24,14 @@ SignOfLife::~SignOfLife() {
 
 void SignOfLife::show(const Moment& moment) {
   const auto now = Clock::now();
-  if (now < next_) return;
+  if (now < next_ || is_quiet()) return;
   next_ = now + (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain));
   shown_ = true;
-  std::fprintf(stderr, "%spastefit: %s, %.4g s simulated, step %lld, %.0f s gone%s", terminal_ ? "\r" : "",
-               std::string(moment.phase).c_str(), moment.time_s, static_cast<long long>(moment.step),
-               std::chrono::duration<double>(now - start_).count(), terminal_ ? "\033[K" : "\n");
+  const double gone_s = std::chrono::duration<double>(now - start_).count();
+  const std::string line =
+      fitted({"pastefit: " + std::string(moment.phase), format("%.4g s simulated", moment.time_s),
+              format("step %lld", static_cast<long long>(moment.step)), format("%.0f s gone", gone_s)});
+  std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line.c_str());
 }
 
 }  // namespace pastefit

@@ -162,19 +162,18 @@ void print_table(const Outcome& outcome, double wall_s) {
 /// What the program thinks of a step the user has set.
 void judge_step(double given_s, double advised_s) {
   if (given_s <= advised_s)
-    std::fprintf(stderr, "pastefit: the time step %.3g s was fine: the scene asked for %.3g s or less\n", given_s,
-                 advised_s);
+    note("pastefit: the time step %.3g s was fine: the scene asked for %.3g s or less\n", given_s, advised_s);
   else
-    std::fprintf(stderr,
-                 "pastefit: the time step %.3g s is not to be trusted: the scene asked for %.3g s or less; leave "
-                 "--time-step out, or give at most that\n",
-                 given_s, advised_s);
+    note(
+        "pastefit: the time step %.3g s is not to be trusted: the scene asked for %.3g s or less; leave "
+        "--time-step out, or give at most that\n",
+        given_s, advised_s);
 }
 
 int simulate_file(const SimulateOptions& options) {
   auto found = read_scene(options.file, options.settings, options.test);
   if (!found.ok()) return report(found.faults());
-  if (!found.value().note.empty()) std::fprintf(stderr, "pastefit: %s\n", found.value().note.c_str());
+  if (!found.value().note.empty()) note("pastefit: %s\n", found.value().note.c_str());
   Scene test = std::move(found).value().scene;
   if (options.seed) {
     auto* of_lab = std::get_if<Test>(&test);
@@ -235,14 +234,14 @@ int simulate_file(const SimulateOptions& options) {
     print_table(outcome, wall_s);
   if (folder) {
     if (const auto faults = write_results(*folder, text, outcome); !faults.empty()) return report(faults, kFailed);
-    if (!options.json) print("wrote %s\n", folder->file(kResult).c_str());
-    if (!options.json && outcome.curve) print("wrote %s\n", folder->file(kCurve).c_str());
-    if (!options.json && pictures)
-      for (const auto& file : pictures->indices()) print("wrote %s\n", file.c_str());
+    note("wrote %s\n", folder->file(kResult).c_str());
+    if (outcome.curve) note("wrote %s\n", folder->file(kCurve).c_str());
+    if (pictures)
+      for (const auto& file : pictures->indices()) note("wrote %s\n", file.c_str());
   }
   if (of_lab)
     if (const auto remarks = remarks_on(*of_lab, {&outcome.observables, 1}); !remarks.empty())
-      std::fprintf(stderr, "pastefit: %s\n", remarks.c_str());
+      note("pastefit: %s\n", remarks.c_str());
   if (options.time_step_s) judge_step(*options.time_step_s, outcome.run.advised_step_s);
   if (!outcome.failure) return kDone;
   const auto& failure = *outcome.failure;

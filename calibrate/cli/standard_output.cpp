@@ -18,22 +18,43 @@ namespace pastefit {
 namespace {
 
 int first_error = 0;  // of writing to standard output
+bool quiet = false;
 
 void note_error(bool failed) {
   if (failed && first_error == 0) first_error = errno;
 }
 
-}  // namespace
-
-void print(const char* pattern, ...) {
-  va_list values, again;
-  va_start(values, pattern);
+[[gnu::format(printf, 1, 0)]] std::string harmless(const char* pattern, va_list values) {
+  va_list again;
   va_copy(again, values);
   std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
   std::vsnprintf(text.data(), text.size() + 1, pattern, again);
   va_end(again);
+  return lines_of(text);
+}
+
+}  // namespace
+
+void print(const char* pattern, ...) {
+  va_list values;
+  va_start(values, pattern);
+  note_error(std::fputs(harmless(pattern, values).c_str(), stdout) < 0);
   va_end(values);
-  note_error(std::fputs(lines_of(text).c_str(), stdout) < 0);
+}
+
+void note(const char* pattern, ...) {
+  va_list values;
+  va_start(values, pattern);
+  if (!quiet) std::fputs(harmless(pattern, values).c_str(), stderr);
+  va_end(values);
+}
+
+void be_quiet() {
+  quiet = true;
+}
+
+bool is_quiet() {
+  return quiet;
 }
 
 void guard_standard_streams() {

@@ -32,11 +32,11 @@ class BadInput(Desk):
         self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
         self.assertFalse(self.out.exists())
 
-    def test_threads_that_are_not_there_are_bad_input(self):
-        for threads in ("0", "-3", "two", "1.5", str(os.cpu_count() + 1), "99999999999999999999"):
+    def test_threads_that_are_no_number_are_bad_input(self):
+        for threads in ("0", "-3", "two", "1.5", "99999999999999999999"):
             for verb in (["calibrate", STUDY, "--out", self.out], ["compare-optimisers", STUDY, "--out", self.out],
                          ["check", CARD], ["rescale", CARD, "--radius", "7"], ["simulate", RIG]):
-                self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "processors")
+                self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "give a whole number")
         self.assertFalse(self.out.exists())
 
     def test_a_scene_beyond_the_memory_is_refused_before_anything_is_computed(self):

@@ -5,19 +5,23 @@ usage: test_command_line.py PROGRAM SOURCE_DIR [unittest options]
 
 import base64
 import contextlib
+import fcntl
 import json
 import os
+import re
+import resource
 import signal
 import sqlite3
 import struct
 import subprocess
 import sys
+import termios
 import time
 import unittest
 import xml.etree.ElementTree as xml
 
 import jsonschema
-from desk import PROGRAM, SOURCE, LAB, RIG, TWO, COARSE, Desk, run
+from desk import CARD, PROGRAM, SOURCE, LAB, RIG, TWO, COARSE, Desk, run
 
 
 class CommandLine(Desk):
@@ -97,8 +101,10 @@ class CommandLine(Desk):
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
         self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json"])
-        self.assertNotIn("\r", result.stdout)
-        for word in ("screening", "strength_pa", "c_n", "step1.height_mm", "laboratory", "card.json"):
+        self.assertNotIn("\r", result.stderr)
+        for word in ("screening", "simulations", "card.json"):
+            self.assertIn(word, result.stderr)
+        for word in ("strength_pa", "c_n", "step1.height_mm", "laboratory"):
             self.assertIn(word, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
@@ -118,7 +124,7 @@ class CommandLine(Desk):
         self.fails(run("calibrate", other, "--out", self.out, "--resume"), 2, "none of its", "grains", "--force")
         self.assertEqual({file: (self.out / file).read_bytes() for file in kept}, kept)
         resumed = self.calibrates(self.study(), "--resume")
-        self.assertIn(f"{stored} known", resumed.stdout)
+        self.assertIn(f"{stored} known", resumed.stderr)
         with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             self.assertEqual(store.execute("SELECT count(*) FROM evaluations").fetchone(), (stored,))
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
@@ -174,14 +180,14 @@ class CommandLine(Desk):
         lab["measurements"]["step1.height_mm"] = {"repeats": [148, 151, 158]}
         (self.folder / "lab.json").write_text(json.dumps(lab))
         result = self.calibrates(file, "--resume")
-        self.assertIn("study.parameters.strength_pa.free", result.stdout)
-        self.assertIn("measurements.step1.height_mm", result.stdout)
-        self.assertRegex(result.stdout, r"[1-9][0-9]* candidates are known from before")
+        self.assertIn("study.parameters.strength_pa.free", result.stderr)
+        self.assertIn("measurements.step1.height_mm", result.stderr)
+        self.assertRegex(result.stderr, r"[1-9][0-9]* candidates are known from before")
         card = json.loads((self.out / "card.json").read_text())
         self.assertEqual(card["material"]["free"]["strength_pa"]["lower"], 400)
         self.assertEqual(card["tests"][0]["observables"]["step1.height_mm"]["repeats"], 3)
         again = run("calibrate", file, "--out", self.out, "--resume")
-        self.assertNotIn("Changed since", again.stdout)
+        self.assertNotIn("Changed since", again.stderr)
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
     def test_several_tests_are_fitted_together_and_a_hold_out_is_predicted(self):
@@ -226,7 +232,7 @@ class CommandLine(Desk):
 
     def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
         result = self.calibrates(self.study(budget=16, screening=6))
-        self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stdout)
+        self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stderr)
         for words in ("What the readings say", "What to measure next", "Materials that meet these readings as well"):
             self.assertIn(words, (self.out / "summary.txt").read_text())
         card = json.loads((self.out / "card.json").read_text())
@@ -285,6 +291,88 @@ class CommandLine(Desk):
         self.assertEqual((self.out / "comparison.csv").read_text().splitlines(), rows, again.stderr)
         self.fails(run("compare-optimisers", study, "--out", self.folder / "x", "--strategies", "magic"), 2, "magic")
         self.assertFalse((self.folder / "x").exists())
+
+    # what people expect of a command line
+
+    def test_json_is_the_answer_alone_and_quiet_says_nothing_besides(self):
+        study = self.study(budget=4, screening=2, radius_mm=14)
+        study.write_text(study.read_text().replace('"tolerance_mm": 5', '"tolerance_mm": 250'))  # within reach
+        result = run("calibrate", study, "--out", self.out, "--json")
+        self.assertIn("screening", result.stderr)
+        self.assertEqual(json.loads(result.stdout), json.loads((self.out / "card.json").read_text()))
+        quiet = run("calibrate", study, "--out", self.out, "--resume", "--quiet")
+        self.assertEqual((quiet.stdout, quiet.stderr), ((self.out / "summary.txt").read_text(), ""))
+        self.assertIn(quiet.returncode, (0, 1))
+        for verb in (["infer", study, "--from", self.out], ["show", self.out / "card.json"],
+                     ["rescale", self.out / "card.json", "--radius", "13", "--packings", "0"],
+                     ["simulate", RIG, *COARSE], ["check", "--quick", CARD], ["verify", "free-fall"],
+                     ["compare-optimisers", study, "--out", self.folder / "compared", "--strategies", "default",
+                      "--judge-packings", "1"]):
+            with self.subTest(verb[0]):
+                result = run(*verb, "--json", "--quiet")
+                self.assertIn(result.returncode, (0, 1))
+                self.assertEqual(result.stderr, "")
+                self.assertTrue(json.loads(result.stdout))
+
+    def test_a_parameter_is_set_by_its_name_alone(self):
+        by_place = run("simulate", LAB, *COARSE, "--set", "parameters.friction=1", "--json")
+        by_name = run("simulate", LAB, *COARSE, "--set", "friction=1", "--json")
+        self.assertEqual(by_name.returncode, 0, by_name.stderr)
+        self.assertEqual(json.loads(by_name.stdout)["observables"], json.loads(by_place.stdout)["observables"])
+        self.fails(run("simulate", LAB, "--set", "friction=9"), 2, "--set parameters.friction: is 9")
+
+    def test_more_threads_than_processors_are_as_many_as_there_are_with_a_word(self):
+        result = run("simulate", LAB, *COARSE, "--threads", "6400", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"--threads 6400: this machine has \d+ processors")
+
+    def test_progress_fits_the_window(self):
+        study = self.study(budget=24, screening=6, radius_mm=14)
+        for width in (30, 80):
+            with self.subTest(width):
+                ours, theirs = os.openpty()
+                fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
+                process = subprocess.Popen([PROGRAM, "calibrate", str(study), "--out", str(self.out), "--force"],
+                                           stdout=subprocess.DEVNULL, stderr=theirs,
+                                           env={**os.environ, "TERM": "xterm", "NO_COLOR": "1"})
+                os.close(theirs)
+                shown = b""
+                with contextlib.suppress(OSError):  # the end of a terminal
+                    while part := os.read(ours, 65536):
+                        shown += part
+                os.close(ours)
+                self.assertIn(process.wait(), (0, 1))
+                rewritten = [line for line in shown.decode().split("\r") if line.endswith("\x1b[K")]
+                self.assertGreater(len(rewritten), 5)
+                for line in rewritten:
+                    self.assertLess(len(line.removesuffix("\x1b[K")), width)
+                self.assertTrue(any(re.search(r"screening \d+ of 24 simulations", line) for line in rewritten))
+                self.assertNotIn("\x1b[3", shown.decode())  # no colour
+                if width == 80:
+                    self.assertTrue(any(re.search(r"\d+( s| min)? to \d+ (s|min) left", line) for line in rewritten))
+
+    def test_a_terminal_that_cannot_rewrite_a_line_gets_plain_ones(self):
+        ours, theirs = os.openpty()
+        process = subprocess.Popen([PROGRAM, "calibrate", str(self.study(radius_mm=14)), "--out", str(self.out)],
+                                   stdout=subprocess.DEVNULL, stderr=theirs, env={**os.environ, "TERM": "dumb"})
+        os.close(theirs)
+        shown = b""
+        with contextlib.suppress(OSError):
+            while part := os.read(ours, 65536):
+                shown += part
+        os.close(ours)
+        self.assertIn(process.wait(), (0, 1))
+        self.assertNotIn(b"\x1b", shown)
+
+    def test_little_memory_is_enough_for_a_verb_that_simulates_nothing(self):
+        for verb in (["--version"], ["--help"], ["template", "lab"], ["show", CARD]):
+            with self.subTest(verb[0]):
+                def limit():
+                    resource.setrlimit(resource.RLIMIT_AS, (200_000 * 1024, 200_000 * 1024))
+                result = subprocess.run([PROGRAM, *map(str, verb)], capture_output=True, text=True, timeout=20,
+                                        preexec_fn=limit)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertTrue(result.stdout)
 
     def test_two_runs_do_not_share_a_folder(self):
         study = self.study(budget=8, screening=5)

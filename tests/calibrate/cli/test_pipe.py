@@ -43,7 +43,7 @@ class Pipe(Desk):
         """A calibration of a few simulations, confirmed or not."""
         result = run("calibrate", *arguments)
         self.assertIn(result.returncode, (0, 1), f"{arguments}\n{result.stdout}{result.stderr}")
-        self.assertIn("card.json", result.stdout)
+        self.assertIn("card.json", result.stderr)
         return result.stdout
 
     def write(self, kind):
