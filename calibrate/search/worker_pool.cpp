@@ -1,5 +1,6 @@
 #include "calibrate/search/worker_pool.h"
 
+#include <system_error>
 #include <utility>
 
 namespace pastefit {
@@ -18,10 +19,19 @@ std::shared_future<void> WorkerPool::submit(std::function<void()> work) {
   auto done = task.get_future().share();
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(task));
-    if (waiting_.size() > idle_ && workers_.size() < threads_) workers_.emplace_back([this] { take_work(); });
+    if (waiting_.size() >= idle_ && workers_.size() < threads_) {
+      try {
+        workers_.emplace_back([this] { take_work(); });
+      } catch (const std::system_error&) {
+        // Those that the system let us have do the work; if there is none, whoever hands it in.
+      }
+    }
+    if (!workers_.empty()) waiting_.push_back(std::move(task));
   }
-  changed_.notify_one();
+  if (task.valid())
+    task();
+  else
+    changed_.notify_one();
   return done;
 }
 

@@ -34,7 +34,9 @@ std::vector<Row> Database::run(const std::string& sql, const Row& parameters) {
   while ((status = sqlite3_step(raw)) == SQLITE_ROW) {
     Row row;
     for (int column = 0; column < sqlite3_column_count(raw); ++column) {
+      const bool is_null = sqlite3_column_type(raw, column) == SQLITE_NULL;  // ask before the text is made
       const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(raw, column));
+      if (!text && !is_null) throw std::runtime_error("out of memory");
       row.emplace_back(text ? text : "");
     }
     rows.push_back(std::move(row));
