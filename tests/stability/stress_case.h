@@ -17,6 +17,8 @@ struct StressCase {
   double gap_ratio = 0;  ///< -d_c/R
   double size_ratio = 1;
   double plate_deg = 0;  ///< 0: without step 2
+  /// A candidate as a search tries it, without asking whether its grains are too soft for their attraction.
+  bool searched = false;
 };
 
 /// Number of corner cases; they have the first numbers, the Sobol points follow.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
 #include "core/world/world.h"
 
@@ -82,6 +83,28 @@ class Witness {
   std::string complaint_;
 };
 
+/// Where readings are not what a laboratory can read, or contradict each other; empty if nowhere. Of a heap that was
+/// struck off, by the same table that laboratory files are held against.
+std::string contradiction_in(const Observables& readings, const SlumpTest& test) {
+  constexpr double kRounding = 1e-9;
+  for (const ReadingKind& kind : reading_kinds(test)) {
+    const auto value = kind.name == kind.measure ? readings.find(kind.name) : std::nullopt;
+    if (!value) continue;
+    const auto [lowest, highest] = kind.possible;
+    if (*value < lowest - kRounding || *value > highest + kRounding)
+      return std::string(kind.name) + " = " + number(*value) + " is not between " + number(lowest) + " and " +
+             number(highest);
+    for (const Ceiling& ceiling : kind.ceilings) {
+      const bool of_one_heap = ceiling.name.substr(0, 5) == kind.name.substr(0, 5);
+      const auto bound = of_one_heap ? readings.find(ceiling.name) : std::nullopt;
+      if (bound && *value > *bound + kRounding)
+        return std::string(kind.name) + " = " + number(*value) + " is above " + std::string(ceiling.name) + " = " +
+               number(*bound);
+    }
+  }
+  return {};
+}
+
 /// What is wrong with the readings of a run without a failure; empty if nothing is.
 std::string fault_of(const Outcome& outcome, const StressCase& stress) {
   const SlumpTest& test = stress.test;
@@ -109,6 +132,9 @@ std::string fault_of(const Outcome& outcome, const StressCase& stress) {
       right = right && within(0.4, 0.75 * std::pow((1 + stress.enlarged) * (1 + squeezed), 3));
     if (!right) return reading.name + " = " + number(reading.value) + " is out of range";
   }
+  if (stress.enlarged == 0)
+    if (const std::string contradiction = contradiction_in(outcome.observables, test); !contradiction.empty())
+      return contradiction;
   if (!(outcome.run.energy_error.value() < kCreated))
     return "energy created: " + number(outcome.run.energy_error.value());
   return {};
@@ -127,8 +153,9 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
     verdict.end = "defect";
     verdict.message = std::move(message);
   };
-  if (const Faults faults = validate(stress.test); !faults.empty())
-    return defect("an admissible test has faults: " + faults[0].where + " " + faults[0].what);
+  Faults faults = validate(stress.test);
+  if (stress.searched) std::erase_if(faults, [](const Fault& one) { return one.where == "contact.youngs_modulus_pa"; });
+  if (!faults.empty()) return defect("an admissible test has faults: " + faults[0].where + " " + faults[0].what);
   const double start = cpu_seconds();
   Witness witness(stress);
   RunOptions options;
