@@ -3,8 +3,8 @@
 
 usage: run.py BUILD_DIR SECONDS [READER...]     SECONDS for all of them together
 
-A file that a reader cannot cope with (a crash, more than five seconds on a busy machine, more than a gigabyte) is kept in BUILD_DIR/fuzz, and the exit
-status is 1.
+A file that a reader cannot cope with (a crash, more than five seconds on a busy machine, more than a gigabyte) is kept
+in BUILD_DIR/fuzz, and the exit status is 1.
 """
 
 import json
@@ -15,9 +15,7 @@ import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-SHIPPED = {"lab": ["data/lab/*.json"], "rig": ["data/rigs/*.json"], "study": ["data/studies/*.json"],
-           "card": ["data/cards/*.json", "tests/calibrate/card/versions/*.json"], "physics_case": ["tests/cases/*.json"],
-           "impact": [], "store": []}
+SHIPPED = json.loads((SOURCE / "tests/fuzz/corpus/shipped.json").read_text())
 
 
 def words(value):
@@ -29,19 +27,23 @@ def words(value):
     return {value} if isinstance(value, str) else set()
 
 
+def parsed(file):
+    """What is in a file, nothing if that is no JSON."""
+    try:
+        return json.loads(file.read_text())
+    except ValueError:
+        return None
+
+
 def corpus(reader, folder):
     """The shipped files, and those that a reader once could not cope with."""
     folder.mkdir(parents=True, exist_ok=True)
-    files = [file for pattern in SHIPPED[reader] for file in SOURCE.glob(pattern)]
-    for file in files + sorted((SOURCE / "tests/fuzz/corpus" / reader).glob("*")):
-        shutil.copy(file, folder / file.name)
-    if reader == "impact":
-        for file in SOURCE.glob("tests/cases/*.json"):
-            if scene := json.loads(file.read_text()).get("scene"):
-                (folder / file.name).write_text(json.dumps({"format": "pastefit-impact-1", **scene}))
+    for place in ["tests/fuzz/corpus/" + reader, *SHIPPED[reader]]:
+        for file in (SOURCE / place).glob("*.json"):
+            shutil.copy(file, folder / file.name)
     known = set()
     for file in folder.glob("*.json"):
-        known |= words(json.loads(file.read_text()))
+        known |= words(parsed(file))
     dictionary = folder.parent / f"{reader}.dict"
     short = sorted(word for word in known if re.fullmatch(r"[\w.\-]{1,40}", word))
     dictionary.write_text("".join(f'"\\"{word}\\""\n' for word in short) + '"1e999"\n"-0.0"\n"null"\n"[]"\n"{}"\n"\\x00"\n')

@@ -1,0 +1,145 @@
+#include "tests/fuzz/readers.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/json_document.h"
+#include "calibrate/card/card.h"
+#include "calibrate/report/card_text.h"
+#include "calibrate/store/outcome_json.h"
+#include "calibrate/study/impact_json.h"
+#include "calibrate/study/lab.h"
+#include "calibrate/study/rig.h"
+#include "calibrate/study/tests.h"
+#include "calibrate/verify/case.h"
+
+namespace pastefit::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kSource = PASTEFIT_SOURCE_DIR;
+
+/// A folder in memory where the shipped laboratories and apparatus are found beside the file that is read.
+class Desk {
+ public:
+  Desk() {
+    std::string name = "/dev/shm/pastefit-fuzz-XXXXXX";
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no folder in /dev/shm");
+    folder_ = name;
+    for (const char* beside : {"lab", "rigs"})
+      fs::create_directory_symlink(kSource / "data" / beside, folder_ / beside);
+    fs::create_directory(folder_ / "read");
+  }
+  ~Desk() {
+    std::error_code error;
+    fs::remove_all(folder_, error);
+  }
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+
+  fs::path with(std::string_view content) const {
+    const fs::path file = folder_ / "read" / "file.json";
+    std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+    return file;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+fs::path file_of(std::string_view content) {
+  static const Desk desk;
+  return desk.with(content);
+}
+
+/// Faults are for people: each says what.
+template <class T>
+void judge(const Result<T>& read) {
+  if (read.ok()) return;
+  if (read.faults().empty()) throw std::logic_error("refused without a fault");
+  for (const Fault& fault : read.faults())
+    if (fault.what.empty()) throw std::logic_error("a fault that says nothing");
+  lines_of(message_of(read.faults()));
+}
+
+void study(const fs::path& file) {
+  const auto read = read_study(file);
+  judge(read);
+  if (read.ok()) inputs_of(read.value());
+}
+
+/// A card that was read can be shown, and written so that it reads as the same one.
+void card(const fs::path& file) {
+  const auto read = read_card(file);
+  judge(read);
+  if (!read.ok()) return;
+  text_of(read.value());
+  const auto written = json_text(to_json(read.value()));
+  const auto again = card_from_json(nlohmann::json::parse(written));
+  if (!again.ok()) throw std::logic_error("a card that was written is refused: " + message_of(again.faults()));
+  if (json_text(to_json(again.value())) != written) throw std::logic_error("a card reads as another one");
+}
+
+void impact(const fs::path& file) {
+  Faults faults;
+  if (const auto document = read_json(file, faults)) judge(impact_from_json(*document));
+}
+
+/// A row of the store, as JSON; what is no row is refused by an exception, which the store turns into a fault.
+void row(const fs::path& file) {
+  Faults faults;
+  const auto read = read_json(file, faults);
+  if (!read || !read->is_object()) return;
+  const auto part = [&](const char* name) { return read->value(name, nlohmann::json()); };
+  const auto try_to = [](auto read_part) {
+    try {
+      read_part();
+    } catch (const nlohmann::json::exception&) {
+    } catch (const std::invalid_argument&) {
+    }
+  };
+  try_to([&] { to_json(observables_from_json(nlohmann::ordered_json(part("observables")))); });
+  try_to([&] { to_json(failure_from_json(part("failure"))); });
+  try_to([&] { to_json(run_from_json(part("run")), 0); });
+  try_to([&] { parameters_to_json(parameters_from_json(part("parameter_values"))); });
+}
+
+constexpr std::array<Reader, 7> kReaders{
+    {{"lab", [](std::string_view content) { judge(read_lab(file_of(content))); }},
+     {"rig", [](std::string_view content) { judge(read_rig(file_of(content))); }},
+     {"study", [](std::string_view content) { study(file_of(content)); }},
+     {"card", [](std::string_view content) { card(file_of(content)); }},
+     {"physics_case", [](std::string_view content) { judge(read_case(file_of(content))); }},
+     {"impact", [](std::string_view content) { impact(file_of(content)); }},
+     {"store", [](std::string_view content) { row(file_of(content)); }}}};
+
+}  // namespace
+
+std::span<const Reader> readers() {
+  return kReaders;
+}
+
+std::vector<fs::path> corpus_of(const Reader& reader) {
+  const fs::path corpus = kSource / "tests/fuzz/corpus";
+  std::ifstream table(corpus / "shipped.json");
+  std::vector<fs::path> folders{corpus / reader.name};
+  const auto shipped = nlohmann::json::parse(table);
+  for (const std::string folder : shipped.at(std::string(reader.name))) folders.push_back(kSource / folder);
+  std::vector<fs::path> files;
+  for (const fs::path& folder : folders)
+    if (fs::is_directory(folder))
+      for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace pastefit::fuzz
