@@ -9,6 +9,7 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/processor_time.h"
+#include "calibrate/laboratory/softness.h"
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/search_run.h"
@@ -208,7 +209,9 @@ void SimulationObjective::run(Task& task) {
   RunOptions options = options_.run;
   const auto& values = task.evaluation.values;
   const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
-  if (!options.own_fill) options.packing = packing(task.index, test, task.look);
+  Outcome outcome;
+  outcome.failure = too_soft(test, options);
+  if (!outcome.failure && !options.own_fill) options.packing = packing(task.index, test, task.look);
   if (stop_requested()) return;
   options.steps.ledger = options.steps.ledger && !task.tried;
   options.cutoff = task.cutoff;
@@ -222,7 +225,7 @@ void SimulationObjective::run(Task& task) {
     sketcher.see(test, moment);
     return goes_on(moment);
   };
-  auto outcome = options_.engine.run(test, options);
+  if (!outcome.failure) outcome = options_.engine.run(test, options);
   if (by_user) return;
   if (task.look) options_.onlooker->end(test, outcome);
 

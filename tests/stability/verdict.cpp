@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "calibrate/laboratory/softness.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
@@ -164,6 +165,12 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
     witness.look(moment);
     return cpu_seconds() - start < bounds.cpu_s;
   };
+  if (const auto failure = stress.searched ? too_soft(stress.test, options) : std::nullopt) {
+    verdict.end = name_of(failure->reason);
+    verdict.phase = failure->phase;
+    verdict.message = failure->message;
+    return;
+  }
   if (stress.enlarged > 0) {
     options.packing = fill_mould(stress.test, options);
     if (!options.packing->failure) options.packing = grown(*options.packing, stress.enlarged);

@@ -52,6 +52,24 @@ TEST_CASE("the mould is filled once for each packing and way to fill it, however
   CHECK(ways.size() < points.size());
 }
 
+TEST_CASE("grains that their own attraction would press through each other fail without being poured") {
+  Laboratory laboratory;
+  for (auto& parameter : laboratory.study.parameters) {
+    if (parameter.name == "strength_pa") parameter.upper = 1e7;
+    if (parameter.name == "youngs_modulus_pa") parameter.value = 1e5;
+  }
+  auto store = laboratory.store();
+  SimulationObjective objective(laboratory.study, store, laboratory.options);
+  const auto responses = objective.evaluate(std::vector<UnitPoint>{at(1, 0.5), at(0, 0.5)}, kPackings);
+  CHECK(responses[0].failed);
+  CHECK(responses[0].evaluations[0].failure->reason == FailureReason::excessive_overlap);
+  CHECK(responses[0].evaluations[0].failure->value > 1);
+  CHECK_FALSE(responses[1].failed);
+  CHECK(laboratory.fills == 2);
+  CHECK(laboratory.runs == 2);
+  CHECK(store.size() == 4);
+}
+
 TEST_CASE("a candidate that is tried out keeps no ledger of energy, one that is evaluated does") {
   Laboratory laboratory;
   auto store = laboratory.store();
