@@ -1,5 +1,6 @@
 #include "calibrate/report/kept_views.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -41,11 +42,20 @@ json json_of(const SeenRun& run) {
   return out;
 }
 
+/// Within the bounds of what a table holds: it is drawn point by point.
+Outline outline_of(const json& in) {
+  constexpr double kFar = 10;  // [m]
+  Outline out{in.at("first_x_m").get<double>(), in.at("spacing_m").get<double>(),
+              in.at("height_m").get<std::vector<double>>()};
+  const double length = out.spacing_m * static_cast<double>(out.height_m.size());
+  if (!(out.spacing_m > 0) || !(std::fabs(out.first_x_m) < kFar) || !(length < 2 * kFar))
+    throw std::invalid_argument("an outline is not that of a heap");
+  return out;
+}
+
 SeenRun run_of(const json& in) {
   SeenRun out{in.at("packing").get<std::uint64_t>(), observables_from_json(in.at("readings")), {}, {}};
-  for (const auto& [name, outline] : in.at("outlines").items())
-    out.outlines[name] = {outline.at("first_x_m").get<double>(), outline.at("spacing_m").get<double>(),
-                          outline.at("height_m").get<std::vector<double>>()};
+  for (const auto& [name, outline] : in.at("outlines").items()) out.outlines[name] = outline_of(outline);
   if (!in.contains("curve")) return out;
   const json& curve = in.at("curve");
   out.curve = {

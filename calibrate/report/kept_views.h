@@ -22,7 +22,8 @@ Faults write_views(const std::filesystem::path& file, const Card& card, std::spa
                    const std::vector<TestView>& views);
 
 /// The views of the card's tests on these packings, as they were kept, whichever program simulated them.
-/// Errors: there is no such file, it is damaged, or of another material, other tests or other packings.
+/// Errors: there is no such file, it is larger than 16 MB, damaged, or of another material, other tests or other
+/// packings.
 Result<std::vector<TestView>> read_views(const std::filesystem::path& file, const Card& card,
                                          std::span<const std::uint64_t> packings);
 

@@ -82,6 +82,10 @@ TEST_CASE("views that are damaged, missing or made to harm are refused") {
   const auto harmful = read_views(file, card, kPackings);
   REQUIRE_FALSE(harmful.ok());
   CHECK_THAT(harmful.faults()[0].what, Catch::Contains("base64"));
+  view = view_of_two();
+  view.runs[0].outlines["step1"].first_x_m = -1e9;
+  REQUIRE(write_views(file, card, kPackings, {view}).empty());
+  CHECK_FALSE(read_views(file, card, kPackings).ok());
 }
 
 }  // namespace
