@@ -25,6 +25,7 @@ Numbers numbers_of(const ContactModel& contact) {
           {"bridge.surface_tension_n_m", bridge.surface_tension_n_m},
           {"bridge.contact_angle_rad", bridge.contact_angle_rad},
           {"surface_energy_j_m2", contact.surface_energy_j_m2},
+          {"cohesion_energy_density_pa", contact.cohesion_energy_density_pa},
           {"cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},
           {"friction", contact.friction},
           {"rolling_friction", contact.rolling_friction},

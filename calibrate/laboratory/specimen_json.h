@@ -42,6 +42,7 @@ void describe_contact(Fields& fields, Model& contact) {
   fields.choice("friction_basis", contact.friction_basis, friction_bases, Need::required);
   fields.choice("normal", contact.normal, normal_laws, Usual{NormalLaw::hertz});
   fields.number("surface_energy_j_m2", contact.surface_energy_j_m2, Range{}, Usual{0.0});
+  fields.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, Range{}, Usual{0.0});
   fields.nullable_number("cohesion_n", contact.cohesion_n, Range{}, Need::required);
   fields.object("bridge", Need::required, [&](auto& inner) { describe_bridge(inner, contact.bridge); });
 }

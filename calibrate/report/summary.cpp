@@ -23,7 +23,8 @@ std::string law_lines(const Material& material) {
   if (contact.normal != NormalLaw::hertz || bridge.shape != BridgeShape::polynomial)
     out += "  normal " + word_of(contact.normal, normal_laws) + ", attraction " + word_of(bridge.shape, bridge_shapes) +
            "\n";
-  if (contact.normal != NormalLaw::hertz) line("surface_energy_j_m2", contact.surface_energy_j_m2);
+  if (contact.surface_energy_j_m2 > 0) line("surface_energy_j_m2", contact.surface_energy_j_m2);
+  if (contact.cohesion_energy_density_pa > 0) line("cohesion_energy_density_pa", contact.cohesion_energy_density_pa);
   if (bridge.shape == BridgeShape::polynomial) {
     line("a_n_m2", bridge.a_n_m2);
     line("b_n_m", bridge.b_n_m);

@@ -97,6 +97,7 @@ void read_contact(ObjectReader& reader, ContactModel& contact) {
   reader.number("rolling_friction", contact.rolling_friction, kShare, Need::optional);
   reader.choice("normal", contact.normal, normal_laws, Need::optional);
   reader.number("surface_energy_j_m2", contact.surface_energy_j_m2, {0, 1e6}, Need::optional);
+  reader.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, {0, 1e12}, Need::optional);
   reader.choice("rolling", contact.rolling, rolling_models, Need::optional);
   reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
   reader.nullable_number("cohesion_n", contact.cohesion_n, {0, 1e9}, Need::optional);

@@ -21,7 +21,8 @@ namespace pastefit {
 ///   every attraction   strength_pa c/R^2 [Pa], rupture_gap_ratio -d_c/R, cohesion_ratio F_coh/c
 ///   with film formation besides, formation_ratio 2 offset/-d_c
 ///   polynomial         besides, rupture_force_ratio F(d_c)/c and curvature (core/laws/attraction.h)
-///   jkr                adhesion_pa gamma/R [Pa]
+///   jkr, dmt           adhesion_pa gamma/R [Pa]
+///   sjkr               cohesion_energy_density_pa k [Pa]
 ///   rolling            rolling_friction
 ///   whatever attracts  table_cohesion_factor, mould_cohesion_factor
 ///   every test         friction, restitution, youngs_modulus_pa, poissons_ratio, mould_friction, table_friction

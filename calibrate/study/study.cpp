@@ -9,6 +9,7 @@
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"
+#include "core/laws/table.h"
 
 namespace pastefit {
 namespace {
@@ -63,6 +64,11 @@ ContactModel read_contact(ObjectReader& document) {
     reader.choice("formation", laws.bridge.formation, bridge_formations, Need::optional);
     reader.choice("rolling_model", laws.rolling, rolling_models, Need::optional);
     reader.choice("friction_basis", laws.friction_basis, friction_bases, Need::optional);
+    if (!go_together(laws.normal, laws.bridge.shape))
+      reader.fault("attraction",
+                   "is " + in_quotes(word_of(laws.bridge.shape, bridge_shapes)) + " beside normal " +
+                       in_quotes(word_of(laws.normal, normal_laws)) + ", which has none across a gap",
+                   "\"attraction\": \"none\"");
   });
   return laws;
 }

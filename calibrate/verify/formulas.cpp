@@ -4,19 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/verify/jkr_theory.h"
+#include "calibrate/verify/sticking.h"
 #include "core/laws/constants.h"
-#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
-
-namespace {
-
-using Arguments = FormulaArguments;
 
 Approach pair_of(const Impact& scene) {
   return scene.grains.size() > 1 ? approach_of_grains(scene, 0, 1) : approach_of_wall(scene, 0, 0);
 }
+
+namespace {
+
+using Arguments = FormulaArguments;
 
 double along(const Vec3& v, const std::string& axis) {
   return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
@@ -177,35 +176,6 @@ Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
   return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
 }
 
-// Contacts that stick
-
-double surface_energy(const Impact& scene) {
-  const double share = scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
-  return share * scene.contact.surface_energy_j_m2;
-}
-
-Result<double> jkr_force(const Impact& scene, const Arguments& arguments) {
-  const Approach pair = pair_of(scene);
-  const double gamma = surface_energy(scene);
-  if (arguments.gap_m > jkr_tear_gap(pair, gamma)) return outside("no contact reaches as far");
-  return jkr_pull(pair, gamma, arguments.gap_m);
-}
-
-Result<double> jkr_pull_off(const Impact& scene, const Arguments&) {
-  return 3 * std::numbers::pi * surface_energy(scene) * pair_of(scene).radius;
-}
-
-Result<double> jkr_loop_area(const Impact& scene, const Arguments&) {
-  return jkr_work(pair_of(scene), surface_energy(scene));
-}
-
-/// Relative speed after an elastic collision of a pair that comes from afar; 0 if it sticks.
-Result<double> speed_after_parting(const Impact& scene, const Arguments&) {
-  const Approach pair = pair_of(scene);
-  const double lost = 2 * jkr_work(pair, surface_energy(scene)) / pair.mass;
-  return std::sqrt(std::max(pair.speed * pair.speed - lost, 0.0));
-}
-
 // Sliding and rolling on a wall, along x
 
 struct Slope {
@@ -354,6 +324,10 @@ constexpr Formula kFormulas[] = {
     {"jkr_force", jkr_force, "JKR at a gap; a negative one is an overlap; 8/3 pi gamma R* at touch"},
     {"jkr_pull_off", jkr_pull_off, "3 pi gamma R*"},
     {"jkr_loop_area", jkr_loop_area, "integral of JKR's force from touch to the end of the contact"},
+    {"dmt_force", dmt_force, "DMT at a gap; a negative one is an overlap"},
+    {"dmt_pull_off", dmt_pull_off, "4 pi gamma R*"},
+    {"sjkr_force", sjkr_force, "SJKR at a gap; a negative one is an overlap"},
+    {"sjkr_pull_off", sjkr_pull_off, "2/3 pi^3 k^3 R*^2/E*^2"},
     {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
     {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls",
      FormulaNeeds::wall},

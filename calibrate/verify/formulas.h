@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "core/rigs/impact/impact.h"
+#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
 
@@ -19,6 +19,9 @@ struct FormulaArguments {
 /// What a closed form reads off the scene besides its first grain. "The pair" is the first grain with its partner: the
 /// second grain, or else the first wall. A rotor is a plate, the first wall, that turns freely about a hinge.
 enum class FormulaNeeds { grain, pair, wall, rotor };
+
+/// The pair of a scene that has one.
+Approach pair_of(const Impact& scene);
 
 /// A closed form of a few-body test; all it needs is the scene.
 struct Formula {

@@ -27,11 +27,12 @@ struct Jkr {
   static constexpr NormalLaw choice = NormalLaw::jkr;
   static constexpr std::string_view word = "jkr";
   static constexpr std::array<std::string_view, 2> parameters{"adhesion_pa", "cohesion_factor"};
-  static constexpr bool adheres = true, reaches = true;
+  static constexpr bool adheres = true, reaches = true, beside_bridges = true;
 
   template <class Value>
   static void make(ContactModel& contact, double radius, const Value& value) {
     contact.surface_energy_j_m2 = value("adhesion_pa") * radius;
+    contact.cohesion_energy_density_pa = 0;
   }
   static void set(PairConstants& pair, const ContactModel& grains, double share) {
     const double radius = 1 / pair.size_per_radius, modulus = 0.5 * pair.normal_stiffness;
@@ -64,7 +65,7 @@ struct Jkr {
     return select(press.touching, (mean * a * a - Real(0.8) * unit * patch * patch) / radius, Real(0.0));
   }
   /// Work of adhesion times the area, 2 gamma pi a^2.
-  static double surface(const PairConstants& k, double contact_radius) {
+  static double surface(const PairConstants& k, double, double contact_radius) {
     return 2 * k.adhesion * contact_radius * contact_radius;
   }
   /// `energy` at d = 0 but for its sign, where y^3 = 4.

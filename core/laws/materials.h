@@ -26,7 +26,9 @@ struct GrainSizes {
 enum class NormalLaw {
   hertz,  ///< elastic spheres
   jkr,    ///< elastic spheres that stick: Johnson, Kendall & Roberts 1971
-  last = jkr
+  dmt,    ///< stiff spheres that stick: Derjaguin, Muller & Toporov 1975
+  sjkr,   ///< an attraction in proportion to the area in which spheres meet
+  last = sjkr
 };
 
 /// How the attraction of a liquid bridge falls with distance; all have the value c at touch.
@@ -86,6 +88,7 @@ struct ContactModel {
   double rolling_friction = 0.1;
   NormalLaw normal = NormalLaw::hertz;
   double surface_energy_j_m2 = 0;  ///< gamma, half the work of adhesion; of laws of the overlap that attract [J/m^2]
+  double cohesion_energy_density_pa = 0;  ///< k of `Sjkr`, attraction over the area in which grains meet [J/m^3]
   RollingModel rolling = RollingModel::spring_dashpot;
   FrictionBasis friction_basis = FrictionBasis::elastic;
   std::optional<double> cohesion_n;  ///< constant attraction in overlap [N] at the reference radius; empty: bridge.c_n

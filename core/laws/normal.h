@@ -24,15 +24,15 @@ struct Press {
 ///     parameters, make(contact, radius, value)   scale-free numbers that it is made of besides those of elasticity,
 ///                      and how: as those of an attraction (laws/attraction.h);
 ///     adheres          whether it attracts, and is Hertz where PairConstants::adhesion is 0;
+///     beside_bridges   whether it may be chosen beside an attraction across a gap: kernels of both are compiled;
 ///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::tear_gap or
 ///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
 ///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
 ///                      elasticity and size are there;
 ///     at(k, root_radius, overlap, touched)   the `Press` of a pair; root_radius is sqrt(R*), radius R*;
 ///     energy(k, radius, press, overlap)   what it holds [J], 0 out of contact; the derivative by d is the force;
-///     surface(k, contact_radius)   if it `adheres`: what the surfaces gave for the patch [J]; with it, `energy` is
-///     that
-///                      of the strain;
+///     surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
+///                      `energy` is that of the strain;
 ///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
 ///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: push of a spring that grows with a [N];
 ///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
@@ -45,11 +45,11 @@ struct Hertz {
   static constexpr NormalLaw choice = NormalLaw::hertz;
   static constexpr std::string_view word = "hertz";
   static constexpr std::array<std::string_view, 0> parameters{};
-  static constexpr bool adheres = false, reaches = false;
+  static constexpr bool adheres = false, reaches = false, beside_bridges = true;
 
   template <class Value>
   static void make(ContactModel& contact, double, const Value&) {
-    contact.surface_energy_j_m2 = 0;
+    contact.surface_energy_j_m2 = contact.cohesion_energy_density_pa = 0;
   }
   static void set(PairConstants&, const ContactModel&, double) {}
 

@@ -5,9 +5,11 @@
 #include <type_traits>
 
 #include "core/laws/attraction.h"
+#include "core/laws/dmt.h"
 #include "core/laws/jkr.h"
 #include "core/laws/normal.h"
 #include "core/laws/rolling.h"
+#include "core/laws/sjkr.h"
 
 namespace pastefit {
 
@@ -18,7 +20,7 @@ struct TypeList {
 
 /// All laws, in the order of their names in materials.h. Kernels, words of files and constants of pairs are made from
 /// these rows.
-using NormalLaws = TypeList<Hertz, Jkr>;
+using NormalLaws = TypeList<Hertz, Jkr, Dmt, Sjkr>;
 using Attractions =
     TypeList<NoAttraction, PolynomialAttraction, LinearAttraction, ExponentialAttraction, CapillaryAttraction>;
 using RollingLaws = TypeList<NoRolling, SpringDashpotRolling, ConstantTorqueRolling>;
@@ -55,6 +57,17 @@ auto with_law(TypeList<Laws...>, Choice choice, const Look& look) {
 inline NormalLaw acting(NormalLaw law, const PairConstants& pair) {
   const bool adheres = with_law(NormalLaws{}, law, [](auto normal) { return normal.adheres; });
   return adheres && pair.adhesion == 0 ? NormalLaw::hertz : law;
+}
+
+/// Whether the two go together. Kernels of those that do not are not compiled, and no scene may ask for them.
+template <class Normal, class Attraction>
+constexpr bool go_together(Normal, Attraction) {
+  return Normal::beside_bridges || !Attraction::present;
+}
+inline bool go_together(NormalLaw normal, BridgeShape attraction) {
+  return with_law(NormalLaws{}, normal, [&](auto of_overlap) {
+    return with_law(Attractions{}, attraction, [&](auto across_gap) { return go_together(of_overlap, across_gap); });
+  });
 }
 
 namespace detail {

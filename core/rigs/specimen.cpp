@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/laws/constants.h"
+#include "core/laws/table.h"
 #include "core/random.h"
 #include "core/rigs/field_checker.h"
 
@@ -110,6 +111,10 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
   check.range("contact.friction", contact.friction, 0, 10, "");
   check.range("contact.rolling_friction", contact.rolling_friction, 0, 10, "");
   check.range("contact.surface_energy_j_m2", contact.surface_energy_j_m2, 0, 1e6, "J/m^2");
+  check.range("contact.cohesion_energy_density_pa", contact.cohesion_energy_density_pa, 0, 1e12, "J/m^3");
+  check.require(go_together(contact.normal, contact.bridge.shape), "contact.bridge.shape",
+                "is a bridge beside a law of the overlap that has none",
+                "give \"none\", or \"normal\": \"hertz\" or \"jkr\"");
   if (contact.cohesion_n) check.range("contact.cohesion_n", *contact.cohesion_n, 0, 1e9, "N");
   check_bridge(check, contact.bridge, radius);
   if (contact.youngs_modulus_pa > 0 && contact.poissons_ratio < 1 && radius > 0) {

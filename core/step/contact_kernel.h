@@ -298,14 +298,20 @@ void wall_kernel(const KernelTask& task) {
 
 namespace {
 
-/// Kernels of all combinations of laws, in the order of `combination`.
+/// Kernels of all combinations of laws that go together, in the order of `combination`; of others none.
 template <std::size_t at>
 struct LawTriple {
   using Normal = Law<NormalLaws, at / (Attractions::size * RollingLaws::size)>;
   using Attraction = Law<Attractions, at / RollingLaws::size % Attractions::size>;
   using Rolling = Law<RollingLaws, at % RollingLaws::size>;
-  static constexpr Kernel pair = pair_kernel<Normal, Attraction, Rolling>;
-  static constexpr Kernel wall = wall_kernel<Normal, Attraction, Rolling>;
+  static constexpr Kernel pair() {
+    if constexpr (go_together(Normal{}, Attraction{})) return pair_kernel<Normal, Attraction, Rolling>;
+    return nullptr;
+  }
+  static constexpr Kernel wall() {
+    if constexpr (go_together(Normal{}, Attraction{})) return wall_kernel<Normal, Attraction, Rolling>;
+    return nullptr;
+  }
 };
 
 template <class Attraction>
@@ -316,8 +322,8 @@ constexpr Kernel bridge_kernel_of() {
 
 template <std::size_t... at, class... Attraction>
 constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction...>) {
-  return {{LawTriple<at>::pair...},
-          {LawTriple<at>::wall...},
+  return {{LawTriple<at>::pair()...},
+          {LawTriple<at>::wall()...},
           {bridge_kernel_of<Attraction>()...},
           move_grains,
           PASTEFIT_ISA_NAME};

@@ -79,7 +79,7 @@ constexpr std::size_t combination(NormalLaw normal, BridgeShape attraction, Roll
 }
 
 struct KernelTable {
-  std::array<Kernel, kCombinations> pair, wall;  ///< by `combination`
+  std::array<Kernel, kCombinations> pair, wall;  ///< by `combination`; empty where laws do not go together
   std::array<Kernel, Attractions::size> bridge;  ///< pairs that cannot touch; empty where there is no attraction
   Moved (*move)(const MoveTask&);
   std::string_view instruction_set;

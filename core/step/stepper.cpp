@@ -43,7 +43,7 @@ double elastic_energy(const World& world) {
     return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
       const Press<double> press = law.at(pair, root_radius, std::max(overlap, 0.0), 0.0);
       double energy = law.energy(pair, root_radius * root_radius, press, overlap);
-      if constexpr (law.adheres) energy += law.surface(pair, press.contact_radius);
+      if constexpr (law.adheres) energy += law.surface(pair, root_radius * root_radius, press.contact_radius);
       return energy;
     });
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/laws/table.h"
 #include "core/rigs/impact/approach.h"
 #include "core/rigs/impact/swing.h"
 #include "core/rigs/rotor.h"
@@ -389,6 +390,11 @@ Faults validate(const Impact& test) {
                 "give a number above 0 and at most 1");
   check.require(std::isfinite(test.contact.surface_energy_j_m2) && test.contact.surface_energy_j_m2 >= 0,
                 "contact.surface_energy_j_m2", "is negative", "give a number of at least 0");
+  check.require(std::isfinite(test.contact.cohesion_energy_density_pa) && test.contact.cohesion_energy_density_pa >= 0,
+                "contact.cohesion_energy_density_pa", "is negative", "give a number of at least 0");
+  check.require(go_together(test.contact.normal, test.contact.bridge.shape), "contact.bridge.shape",
+                "is a bridge beside a law of the overlap that has none",
+                "give \"none\", or \"normal\": \"hertz\" or \"jkr\"");
   const Bridge& bridge = test.contact.bridge;
   if (bridge.shape != BridgeShape::none)
     check.require(rupture_gap(bridge, test.reference_radius_m) > 0, "contact.bridge", "never ruptures",

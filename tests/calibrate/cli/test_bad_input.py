@@ -105,7 +105,35 @@ class BadInput(Desk):
         self.assertFalse(self.out.exists())
         for file in (CARD, LAB, RIG):
             self.fails(run("simulate", file, "--set", "parameters.adhesion_pa=500"), 2,
-                       "--set parameters.adhesion_pa", "belongs to normal \"jkr\"")
+                       "--set parameters.adhesion_pa", "belongs to normal \"jkr\", \"dmt\"")
+
+    def test_an_apparatus_for_granules_that_cannot_work_is_bad_input_in_one_message(self):
+        pellet, shear = self.folder / "pellet.json", self.folder / "shear.json"
+        pellet.write_text(run("template", "pellet-lab").stdout)
+        shear.write_text(run("template", "shear-lab").stdout)
+        cases = (
+            (pellet, ["apparatus.die_diameter_mm=8"], "grains.radius_mm", "of a few granules says nothing", "at most"),
+            (pellet, ["apparatus.press_speedup=5000"], "apparatus.press_speedup", "sound in a bed", "slower punch"),
+            (pellet, ["apparatus.platen_speed_mm_s=9000"], "apparatus.platen_speed_mm_s", "sound in a bed", "slower"),
+            (shear, ["apparatus.normal_stress_pa=-2000"], "apparatus.normal_stress_pa", "drawn off the bed", "above 0"),
+            (pellet, ["grains.standard_deviation_mm=0.01", "grains.radius_mm=1.2", "grains.smallest_mm=0.5",
+                      "grains.largest_mm=1.2", "grains.smallest_mm=1.19999"],
+             "grains.standard_deviation_mm", "% of the grains between smallest and largest", "widen the bounds"))
+        for file, settings, *words in cases:
+            with self.subTest(settings):
+                options = [word for setting in settings for word in ("--set", setting)]
+                result = run("simulate", file, *options, "--out", self.out)
+                self.fails(result, 2, *words)
+                self.assertEqual(result.stderr.count("pastefit: "), 1, result.stderr)
+                self.assertEqual(result.stdout, "")
+                self.assertFalse(self.out.exists())
+
+    def test_laws_that_do_not_go_together_are_bad_input(self):
+        study = self.study(contact={"normal": "dmt", "attraction": "linear"},
+                           parameters={"friction": {"free": [0.1, 1]}})
+        self.fails(run("calibrate", study, "--out", self.out), 2, "contact.attraction", "beside normal \"dmt\"",
+                   "\"attraction\": \"none\"")
+        self.assertFalse(self.out.exists())
 
     def test_a_missing_file_and_a_file_that_is_no_json_are_bad_input(self):
         broken = self.folder / "broken.json"

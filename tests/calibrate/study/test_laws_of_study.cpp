@@ -6,6 +6,7 @@
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/constants.h"
+#include "core/laws/table.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/desk.h"
 
@@ -41,11 +42,14 @@ TEST_CASE("a study that chooses no law has Hertz and a polynomial bridge") {
 TEST_CASE("every law reaches the tests of a study, with its parameters and without those of others") {
   for (const auto& normal : normal_laws)
     for (const auto& attraction : bridge_shapes) {
+      if (!go_together(normal.value, attraction.value)) continue;
       INFO(normal.name << ", " << attraction.name);
       json document = Desk::study();
       document["contact"] = {{"normal", normal.name}, {"attraction", attraction.name}};
       document["parameters"] = {{"friction", {{"free", {0.1, 0.9}}}}};
-      if (normal.value == NormalLaw::jkr) document["parameters"]["adhesion_pa"] = {{"value", 500}};
+      const bool by_energy = normal.value == NormalLaw::jkr || normal.value == NormalLaw::dmt;
+      if (by_energy) document["parameters"]["adhesion_pa"] = {{"value", 500}};
+      if (normal.value == NormalLaw::sjkr) document["parameters"]["cohesion_energy_density_pa"] = {{"value", 600}};
       if (attraction.value != BridgeShape::none) document["parameters"]["strength_pa"] = {{"value", 700}};
       const Result<Study> read = Desk().read(document);
       INFO((read.ok() ? "" : message_of(read.faults())));
@@ -56,7 +60,8 @@ TEST_CASE("every law reaches the tests of a study, with its parameters and witho
       const double radius = grains.radius_m;
       CHECK(contact.normal == normal.value);
       CHECK(contact.bridge.shape == attraction.value);
-      CHECK(contact.surface_energy_j_m2 == (normal.value == NormalLaw::jkr ? 500 * radius : 0));
+      CHECK(contact.surface_energy_j_m2 == (by_energy ? 500 * radius : 0));
+      CHECK(contact.cohesion_energy_density_pa == (normal.value == NormalLaw::sjkr ? 600 : 0));
       CHECK(attraction_at_touch(contact.bridge, radius) ==
             Approx(attraction.value == BridgeShape::none ? 0 : 700 * radius * radius));
     }
@@ -77,10 +82,24 @@ TEST_CASE("parameters of laws that a study did not choose are refused, all at on
   CHECK(says(at(faults, "parameters.rolling_friction"), "rolling_model \"spring_dashpot\""));
   document = Desk::study();
   document["parameters"]["adhesion_pa"] = {{"value", 1000}};
-  CHECK(says(at(Desk().faults(document), "parameters.adhesion_pa"), "belongs to normal \"jkr\"; chosen is normal"));
+  CHECK(says(at(Desk().faults(document), "parameters.adhesion_pa"), "belongs to normal \"jkr\", \"dmt\"; chosen is normal"));
   document["contact"] = {{"attraction", "cubic"}, {"normal", "hertzian"}};
   CHECK(says(at(Desk().faults(document), "contact.attraction"), "exponential"));
   CHECK(says(at(Desk().faults(document), "contact.normal"), "did you mean \"hertz\"?"));
+}
+
+TEST_CASE("a law of the overlap that goes beside no bridge is refused beside one, with what to write") {
+  for (const char* normal : {"dmt", "sjkr"}) {
+    json document = Desk::study();
+    document["contact"] = {{"normal", normal}, {"attraction", "linear"}};
+    document["parameters"] = {{"friction", {{"free", {0.1, 0.9}}}}};
+    const Faults faults = Desk().faults(document);
+    REQUIRE(faults.size() == 1);
+    CHECK(says(at(faults, "contact.attraction"), "is \"linear\" beside normal \"" + std::string(normal) + "\""));
+    CHECK(says(at(faults, "contact.attraction"), "\"attraction\": \"none\""));
+    document["contact"]["attraction"] = "none";
+    CHECK(Desk().faults(document).empty());
+  }
 }
 
 TEST_CASE("without an attraction nothing is asked of a film") {

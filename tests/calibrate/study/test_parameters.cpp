@@ -203,6 +203,23 @@ TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has 
   CHECK(specimen_of(with_contact_of(test, values)).contact.surface_energy_j_m2 == 0);
 }
 
+TEST_CASE("DMT has JKR's surface energy, SJKR an energy density, and neither has the other's") {
+  std::vector<double> values = usual_values();
+  values[15] = 2000;
+  values[16] = 30000;
+  Test test = with_usual_contact(SlumpTest{});
+  specimen_of(test).contact.bridge.shape = BridgeShape::none;
+  specimen_of(test).contact.normal = NormalLaw::dmt;
+  test = with_contact_of(test, values);
+  CHECK(specimen_of(test).contact.surface_energy_j_m2 == 2000 * specimen_of(test).grains.radius_m);
+  CHECK(specimen_of(test).contact.cohesion_energy_density_pa == 0);
+  specimen_of(test).contact.normal = NormalLaw::sjkr;
+  test = with_contact_of(test, values);
+  CHECK(specimen_of(test).contact.surface_energy_j_m2 == 0);
+  CHECK(specimen_of(test).contact.cohesion_energy_density_pa == 30000);
+  CHECK(validate(test).empty());
+}
+
 TEST_CASE("the same parameters for larger grains are the enlarged material, whatever its laws") {
   const std::vector<double> values = usual_values();
   for (const auto& normal : normal_laws)
@@ -216,6 +233,7 @@ TEST_CASE("the same parameters for larger grains are the enlarged material, what
       const ContactModel made = specimen_of(with_contact_of(large, values)).contact;
       const ContactModel grown = enlarged(specimen_of(with_contact_of(small, values)).contact, 1.5);
       CHECK(made.surface_energy_j_m2 == Approx(grown.surface_energy_j_m2));
+      CHECK(made.cohesion_energy_density_pa == grown.cohesion_energy_density_pa);
       CHECK(*made.cohesion_n == Approx(*grown.cohesion_n));
       using Number = double Bridge::*;
       for (const Number number : {&Bridge::a_n_m2, &Bridge::b_n_m, &Bridge::c_n, &Bridge::d_c_m, &Bridge::offset_m,
@@ -234,21 +252,26 @@ TEST_CASE("a parameter belongs to the laws that name it, and to every test if no
     return names;
   };
   using Names = std::set<std::string_view>;
-  CHECK(missing() == Names{"adhesion_pa"});
+  const std::string_view k = "cohesion_energy_density_pa";
+  CHECK(missing() == Names{"adhesion_pa", k});
   laws.bridge.formation = BridgeFormation::touch;
-  CHECK(missing() == Names{"adhesion_pa", "formation_ratio"});
+  CHECK(missing() == Names{"adhesion_pa", k, "formation_ratio"});
   laws.bridge.formation = BridgeFormation::film;
   laws.bridge.shape = BridgeShape::exponential;
-  CHECK(missing() == Names{"adhesion_pa", "rupture_force_ratio", "curvature"});
+  CHECK(missing() == Names{"adhesion_pa", k, "rupture_force_ratio", "curvature"});
   laws.bridge.shape = BridgeShape::none;
   const Names of_attractions{"strength_pa",     "rupture_force_ratio", "curvature",
                              "formation_ratio", "rupture_gap_ratio",   "cohesion_ratio"};
-  laws.normal = NormalLaw::jkr;
-  CHECK(missing() == of_attractions);
+  for (const NormalLaw law : {NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr}) {
+    laws.normal = law;
+    Names missed = of_attractions;
+    missed.insert(law == NormalLaw::sjkr ? "adhesion_pa" : k);
+    CHECK(missing() == missed);
+  }
   laws.normal = NormalLaw::hertz;
   laws.rolling = RollingModel::none;
   Names dry = of_attractions;
-  dry.insert({"adhesion_pa", "rolling_friction", "table_cohesion_factor", "mould_cohesion_factor"});
+  dry.insert({"adhesion_pa", k, "rolling_friction", "table_cohesion_factor", "mould_cohesion_factor"});
   CHECK(missing() == dry);
 }
 

@@ -61,6 +61,27 @@ TEST_CASE("JKR in a crowd: the energy of both steps is accounted for, of a heap 
   CHECK(error_with(30, StepOptions{}.impact_resolution) < 4e-3);
 }
 
+TEST_CASE(
+    "DMT and SJKR in a crowd: the heap stands higher than without, and its energy is accounted for in both steps") {
+  for (const NormalLaw law : {NormalLaw::dmt, NormalLaw::sjkr}) {
+    SlumpTest test = sticking(0);
+    test.drop = DropPlate{};
+    const Outcome dry = simulate(test);
+    test.contact.normal = law;
+    test.contact.surface_energy_j_m2 = sticking(1).contact.surface_energy_j_m2;
+    // Two grains are parted by as much: 2/3 pi^3 k^3 R*^2/E*^2 = 4 pi gamma R*.
+    const double modulus = test.contact.youngs_modulus_pa / (2 * (1 - std::pow(test.contact.poissons_ratio, 2)));
+    test.contact.cohesion_energy_density_pa = std::cbrt(6 * test.contact.surface_energy_j_m2 * modulus * modulus /
+                                                        (std::pow(std::numbers::pi, 2) * 0.5 * test.grains.radius_m));
+    INFO("law " << static_cast<int>(law) << ", k " << test.contact.cohesion_energy_density_pa);
+    const Outcome outcome = simulate(test);
+    REQUIRE_FALSE(dry.failure);
+    REQUIRE_FALSE(outcome.failure);
+    CHECK(outcome.observables.find("step1.height_mm").value() > dry.observables.find("step1.height_mm").value() + 5);
+    CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+  }
+}
+
 TEST_CASE("JKR in a crowd: sticking grains that are poured under their own laws lie looser than dry ones") {
   RunOptions own;
   own.own_fill = true;

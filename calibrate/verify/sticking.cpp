@@ -1,0 +1,116 @@
+#include "calibrate/verify/sticking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pastefit {
+
+namespace {
+
+double overlap_of(const Approach& pair, double gamma, double patch) {
+  return patch * patch / pair.radius - std::sqrt(4 * std::numbers::pi * gamma * patch / pair.modulus);
+}
+
+/// Contact radius at which the contact is torn apart under a given distance [m].
+double jkr_tear_patch(const Approach& pair, double gamma) {
+  return std::cbrt(std::numbers::pi * gamma * pair.radius * pair.radius / (4 * pair.modulus));
+}
+
+/// The larger of the contact radii that have this overlap, by bisection.
+double patch_at(const Approach& pair, double gamma, double overlap) {
+  double low = jkr_tear_patch(pair, gamma), high = 2 * low;
+  while (overlap_of(pair, gamma, high) < overlap) high *= 2;
+  for (int n = 0; n < 100; ++n) {
+    const double middle = 0.5 * (low + high);
+    (overlap_of(pair, gamma, middle) < overlap ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double jkr_tear_gap(const Approach& pair, double gamma) {
+  return -overlap_of(pair, gamma, jkr_tear_patch(pair, gamma));
+}
+
+/// Attraction less repulsion [N].
+double jkr_pull(const Approach& pair, double gamma, double gap) {
+  const double patch = patch_at(pair, gamma, -gap);
+  return 4 * std::sqrt(std::numbers::pi * gamma * pair.modulus) * std::pow(patch, 1.5) -
+         4 * pair.modulus * std::pow(patch, 3) / (3 * pair.radius);
+}
+
+/// Integral of the attraction from touch to the end of the contact [J], by Simpson's rule in s, gap = end (1 - s^2),
+/// which takes away the root at the end.
+double jkr_work(const Approach& pair, double gamma) {
+  constexpr int kPanels = 1000;
+  const double end = jkr_tear_gap(pair, gamma);
+  const auto slope = [&](double s) { return 2 * s * end * jkr_pull(pair, gamma, end * (1 - s * s)); };
+  double sum = 0;
+  for (int k = 0; k < kPanels; ++k) sum += slope(k / 1e3) + 4 * slope((k + 0.5) / 1e3) + slope((k + 1) / 1e3);
+  return sum / (6 * kPanels);
+}
+
+double share_of(const Impact& scene) {
+  return scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
+}
+
+double surface_energy(const Impact& scene) {
+  return share_of(scene) * scene.contact.surface_energy_j_m2;
+}
+
+double energy_density(const Impact& scene) {
+  return share_of(scene) * scene.contact.cohesion_energy_density_pa;
+}
+
+double hertz_push(const Approach& pair, double overlap) {
+  return 4.0 / 3 * pair.modulus * std::sqrt(pair.radius) * std::pow(overlap, 1.5);
+}
+
+}  // namespace
+
+Result<double> jkr_force(const Impact& scene, const FormulaArguments& arguments) {
+  const Approach pair = pair_of(scene);
+  const double gamma = surface_energy(scene);
+  if (arguments.gap_m > jkr_tear_gap(pair, gamma))
+    return Fault{"expected.formula", "no contact reaches as far", "another gap"};
+  return jkr_pull(pair, gamma, arguments.gap_m);
+}
+
+Result<double> jkr_pull_off(const Impact& scene, const FormulaArguments&) {
+  return 3 * std::numbers::pi * surface_energy(scene) * pair_of(scene).radius;
+}
+
+Result<double> jkr_loop_area(const Impact& scene, const FormulaArguments&) {
+  return jkr_work(pair_of(scene), surface_energy(scene));
+}
+
+Result<double> dmt_force(const Impact& scene, const FormulaArguments& arguments) {
+  const Approach pair = pair_of(scene);
+  if (arguments.gap_m >= 0) return 0.0;
+  return 4 * std::numbers::pi * surface_energy(scene) * pair.radius - hertz_push(pair, -arguments.gap_m);
+}
+
+Result<double> dmt_pull_off(const Impact& scene, const FormulaArguments&) {
+  return 4 * std::numbers::pi * surface_energy(scene) * pair_of(scene).radius;
+}
+
+Result<double> sjkr_force(const Impact& scene, const FormulaArguments& arguments) {
+  const Approach pair = pair_of(scene);
+  if (arguments.gap_m >= 0) return 0.0;
+  const double area = 2 * std::numbers::pi * pair.radius * -arguments.gap_m;
+  return energy_density(scene) * area - hertz_push(pair, -arguments.gap_m);
+}
+
+Result<double> sjkr_pull_off(const Impact& scene, const FormulaArguments&) {
+  const Approach pair = pair_of(scene);
+  const double ratio = std::numbers::pi * energy_density(scene) / pair.modulus;
+  return 2.0 / 3 * std::pow(ratio, 3) * pair.modulus * pair.radius * pair.radius;
+}
+
+Result<double> speed_after_parting(const Impact& scene, const FormulaArguments&) {
+  const Approach pair = pair_of(scene);
+  const double lost = 2 * jkr_work(pair, surface_energy(scene)) / pair.mass;
+  return std::sqrt(std::max(pair.speed * pair.speed - lost, 0.0));
+}
+
+}  // namespace pastefit

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "core/laws/normal.h"
+
+namespace pastefit {
+
+/// Stiff spheres that stick while they touch (Derjaguin, Muller & Toporov 1975, with Hertz's patch and the force of
+/// the rigid spheres, as in LAMMPS and Yade), in the convention of `Jkr`, in which the work of adhesion is 2 gamma:
+///     F = 4/3 E* sqrt(R*) d^(3/2) - 4 pi gamma R*,   d > 0.
+/// The largest attraction is 4 pi gamma R*, at touch; beyond it there is none, so that a cycle of approach and pull
+/// loses nothing. Friction feels the elastic part, or of the total force F + 8 pi gamma R*, as in LAMMPS. Scale-free:
+/// gamma over the mean radius, so that forces go with its square.
+struct Dmt {
+  static constexpr NormalLaw choice = NormalLaw::dmt;
+  static constexpr std::string_view word = "dmt";
+  static constexpr std::array<std::string_view, 2> parameters{"adhesion_pa", "cohesion_factor"};
+  static constexpr bool adheres = true, reaches = false, beside_bridges = false;
+
+  template <class Value>
+  static void make(ContactModel& contact, double radius, const Value& value) {
+    contact.surface_energy_j_m2 = value("adhesion_pa") * radius;
+    contact.cohesion_energy_density_pa = 0;
+  }
+  static void set(PairConstants& pair, const ContactModel& grains, double share) {
+    pair.adhesion = 4 * std::numbers::pi * share * grains.surface_energy_j_m2;
+  }
+
+  template <class Real>
+  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real touched) {
+    Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
+    const Real pull = select(press.touching, Real(k.adhesion) * root_radius * root_radius, Real(0.0));
+    press.force = press.load - pull;
+    press.reserve = Real(2.0) * pull;
+    return press;
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+    const Real pull = press.load - press.force;
+    return (Real(0.4) * press.load - pull) * larger(overlap, Real(0.0));
+  }
+  /// 4 pi gamma a^2: of the patch and of what surrounds it alike.
+  static double surface(const PairConstants& k, double, double contact_radius) {
+    return k.adhesion * contact_radius * contact_radius;
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real widening(const PairConstants& k, Real radius, Real energy, Real inverse_contact_radius) {
+    return Hertz::widening(k, radius, energy, inverse_contact_radius);
+  }
+  static double overlap_under(const PairConstants& k, double radius, double load) {
+    return Hertz::overlap_under(k, radius, load + k.adhesion * radius);
+  }
+  /// Slow bodies swing about where the force is zero.
+  static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
+    const double stiffness = k.normal_stiffness * std::sqrt(radius * overlap_under(k, radius, 0));
+    return std::min(Hertz::collision_time(k, radius, mass, speed), std::numbers::pi * std::sqrt(mass / stiffness));
+  }
+};
+
+}  // namespace pastefit

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "core/laws/normal.h"
+
+namespace pastefit {
+
+/// Elastic spheres that attract each other in proportion to the area in which they meet ("simplified JKR" of LIGGGHTS):
+///     F = 4/3 E* sqrt(R*) d^(3/2) - k A,   A = 2 pi R* d,   d > 0,
+/// k the cohesion energy density [J/m^3 = Pa]. A is the disc in which two spheres, or a sphere and a plane, cut each
+/// other, to first order in d/R*: LIGGGHTS' `sjkr` has it whole, pi (2 R* d - d^2/4) for equal grains, a quarter of a
+/// percent less at d = R*/50; its `sjkr2` has 2 A, so that half of k there is this law. The largest attraction is
+/// 2/3 pi^3 k^3 R*^2/E*^2, at d = (pi k/E*)^2 R*; unlike that of JKR it falls with the stiffness of the grains. There
+/// is none at touch or beyond, and a cycle of approach and pull loses nothing.
+///
+/// Friction feels the elastic part, or of the total force F, which has no reserve here. k is scale-free as it is.
+struct Sjkr {
+  static constexpr NormalLaw choice = NormalLaw::sjkr;
+  static constexpr std::string_view word = "sjkr";
+  static constexpr std::array<std::string_view, 2> parameters{"cohesion_energy_density_pa", "cohesion_factor"};
+  static constexpr bool adheres = true, reaches = false, beside_bridges = false;
+
+  template <class Value>
+  static void make(ContactModel& contact, double, const Value& value) {
+    contact.surface_energy_j_m2 = 0;
+    contact.cohesion_energy_density_pa = value("cohesion_energy_density_pa");
+  }
+  static void set(PairConstants& pair, const ContactModel& grains, double share) {
+    pair.adhesion = 2 * std::numbers::pi * share * grains.cohesion_energy_density_pa;
+  }
+
+  template <class Real>
+  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real touched) {
+    Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
+    press.force = press.load - Real(k.adhesion) * press.contact_radius * press.contact_radius;  // a^2 = R* d
+    return press;
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+    const Real pull = press.load - press.force;
+    return (Real(0.4) * press.load - Real(0.5) * pull) * larger(overlap, Real(0.0));
+  }
+  static double surface(const PairConstants& k, double radius, double contact_radius) {
+    const double square = contact_radius * contact_radius;
+    return 0.5 * k.adhesion * square * square / radius;
+  }
+  template <class Real>
+  PASTEFIT_INLINE static Real widening(const PairConstants& k, Real radius, Real energy, Real inverse_contact_radius) {
+    return Hertz::widening(k, radius, energy, inverse_contact_radius);
+  }
+  /// In x = sqrt(d) the force is h x^3 - c x^2, by Newton's steps from above, which never pass the root.
+  static double overlap_under(const PairConstants& k, double radius, double load) {
+    const double h = k.hertz * std::sqrt(radius), c = k.adhesion * radius;
+    double x = c / h + std::cbrt(load / h);
+    for (int step = 0; step < 60; ++step) {
+      const double lower = x - ((h * x - c) * x * x - load) / ((3 * h * x - 2 * c) * x);
+      if (!(lower < x)) break;
+      x = lower;
+    }
+    return x * x;
+  }
+  /// Slow bodies swing about where the force is zero, with dF/dd = pi k R* there.
+  static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
+    return std::min(Hertz::collision_time(k, radius, mass, speed),
+                    std::numbers::pi * std::sqrt(mass / (0.5 * k.adhesion * radius)));
+  }
+};
+
+}  // namespace pastefit
