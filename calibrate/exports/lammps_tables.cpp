@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
@@ -8,6 +9,7 @@
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
+#include "core/laws/table.h"
 
 namespace pastefit {
 
@@ -24,6 +26,7 @@ const char* const kTableConventions = R"(#
 # Conventions. normal "hertz k e": k = 4/3 E*, force k sqrt(R*) d^1.5. "damping tsuji": LAMMPS turns e into the factor of
 # sqrt(m* k a) by a polynomial; e below is chosen such that the factor is sqrt(5) beta(e of the card), which is the
 # damping 2 sqrt(5/6) beta sqrt(S_n m*). tangential: stiffness 8 G*, damping ratio sqrt(4 G*/E*), friction.
+# jkr, dmt: Young's modulus and Poisson's ratio of the grains instead of k, surface energy.
 # rolling sds: stiffness, dashpot, friction. Walls: E*, G* of grain and wall. Attraction: tables, negative = pull.
 #
 #   lmp -in in.slump                          one core
@@ -54,14 +57,41 @@ double lammps_restitution(double restitution) {
   return 0.5 * (low + high);
 }
 
-/// "hertz ... damping tsuji" of a pair whose contacts rest at this overlap.
-std::string granular_model(const PairConstants& pair, bool rolls, double effective_radius, double effective_mass,
-                           double resting_overlap, double restitution) {
+bool sticks(const ContactModel& contact) {
+  return contact.normal != NormalLaw::hertz && contact.surface_energy_j_m2 > 0;
+}
+
+/// The law of the overlap with its numbers. Grains that stick give LAMMPS their own modulus and surface energy, which
+/// has the convention of the card.
+std::string normal_model(const ContactModel& contact) {
+  const double restitution = lammps_restitution(contact.restitution);
+  if (!sticks(contact)) return format("hertz %.17g %.17g", grain_pair(contact, 1).hertz, restitution);
+  return format("%s %.17g %.17g %.17g %.17g", contact.normal == NormalLaw::jkr ? "jkr" : "dmt",
+                contact.youngs_modulus_pa, restitution, contact.poissons_ratio, contact.surface_energy_j_m2);
+}
+
+std::string normal_model(const PairConstants& wall, double restitution) {
+  return format("hertz %.17g %.17g", wall.hertz, lammps_restitution(restitution));
+}
+
+/// Radius of a contact under a load [m].
+double resting_patch(const ContactModel& contact, const GrainPair& pair, double load) {
+  const double radius = pair.effective_radius_m();
+  if (!sticks(contact)) return std::sqrt(radius * resting_overlap_m(contact, pair, load));
+  const PairConstants constants = grain_pair(contact, pair.reference_radius_m);
+  return with_law(NormalLaws{}, contact.normal, [&](auto law) {
+    return law.at(constants, std::sqrt(radius), law.overlap_under(constants, radius, load), 0.0).contact_radius;
+  });
+}
+
+/// "hertz ... damping tsuji" of a pair whose contacts rest with this radius.
+std::string granular_model(const std::string& normal, const PairConstants& pair, bool rolls, double effective_mass,
+                           double resting_patch) {
   const double shear = pair.tangential_ratio * pair.normal_stiffness;
-  std::string out = format("hertz %.17g %.17g tangential mindlin_rescale/force %.17g %.17g %.17g", pair.hertz,
-                           lammps_restitution(restitution), shear, std::sqrt(pair.tangential_ratio), pair.friction);
+  std::string out = normal + format(" tangential mindlin_rescale/force %.17g %.17g %.17g", shear,
+                                    std::sqrt(pair.tangential_ratio), pair.friction);
   if (rolls && pair.rolling_friction > 0) {
-    const double stiffness = pair.normal_stiffness * std::sqrt(effective_radius * resting_overlap);
+    const double stiffness = pair.normal_stiffness * resting_patch;
     const double dashpot = 0.6 * std::sqrt(1.4 * 2.25) * pair.rolling_friction * std::sqrt(stiffness * effective_mass);
     out += format(" rolling sds %.17g %.17g %.17g", 2.25 * stiffness * pair.rolling_friction * pair.rolling_friction,
                   dashpot, pair.rolling_friction);
@@ -99,13 +129,36 @@ double mass_of(double radius, double density) {
 }
 
 Faults lacking(const SlumpTest& test) {
-  Faults faults = unknown_laws(test.contact, {.target = "LAMMPS's granular style with tables"});
+  KnownLaws known{"LAMMPS's granular style with tables", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt}};
+  if (test.contact.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};
+  Faults faults = unknown_laws(test.contact, known);
   for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
     if (wall.cohesion_factor > 0)
-      faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
-                        "is not 0, but LAMMPS's walls attract no grain across a gap",
-                        "export with --to lammps, or calibrate with " + std::string(name) + "_cohesion_factor 0"});
+      faults.push_back(
+          {std::string("test.") + name + "_wall.cohesion_factor", "is not 0, but the deck's walls attract no grain",
+           test.contact.normal != NormalLaw::hertz
+               ? "calibrate with " + std::string(name) + "_cohesion_factor 0"
+               : "export with --to lammps, or calibrate with " + std::string(name) + "_cohesion_factor 0"});
   return faults;
+}
+
+std::vector<std::string> losses_of_sticking(const ContactModel& contact, double radius) {
+  if (!sticks(contact)) return {};
+  const bool jkr = contact.normal == NormalLaw::jkr;
+  const double pull_off = (jkr ? 3 : 4) * std::numbers::pi * contact.surface_energy_j_m2 * 0.5 * radius;
+  std::vector<std::string> notes;
+  if (jkr)
+    // d where the pull is largest, y^3 = 3, over d at the end of the contact, y = 1 (core/laws/jkr.h).
+    notes.push_back(
+        format("Grains part in LAMMPS where their pull is largest (%.3g N), at %.3g of the gap up to which the card's "
+               "stay in contact. To part them costs less by the work in between.",
+               pull_off, std::cbrt(3.0) / 3));
+  if (contact.friction_basis == FrictionBasis::elastic)
+    notes.push_back(
+        format("The card's friction is of the elastic part of the normal force, LAMMPS's of that force and twice the "
+               "largest pull. Two grains that only stick hold %.3g N in the deck, %.3g N on the card.",
+               contact.friction * 2 * pull_off, contact.friction * (jkr ? 4 : 1) * pull_off));
+  return notes;
 }
 
 std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
@@ -114,7 +167,7 @@ std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
   const double radius = test.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
   const auto gaps = bridge_gaps(contact, pair);
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = losses_of_sticking(contact, radius);
   if (gaps.remembers()) {
     const double whole = bridge_work_j(contact, pair, 0, gaps.rupture_m);
     const double early = bridge_work_j(contact, pair, gaps.formation_m, gaps.rupture_m);
@@ -167,8 +220,8 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
       const double first = mass_of(sizes[i], density), second = mass_of(sizes[j], density);
       const std::string types = format("pair_coeff   %zu %zu ", i + 1, j + 1);
       laws.pairs += types + (attracts ? "granular " : "") +
-                    granular_model(grains, rolls, pair.effective_radius_m(), first * second / (first + second),
-                                   resting_overlap_m(test.contact, pair, load), test.contact.restitution) +
+                    granular_model(normal_model(test.contact), grains, rolls, first * second / (first + second),
+                                   resting_patch(test.contact, pair, load)) +
                     "\n";
       if (attracts) {
         const std::string name = format("ATTRACTION_%zu_%zu", i + 1, j + 1);
@@ -185,8 +238,8 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
     const PairConstants pair = wall_pair(test.contact, surface, radius);
     const double overlap = std::pow(load / (pair.hertz * std::sqrt(radius)), 2.0 / 3.0);
     return "fix          " + name + " all wall/gran/region granular " +
-           granular_model(pair, rolls, on_wall.effective_radius_m(), mass_of(radius, density), overlap,
-                          surface.restitution) +
+           granular_model(normal_model(pair, surface.restitution), pair, rolls, mass_of(radius, density),
+                          std::sqrt(on_wall.effective_radius_m() * overlap)) +
            " region " + name + "\n";
   };
   laws.table_wall = wall("table", test.table_wall);

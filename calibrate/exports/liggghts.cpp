@@ -27,6 +27,10 @@ Models models_of(const ContactModel& contact, bool attracts) {
                                          : " rolling_friction epsd";
   const std::string base = "model hertz tangential history";
   const std::string reduce = contact.friction_basis == FrictionBasis::total ? " tangential_reduce on" : "";
+  if (contact.normal == NormalLaw::sjkr) {
+    const std::string both = base + " cohesion sjkr2" + rolling + reduce;
+    return {both, both};
+  }
   return {base + (attracts ? " cohesion easo/capillary/viscous" : "") + rolling + (attracts ? reduce : ""),
           base + rolling};
 }
@@ -53,6 +57,12 @@ std::string properties(const ExportScene& scene, const SoulieFit* fit) {
   out += "fix p5 all property/global coefficientRollingFriction " +
          pairs_of(contact.rolling_friction, mould.rolling_friction, table.rolling_friction) + "\n";
   out += "fix p6 all property/global coefficientRollingViscousDamping " + pairs_of(0.3, 0.3, 0.3) + "\n";
+  if (contact.normal == NormalLaw::sjkr) {
+    // sjkr2 has twice the area of the card's law.
+    const double half = 0.5 * contact.cohesion_energy_density_pa;
+    out += "fix p7 all property/global cohesionEnergyDensity " +
+           pairs_of(half, half * mould.cohesion_factor, half * table.cohesion_factor) + "\n";
+  }
   if (!fit) return out;
   const double radius = fit->bridge.radius_m;
   // LIGGGHTS gives each bridge the share 1 - sqrt(3/4) of the liquid on one of two equal grains.
@@ -204,7 +214,7 @@ std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fi
           "the size.");
   }
   for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
-    if (wall.cohesion_factor > 0)
+    if (wall.cohesion_factor > 0 && contact.normal != NormalLaw::sjkr)
       notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name,
                              wall.cohesion_factor));
   if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
@@ -219,7 +229,8 @@ std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fi
 
 Result<Export> export_liggghts(const ExportScene& scene) {
   const auto& contact = scene.test.contact;
-  if (Faults faults = unknown_laws(contact, {"LIGGGHTS", {NormalLaw::hertz}, kAllRolling}); !faults.empty())
+  if (Faults faults = unknown_laws(contact, {"LIGGGHTS", {NormalLaw::hertz, NormalLaw::sjkr}, kAllRolling});
+      !faults.empty())
     return faults;
   const double radius = scene.test.grains.radius_m;
   const bool attracts = bridge_gaps(contact, {radius, radius, radius}).rupture_m > 0 &&

@@ -71,8 +71,10 @@ std::vector<ParameterRow> parameter_rows(const ExportLaw& law) {
       {"restitution", contact.restitution, "grain on grain, without attraction"},
       {"friction", contact.friction, "grain on grain"},
       {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"}};
-  if (contact.normal == NormalLaw::jkr)
+  if (contact.surface_energy_j_m2 > 0)
     rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
+  if (contact.cohesion_energy_density_pa > 0)
+    rows.push_back({"cohesion_energy_density_pa", contact.cohesion_energy_density_pa, "of the grains, over 2 pi R* d"});
   if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, radius);
   if (const auto* slump = std::get_if<SlumpTest>(&law.test_of_card))
     rows.insert(rows.end(), {{"mould_base_radius_m", slump->mould.base_radius_m, "apparatus"},

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
@@ -113,7 +114,9 @@ def laws(grains, mould, table):
         return MatchMaker(matches=((grains, grains, grain), (grains, mould, at_mould), (grains, table, at_table)))
     ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en=by_pair(RESTITUTION), krot=KROT, ktwist=0.0, eta=ETA,
                                             frictAngle=by_pair([atan(f) for f in FRICTION]))
-    return ip2, Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=ETA > 0)
+    if SURFACE_ENERGY > 0:
+        ip2.gamma = by_pair([SURFACE_ENERGY, 0, 0])
+    return ip2, Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=ETA > 0, includeAdhesion=SURFACE_ENERGY > 0)
 )PY";
 
 constexpr const char* kSlump = R"PY(# The slump test, step 1. In this folder:   yade -n -x slump.py
@@ -221,6 +224,7 @@ std::string module_of(const ExportScene& scene) {
   number("B", bridge.b_n_m);
   number("C", attraction_at_touch(bridge, radius));
   number("LIQUID_VOLUME", bridge.liquid_volume_m3);
+  number("SURFACE_ENERGY", contact.surface_energy_j_m2);
   number("COHESION", attraction_n(contact, pair, 1e-12));
   number("FORMATION_GAP", gaps.formation_m);
   number("RUPTURE_GAP", gaps.rupture_m);
@@ -251,7 +255,9 @@ std::string module_of(const ExportScene& scene) {
 Result<Export> export_yade(const ExportScene& scene) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
-  Faults faults = unknown_laws(contact, {.target = "Yade's Mindlin law", .attraction = kAllAttractions});
+  Faults faults = unknown_laws(
+      contact,
+      {.target = "Yade's Mindlin law", .normal = {NormalLaw::hertz, NormalLaw::dmt}, .attraction = kAllAttractions});
   for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
     if (wall.cohesion_factor > 0)
       faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
@@ -260,10 +266,15 @@ Result<Export> export_yade(const ExportScene& scene) {
   if (!faults.empty()) return faults;
 
   Export out;
-  out.notes.push_back(
-      "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: the "
-      "law is the card's, but slow. It suits thousands of grains, not millions.");
-  const double radius = test.grains.radius_m, pull = attraction_n(contact, {radius, radius, radius}, 1e-12);
+  if (contact.normal == NormalLaw::dmt)
+    out.notes.push_back("The attraction is Yade's own DMT, with the card's surface energy.");
+  else
+    out.notes.push_back(
+        "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: the "
+        "law is the card's, but slow. It suits thousands of grains, not millions.");
+  const double radius = test.grains.radius_m;
+  const double sticking = 2 * std::numbers::pi * contact.surface_energy_j_m2 * radius;  // 4 pi gamma R*
+  const double pull = sticking + attraction_n(contact, {radius, radius, radius}, 1e-12);
   if (contact.friction_basis == FrictionBasis::total && pull > 0)
     out.notes.push_back(
         format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "

@@ -2,12 +2,14 @@
 """Force of two grains against their distance, measured in another program with the deck that was exported for it,
 against the card's law.
 
-usage: two_grains.py PASTEFIT CARD lammps|lammps-tables|liggghts|yade
+usage: two_grains.py PASTEFIT CARD lammps|lammps-tables|liggghts|yade [jkr|dmt|sjkr]
+
+With a law of the overlap that sticks, the card's grains stick by that instead of their bridges.
 
 The program has to give the card's curve to 1e-6 of its peak: on the way apart, with a bridge that lives until it
 ruptures, and, where the program has memory, on the way back, where a new one forms when the shells meet. LIGGGHTS, whose
 nearest law is another one, has to give the curve that the export says it will, to 1e-6 of the peak; the difference to
-the card is reported.
+the card is reported. LAMMPS's JKR has to be the card's while grains come together, and until its own contact ends.
 Exit status 77, and "skipped: ... is not installed", where the program is missing.
 """
 
@@ -31,7 +33,7 @@ def of_deck_grains(test, deck):
     if not found:
         return test
     test = copy.deepcopy(test)
-    contact, bridge = test["contact"], test["contact"]["bridge"]
+    contact, bridge = test["contact"], test["contact"]["bridge"]  # a surface energy belongs to no size
     scale = 0.5 * float(found[1]) / test["grains"]["radius_m"]
     test["grains"]["radius_m"] *= scale
     for key, power in (("b_n_m", 1), ("c_n", 2), ("d_c_m", 1), ("offset_m", 1)):
@@ -41,13 +43,91 @@ def of_deck_grains(test, deck):
     return test
 
 
+def with_law(card, law, strength_pa=3000):
+    """The card with this law in place of its bridges, as strong as it says over R^2."""
+    card = copy.deepcopy(card)
+    material = card["material"]
+    contact, radius = material["contact"], material["grains"]["radius_m"]
+    contact["bridge"] = {key: 0.0 for key in contact["bridge"]} | {"shape": "none", "formation": "film"}
+    contact.update(normal=law, cohesion_n=0.0)
+    adhesion = strength_pa / (2 * math.pi)
+    own = {"cohesion_energy_density_pa": 40 * strength_pa} if law == "sjkr" else {"adhesion_pa": adhesion}
+    if law == "sjkr":
+        contact["cohesion_energy_density_pa"] = 40 * strength_pa
+    else:
+        contact["surface_energy_j_m2"] = adhesion * radius
+    of_bridge = ("strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio", "formation_ratio", "cohesion_ratio")
+    for numbers in (material["parameters"], material["free"]):
+        for key in of_bridge:
+            numbers.pop(key, None)
+    material["parameters"].update(own)
+    material["free"] = {key: {"lower": value / 2, "upper": 2 * value, "scale": "log"} for key, value in own.items()}
+    return card
+
+
+def modulus_of(contact):
+    return contact["youngs_modulus_pa"] / (2 * (1 - contact["poissons_ratio"] ** 2))
+
+
+def jkr_patch(contact, radius, overlap):
+    """The larger contact radius with this overlap, d = a^2/R* - sqrt(4 pi gamma a/E*), by bisection."""
+    gamma, modulus = contact["surface_energy_j_m2"], modulus_of(contact)
+    end = (math.pi * gamma * radius ** 2 / (4 * modulus)) ** (1 / 3)
+    low, high = end, 100 * end
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        if middle ** 2 / radius - math.sqrt(4 * math.pi * gamma * middle / modulus) < overlap:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def sticking_force(test, distance, way):
+    """The same for grains that stick; of JKR that of LAMMPS, which lets go where the pull is largest."""
+    contact, radius = test["contact"], test["grains"]["radius_m"]
+    overlap, effective, modulus = 2 * radius - distance, 0.5 * radius, modulus_of(contact)
+    hertz = 4 / 3 * modulus * math.sqrt(effective) * max(overlap, 0) ** 1.5
+    if contact["normal"] == "jkr":
+        gamma = contact["surface_energy_j_m2"]
+        end = (math.pi * gamma * effective ** 2 / (4 * modulus)) ** (1 / 3)
+        last = -9 ** (2 / 3) / 3 * end ** 2 / effective if way == "apart" else 0
+        if overlap <= last:
+            return 0.0
+        patch = jkr_patch(contact, effective, overlap)
+        return 4 * modulus * patch ** 3 / (3 * effective) - 4 * math.sqrt(math.pi * gamma * modulus) * patch ** 1.5
+    if overlap <= 0:
+        return 0.0
+    if contact["normal"] == "dmt":
+        return hertz - 4 * math.pi * contact["surface_energy_j_m2"] * effective
+    return hertz - contact["cohesion_energy_density_pa"] * 2 * math.pi * effective * overlap
+
+
+def pull_off(test):
+    contact, effective = test["contact"], 0.5 * test["grains"]["radius_m"]
+    if contact["normal"] == "sjkr":
+        k = contact["cohesion_energy_density_pa"]
+        return 2 / 3 * math.pi ** 3 * k ** 3 * effective ** 2 / modulus_of(contact) ** 2
+    return (3 if contact["normal"] == "jkr" else 4) * math.pi * contact["surface_energy_j_m2"] * effective
+
+
+def judge_sticking(test, target, apart, back):
+    peak = pull_off(test)
+    worst = {way: largest_error(points, lambda r: sticking_force(test, r, way), peak)
+             for way, points in (("apart", apart), ("back", back)) if points}
+    strongest = -min(force for _, force in apart)
+    print(f"{target}, {test['contact']['normal']}: {len(apart)} distances, largest pull {strongest:.4g} N of {peak:.4g} N; "
+          "largest error " + ", ".join(f"{error:.1e} of it {way}" for way, error in worst.items()))
+    return max(worst.values()) < TOLERANCE and strongest > 0.9 * peak and any(p[1] == 0 for p in apart)
+
+
 def card_force(test, distance):
     """Force that pushes two grains of the mean radius apart, by the card's numbers."""
     contact, radius = test["contact"], test["grains"]["radius_m"]
     bridge = contact["bridge"]
     overlap = 2 * radius - distance
     if overlap > 0:
-        modulus = contact["youngs_modulus_pa"] / (2 * (1 - contact["poissons_ratio"] ** 2))
+        modulus = modulus_of(contact)
         cohesion = bridge["c_n"] if contact["cohesion_n"] is None else contact["cohesion_n"]
         return 4 / 3 * modulus * math.sqrt(radius / 2) * overlap ** 1.5 - cohesion
     if overlap < bridge["d_c_m"]:
@@ -90,10 +170,16 @@ def largest_error(points, expected, peak):
     return max(abs(force - expected(distance)) / peak for distance, force in points)
 
 
-def main(program, card_file, target):
-    test = json.loads(pathlib.Path(card_file).read_text())["material"]  # its grains, and the law between them
+def main(program, card_file, target, law=None):
+    card = json.loads(pathlib.Path(card_file).read_text())
+    if law:
+        card = with_law(card, law)
+    test = card["material"]  # its grains, and the law between them
     with tempfile.TemporaryDirectory() as name:
         deck = pathlib.Path(name) / "deck"
+        if law:
+            card_file = pathlib.Path(name) / "card.json"
+            card_file.write_text(json.dumps(card))
         engines.export(program, card_file, target, deck)
         try:
             command = engines.command_of(target, "two_grains", program, deck)
@@ -101,13 +187,15 @@ def main(program, card_file, target):
             print(f"skipped: {missing} is not installed")
             return engines.SKIP
         run = subprocess.run(command, cwd=deck, capture_output=True, text=True, timeout=300, env=engines.environment())
-        fit = fit_of(deck / "in.two_grains", test) if target == "liggghts" else None
+        fit = fit_of(deck / "in.two_grains", test) if target == "liggghts" and not law else None
         if target.startswith("lammps"):
             test = of_deck_grains(test, deck / "in.two_grains")
     apart, back = distances(run.stdout, "apart"), distances(run.stdout, "back")
     if len(apart) < 200 or (target.startswith("lammps") and len(back) < 200):
         print(run.stdout[-2000:], run.stderr[-2000:])
         return 1
+    if law:
+        return 0 if judge_sticking(test, target, apart, back) else 1
     bridge, radius = test["contact"]["bridge"], test["grains"]["radius_m"]
     peak = bridge["c_n"]
     expected = (lambda r: liggghts_force(test, fit, r)) if fit else (lambda r: card_force(test, r))

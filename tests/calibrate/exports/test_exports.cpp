@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/parameter_table.h"
 #include "calibrate/exports/soulie.h"
+#include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/attraction.h"
@@ -170,10 +172,10 @@ TEST_CASE("a law of the overlap that a target lacks is refused by each, with one
     const auto written = exporter.write(scene(material));
     REQUIRE_FALSE(written.ok());
     REQUIRE(written.faults().size() == 1);
-    const bool edem = exporter.name == "edem-notes";  // has JKR, but not beside a bridge
-    CHECK(written.faults()[0].where == (edem ? "test.contact.bridge.shape" : "test.contact.normal"));
-    CHECK_THAT(written.faults()[0].what, Catch::Contains(edem ? "\"polynomial\"" : "\"jkr\""));
-    CHECK_THAT(written.faults()[0].remedy, Catch::Contains(edem ? "attraction \"none\"" : "normal \"hertz\""));
+    const bool has_jkr = exporter.name == "edem-notes" || exporter.name == "lammps-tables";  // but not beside a bridge
+    CHECK(written.faults()[0].where == (has_jkr ? "test.contact.bridge.shape" : "test.contact.normal"));
+    CHECK_THAT(written.faults()[0].what, Catch::Contains(has_jkr ? "\"polynomial\"" : "\"jkr\""));
+    CHECK_THAT(written.faults()[0].remedy, Catch::Contains(has_jkr ? "attraction \"none\"" : "normal \"hertz\""));
   }
 }
 
@@ -188,6 +190,48 @@ TEST_CASE("JKR without a bridge goes to EDEM, which has it, with its surface ene
   const auto text = text_of(written.value());
   CHECK_THAT(text, Catch::Contains("surface_energy_j_m2,8,") && Catch::Contains("Hertz-Mindlin with JKR"));
   CHECK_THAT(text, !Catch::Contains("force.csv"));
+}
+
+TEST_CASE("a law of grains that stick goes to the targets that have it, with its number, and to no others") {
+  const std::map<std::string, std::map<std::string_view, std::string>> takers{
+      {"jkr", {{"lammps-tables", " jkr 2000000 "}, {"edem-notes", "Hertz-Mindlin with JKR"}}},
+      {"dmt", {{"lammps-tables", " dmt 2000000 "}, {"yade", "SURFACE_ENERGY = 8\n"}}},
+      {"sjkr", {{"liggghts", "cohesionEnergyDensity peratomtypepair 3 25000 0 0 "}}}};
+  for (const auto& [word, law] : normal_laws) {
+    if (law == NormalLaw::hertz) continue;
+    SlumpTest material = paste();
+    material.contact.normal = law;
+    material.contact.bridge.shape = BridgeShape::none;
+    material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+    for (const auto& exporter : exporters()) {
+      INFO(exporter.name << ", " << word);
+      const auto& having = takers.at(std::string(word));
+      const auto written = exporter.write(scene(material));
+      const auto taker = having.find(exporter.name);
+      REQUIRE(written.ok() == (taker != having.end()));
+      if (!written.ok()) {
+        REQUIRE(written.faults().size() == 1);
+        CHECK(written.faults()[0].where == "test.contact.normal");
+        continue;
+      }
+      const auto text = text_of(written.value());
+      CHECK_THAT(text, Catch::Contains(taker->second));
+      CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("-inf"));
+    }
+  }
+}
+
+TEST_CASE("what LAMMPS's JKR has otherwise is said with numbers") {
+  SlumpTest material = paste();
+  material.contact.normal = NormalLaw::jkr;
+  material.contact.bridge.shape = BridgeShape::none;
+  material.contact.friction_basis = FrictionBasis::elastic;
+  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  const auto written = export_lammps_tables(scene(material));
+  REQUIRE(written.ok());
+  // 3 pi gamma R* with gamma 8 J/m^2 and R* 4 mm
+  CHECK_THAT(text_of(written.value()), Catch::Contains("(0.302 N), at 0.481 of the gap") &&
+                                           Catch::Contains("Two grains that only stick hold"));
 }
 
 TEST_CASE("an attraction of every law is written by every exporter, and its curve is the card's") {
