@@ -22,8 +22,10 @@
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/memory.h"
+#include "calibrate/store/checkpoint.h"
 #include "calibrate/store/outcome_json.h"
 #include "core/observe/outline.h"
+#include "core/step/journal.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -36,6 +38,7 @@ struct SimulateOptions {
   std::string test;
   std::optional<std::uint64_t> seed;
   std::string out;
+  std::string checkpoint;
   bool force = false;
   bool json = false;
   std::optional<double> vtk_interval_s;
@@ -170,6 +173,51 @@ void judge_step(double given_s, double advised_s) {
         given_s, advised_s);
 }
 
+Faults checkpoint_faults(const SimulateOptions& options, const Scene& scene) {
+  if (options.checkpoint.empty()) return {};
+  const auto* test = std::get_if<Test>(&scene);
+  if (!test || std::holds_alternative<DropTest>(*test))
+    return {{"--checkpoint", "a few bodies have none: their run takes a moment", "leave it out"}};
+  if (options.vtk_interval_s)
+    return {{"--checkpoint", "does not go with --vtk: a run that goes on would lack the pictures of its beginning",
+             "leave one of them out"}};
+  return output_file_faults("--checkpoint", options.checkpoint, true);
+}
+
+constexpr std::chrono::minutes kBetweenCheckpoints{2};
+
+/// What a run leaves on the disk, now and then and when it is asked to stop, and goes on from.
+class SavedRun {
+ public:
+  SavedRun(Checkpoint file, RunState found, const std::atomic<bool>& stop)
+      : file_(std::move(file)), found_(std::move(found)), stop_(stop) {}
+
+  std::shared_ptr<Journal> journal() {
+    return std::make_shared<Journal>([this] { return stop_ || Clock::now() > next_; },
+                                     [this](const std::string& state) { keep(state); },
+                                     std::exchange(found_.bytes, {}));
+  }
+  bool goes_on() const { return !found_.bytes.empty(); }
+  const Faults& unwritten() const { return unwritten_; }
+  /// All sessions together.
+  double wall_s() const { return found_.wall_s + std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void remove() const { file_.remove(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void keep(const std::string& state) {
+    unwritten_ = file_.write({state, wall_s()});
+    next_ = Clock::now() + kBetweenCheckpoints;
+  }
+
+  Checkpoint file_;
+  RunState found_;
+  const std::atomic<bool>& stop_;
+  Clock::time_point start_ = Clock::now(), next_ = start_ + kBetweenCheckpoints;
+  Faults unwritten_;
+};
+
 int simulate_file(const SimulateOptions& options) {
   auto found = read_scene(options.file, options.settings, options.test);
   if (!found.ok()) return report(found.faults());
@@ -185,6 +233,23 @@ int simulate_file(const SimulateOptions& options) {
     if (const auto faults = validate_memory(*of_lab, 1); !faults.empty()) return report(in_file(faults, options.file));
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
+  if (const auto faults = checkpoint_faults(options, test); !faults.empty()) return report(faults);
+
+  RunOptions run;
+  run.steps.fixed_step_s = options.time_step_s;
+  run.steps.threads = options.threads;
+  run.steps.sleep = options.sleep;
+  const auto& stop = listen_for_stop();
+  std::optional<SavedRun> saved;
+  if (!options.checkpoint.empty()) {
+    Checkpoint file(options.checkpoint, *of_lab, run);
+    auto state = file.read();
+    if (!state.ok()) return report(state.faults());
+    saved.emplace(std::move(file), std::move(state).value(), stop);
+    if (saved->goes_on())
+      std::fprintf(stderr, "pastefit: goes on from %s, after %.0f s\n", options.checkpoint.c_str(), saved->wall_s());
+    run.journal = saved->journal();
+  }
 
   std::optional<OutputFolder> folder;
   std::optional<Pictures> pictures;
@@ -200,10 +265,6 @@ int simulate_file(const SimulateOptions& options) {
     if (options.vtk_interval_s) pictures.emplace(options.out, series);
   }
 
-  RunOptions run;
-  run.steps.fixed_step_s = options.time_step_s;
-  run.steps.threads = options.threads;
-  run.steps.sleep = options.sleep;
   Faults unwritten;
   std::map<std::string_view, Outline> outlines;
   run.watch_interval_s = options.vtk_interval_s.value_or(0.1);
@@ -214,17 +275,23 @@ int simulate_file(const SimulateOptions& options) {
     if (pictures) unwritten = pictures->add(moment, series_at(test, moment));
     return unwritten.empty();
   };
-  const auto& stop = listen_for_stop();
   std::optional<SignOfLife> sign(std::in_place);
   run.pulse = [&](const Moment& moment) {
     sign->show(moment);
-    return !stop;
+    return !stop && (!saved || saved->unwritten().empty());
   };
   const auto start = std::chrono::steady_clock::now();
   const auto outcome = std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test);
   sign.reset();
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_s =
+      saved ? saved->wall_s() : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);
+  if (saved && !saved->unwritten().empty()) return report(saved->unwritten(), kFailed);
+  if (saved && outcome.failure && outcome.failure->reason == FailureReason::stopped) {
+    std::fprintf(stderr, "pastefit: stopped in %s at %.4g s; the same command goes on from %s\n",
+                 outcome.failure->phase.c_str(), outcome.failure->time_s, options.checkpoint.c_str());
+    return kFailed;
+  }
 
   if (outcome.failure) outlines.clear();
   const auto text = json_text(json_of(outcome, to_json(outlines), wall_s));
@@ -239,6 +306,7 @@ int simulate_file(const SimulateOptions& options) {
     if (pictures)
       for (const auto& file : pictures->indices()) note("wrote %s\n", file.c_str());
   }
+  if (saved) saved->remove();
   if (of_lab)
     if (const auto remarks = remarks_on(*of_lab, {&outcome.observables, 1}); !remarks.empty())
       note("pastefit: %s\n", remarks.c_str());
@@ -268,6 +336,10 @@ Command add_simulate(CLI::App& verb) {
                   "folder for " + kResult + ", " + kCurve + " of a test that draws one, and the ParaView series")
       ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace an earlier result in DIR");
+  verb.add_option("--checkpoint", options->checkpoint,
+                  "file in which the run is kept every two minutes and when it is stopped; if it is there the run goes "
+                  "on from it, with the same result bit for bit; it is removed when the run is over")
+      ->type_name("FILE");
   verb.add_option("--time-step", options->time_step_s,
                   "fixed time step of the test; without it the step follows from the scene")
       ->type_name("SECONDS")

@@ -24,6 +24,12 @@ class Lists {
 
   /// Where the lists allow the grains to be, one room each.
   const Room* rooms() const { return leeway_.rooms.data(); }
+  /// For `Journal`. All else is scratch.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(leeway_.rooms, leeway_.own, listed_, strayed_, valid_, wall_leeway_, wall_way_);
+  }
+
   /// A grain of the block is not in its room any more.
   void note_strayed(std::size_t block) { strayed_[block] = true; }
 

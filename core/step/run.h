@@ -19,6 +19,9 @@ class World;
 /// The grains that a test starts from.
 struct Packing;
 
+/// How an interrupted run goes on (core/step/journal.h).
+class Journal;
+
 /// Where a run is, handed to the caller between blocks of steps.
 struct Moment {
   std::string_view phase;
@@ -50,6 +53,7 @@ struct RunOptions {
   /// between.
   std::function<bool(const Moment&)> pulse;
   std::shared_ptr<const Packing> packing;  ///< filled mould to start from; empty: the run fills its own
+  std::shared_ptr<Journal> journal;        ///< given: hands out states of the run, and goes on from one
   /// Given: a run ends as soon as it is certain that the reading will be lower, without any reading of its stage, or
   /// after its stage where it lies beyond; `RunSummary::ended_early` says so. Until then the run is the same, bit for
   /// bit. Which reading may be asked for, and what is certain, is the rig's word.

@@ -38,7 +38,39 @@ Runner::Runner(World& world, const RunOptions& options, Posture posture)
   summary_.settled = true;
 }
 
+Journal::Wait Runner::state() {
+  StateWriter visible, rest;
+  seen(visible);
+  if (write_own_) write_own_(visible);
+  hidden(rest);
+  return {visible.take(), rest.take()};
+}
+
+void Runner::recall(const Journal::Wait& left) {
+  StateReader visible(left.seen), rest(left.hidden);
+  seen(visible);
+  if (read_own_) read_own_(visible);
+  if (!left.hidden.empty()) hidden(rest);
+}
+
+template <class Body>
+std::optional<Failure> Runner::journaled(const Body& wait) {
+  Journal* const journal = options_.journal.get();
+  if (!journal) return wait(false);
+  if (const Journal::Wait* ended = journal->next_ended()) {
+    recall(*ended);
+    last_ended_ = journal->told() - 1;
+    return {};
+  }
+  const auto interrupted = journal->take_interrupted();
+  if (interrupted) recall(*interrupted);
+  if (auto problem = wait(interrupted.has_value())) return problem;
+  last_ended_ = journal->add(state(), last_ended_);
+  return {};
+}
+
 std::optional<Failure> Runner::tell(std::string_view phase) {
+  if (options_.journal && world_.step % kStepsPerPulse == 0 && options_.journal->due()) options_.journal->keep(state());
   if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
       !options_.pulse({phase, world_.time, world_.step, &world_}))
     return stopped_in(phase);
@@ -57,8 +89,14 @@ std::optional<Failure> Runner::show(std::string_view phase) {
 }
 
 std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {
-  const double end = world_.time + duration_s;
-  while (world_.time < end) {
+  return journaled([&](bool midway) {
+    if (!midway) progress_.end = world_.time + duration_s;
+    return advance(phase);
+  });
+}
+
+std::optional<Failure> Runner::advance(const Phase& phase) {
+  while (world_.time < progress_.end) {
     if (auto problem = tell(phase.name)) return problem;
     if (auto problem = stepper_.step(phase.drive)) {
       problem->phase = phase.name;
@@ -111,36 +149,41 @@ std::optional<Failure> Runner::audit(std::string_view phase) {
                        "contacts; let the program choose it, or take a smaller one"};
 }
 
-Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, const std::function<bool(const World&)>& free) {
+Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway,
+                                   const std::function<bool(const World&)>& free) {
   const RestCriterion& criterion = options_.rest;
   const double radius = world_.reference_radius;
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
-  std::vector<double> before = posture_(world_.particles);
-  int calm = 0;
-  for (double waited = 0; waited < cap_s; waited += criterion.window_s) {
-    wait.failure = run(phase, criterion.window_s);
+  if (!midway) progress_ = {.before = posture_(world_.particles)};
+  for (bool begun = midway; progress_.waited < cap_s; progress_.waited += criterion.window_s, begun = false) {
+    if (!begun) progress_.end = world_.time + criterion.window_s;
+    wait.failure = advance(phase);
     wait.done = phase.done && phase.done(world_);
     if (wait.failure || wait.done) return wait;
     const std::vector<double> now = posture_(world_.particles);
-    wait.change = largest_change(before, now);
+    wait.change = largest_change(progress_.before, now);
     const bool is_calm = mean_speed(world_.particles) < slow && wait.change < criterion.change_over_radius * radius;
-    calm = is_calm ? calm + 1 : 0;
-    wait.rested = calm >= criterion.windows;
+    progress_.calm = is_calm ? progress_.calm + 1 : 0;
+    wait.rested = progress_.calm >= criterion.windows;
     if (wait.rested && (!free || free(world_))) return wait;
-    before = now;
+    progress_.before = now;
   }
   return wait;
 }
 
 std::optional<Failure> Runner::run_until_rest(const Phase& phase, double longest_s,
                                               const std::function<bool(const World&)>& free) {
-  return wait_for_rest(phase, longest_s, free).failure;
+  return journaled([&](bool midway) { return wait_for_rest(phase, longest_s, midway, free).failure; });
 }
 
 std::optional<Failure> Runner::settle(const Phase& phase, double cap_s, double moved_s) {
   if (options_.fixed_wait_s) return run(phase, moved_s + *options_.fixed_wait_s);
-  const Wait wait = wait_for_rest(phase, moved_s + cap_s);
+  return journaled([&](bool midway) { return settle_now(phase, moved_s + cap_s, midway); });
+}
+
+std::optional<Failure> Runner::settle_now(const Phase& phase, double cap_s, bool midway) {
+  const Wait wait = wait_for_rest(phase, cap_s, midway);
   if (wait.failure || wait.rested || wait.done) return wait.failure;
   summary_.settled = false;
   const double limit = kStillFlowing * world_.reference_radius;

@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/step/journal.h"
 #include "core/step/run.h"
+#include "core/step/state.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {
@@ -43,6 +45,14 @@ class Runner {
   /// Calls the watch now, whatever its interval: a phase has ended that a picture should show.
   std::optional<Failure> show(std::string_view phase);
 
+  /// What the caller changes while a wait of this runner is under way: part of the state of a run that may be
+  /// interrupted (`Journal`). To be called before the first wait, once; the parts have to outlive it.
+  template <class... Parts>
+  void remember(Parts&... parts) {
+    write_own_ = [&parts...](StateWriter& state) { state(parts...); };
+    read_own_ = [&parts...](StateReader& state) { state(parts...); };
+  }
+
   /// To be called after walls, laws or grains were changed from outside.
   void changed() { stepper_.forget_lists(); }
 
@@ -58,7 +68,41 @@ class Runner {
     bool done = false;  ///< by the phase's own word
     double change = 0;  ///< in the last window [m]
   };
-  Wait wait_for_rest(const Phase& phase, double cap_s, const std::function<bool(const World&)>& free = {});
+  /// How far the wait under way has come.
+  struct Progress {
+    double end = 0;              ///< of the run, or the window of a wait for rest [s]
+    double waited = 0;           ///< before this window [s]
+    int calm = 0;                ///< windows in a row
+    std::vector<double> before;  ///< posture at the beginning of the window
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(end, waited, calm, before);
+    }
+  };
+  /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before
+  /// that (`Journal`).
+  template <class Body>
+  std::optional<Failure> journaled(const Body& wait);
+  Journal::Wait state();
+  void recall(const Journal::Wait& left);
+  /// What a rig sees of the world, and changes of it.
+  template <class Archive>
+  void seen(Archive& archive) {
+    archive(world_.time, world_.step, world_.particles.motion, world_.particles.spin, world_.particles.load,
+            world_.particles.identity);
+    for (Wall& wall : world_.walls)
+      archive(wall.shape, wall.velocity, wall.angular_velocity, wall.pivot, wall.velocity_before,
+              wall.angular_velocity_before, wall.force, wall.torque);
+  }
+  template <class Archive>
+  void hidden(Archive& archive) {
+    archive(world_.pairs, stepper_, summary_, asleep_steps_, progress_, next_watch_);
+  }
+
+  /// Steps until `progress_.end`, or the phase is done.
+  std::optional<Failure> advance(const Phase& phase);
+  Wait wait_for_rest(const Phase& phase, double cap_s, bool midway, const std::function<bool(const World&)>& free = {});
+  std::optional<Failure> settle_now(const Phase& phase, double cap_s, bool midway);
   std::optional<Failure> tell(std::string_view phase);
   Failure stopped_in(std::string_view phase) const;
   /// Energy created over energy put in, as of the ledger's last look.
@@ -72,6 +116,10 @@ class Runner {
   RunSummary summary_;
   double next_watch_ = 0;
   std::int64_t asleep_steps_ = 0;  ///< of a grain
+  Progress progress_;
+  std::optional<std::size_t> last_ended_;  ///< wait in the journal
+  std::function<void(StateWriter&)> write_own_;
+  std::function<void(StateReader&)> read_own_;
 };
 
 }  // namespace pastefit

@@ -38,6 +38,11 @@ class Sleepers {
   /// at rest; now and then looks which others are calm. Whether it is time to choose the block's pairs anew for that.
   bool balance(World& world, std::size_t block);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(calm_, held_[0], held_[1], energy_, chosen_, woken_, asleep_, heat_);
+  }
+
   bool is_asleep(std::int32_t identity) const { return calm_[identity] == kAsleep; }
   /// Of all blocks in the last step.
   std::int64_t count() const;

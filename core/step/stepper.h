@@ -40,6 +40,13 @@ class Stepper {
   /// The run goes on from where another one ended, whose ledger this is.
   void follow(const Ledger& before);
   static constexpr std::int64_t kLedgerInterval = 32;
+  /// For `Journal`: all but the world. The rest is scratch, or follows from the test.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    if (sleepers_) archive(*sleepers_);
+    archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, smallest_radius_, smallest_mass_, time_step_, energy_,
+            ledger_, looked_);
+  }
   /// Grains asleep in the last step.
   std::int64_t sleeping() const { return sleepers_ ? sleepers_->count() : 0; }
 

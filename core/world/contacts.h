@@ -47,6 +47,10 @@ class BatchList {
     for (const BatchList* part : parts)
       batches.insert(batches.end(), part->batches.begin(), part->batches.begin() + part->batch_count());
   }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(batches, count, awake);
+  }
   void reserve(std::int32_t pairs) { batches.reserve((pairs + kBatch - 1) / kBatch); }
   std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }
 
@@ -68,6 +72,11 @@ class ContactList : public BatchList<ContactBatch> {
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
   void pad(std::int32_t dummy);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    BatchList::serialize(archive);
+    archive(near);
+  }
   Contact contact(std::int32_t k) const;
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }

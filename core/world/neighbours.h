@@ -38,6 +38,10 @@ class Candidates {
   /// Where a pair's memory is kept in the lists of its block: contact k (k), bridge k (-2 - k), nowhere (kNone).
   std::int32_t place(std::int32_t c) const { return place_[c]; }
   void set_place(std::int32_t c, std::int32_t place) { place_[c] = place; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(ends_, second_, place_);
+  }
   static constexpr std::int32_t kNone = -1;
   static std::int32_t place_of_bridge(std::int32_t k) { return -2 - k; }
   static std::int32_t bridge_at(std::int32_t place) { return -2 - place; }
@@ -53,6 +57,10 @@ class Candidates {
 struct WallContacts {
   ContactList contacts;
   std::int32_t count = 0;  ///< of them, without padding
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(contacts, count);
+  }
 };
 
 /// A run of grains that are neighbours in space, with the pairs of which it holds the first grain. Their second grains
@@ -63,12 +71,20 @@ struct Block {
   ContactList contacts;
   BridgeList bridges;
   std::vector<WallContacts> walls;  ///< one for each wall of the world
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(grains, grains_end, candidates, contacts, bridges, walls);
+  }
 };
 
 /// What acts between grains, by how much work it takes: contacts in full, bridges by their distance only; and what may
 /// do so soon. The sums of a step are taken in the order of the blocks and their lists.
 struct Pairs {
   std::vector<Block> blocks;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(blocks);
+  }
 };
 
 /// Calls `work(block, member)` so that no two neighbouring blocks are worked on at the same time, and every block of

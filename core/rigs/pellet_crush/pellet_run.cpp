@@ -23,7 +23,9 @@ constexpr std::size_t kPunch = 1;
 class Pressing {
  public:
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
-      : test_(test), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {}
+      : test_(test), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
+    runner_.remember(sum_, summed_, curve_);
+  }
 
   std::optional<Failure> run() {
     if (auto problem = press()) return problem;

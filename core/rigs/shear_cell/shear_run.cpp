@@ -70,6 +70,7 @@ class Shearing {
         runner_(world_, options, [this](const Particles&) { return heights(); }) {
     double mass = 0;
     for (std::int32_t i = 0; i < world_.particles.count(); ++i) mass += world_.particles.mass(i);
+    runner_.remember(stress_sum_, height_sum_, summed_, curve_, heights_);
     servo_ = {-test.normal_stress_pa * area_m2(test), mass, test.lid_speed_m_s};
   }
 

@@ -25,6 +25,7 @@ class Drop {
         runner_(world_, options, posture_of_heap),
         table_(world_.walls[kTable]) {
     runner_.follow(before);
+    runner_.remember(stopped_);
   }
 
   std::optional<Failure> run() {
@@ -61,15 +62,14 @@ class Drop {
   std::optional<Failure> let_plate_fall() {
     const DropPlate& plate = *test_.drop;
     const Rotor rotor{plate.mass_kg, plate.mass_kg * plate.length_m * plate.length_m / 3};
-    bool stopped = false;
     const auto fall = [&](World& world, double dt) {
-      if (turn_freely(rotor, table_, world.gravity, dt, dt)) stopped = true;
+      if (turn_freely(rotor, table_, world.gravity, dt, dt)) stopped_ = true;
     };
-    if (auto problem = runner_.run({"step2.drop", fall, [&](const World&) { return stopped; }}, kDropCap))
+    if (auto problem = runner_.run({"step2.drop", fall, [&](const World&) { return stopped_; }}, kDropCap))
       return problem;
     table_.angular_velocity = {};
     table_.shape = level_table(test_);
-    if (stopped) return {};
+    if (stopped_) return {};
     return Failure{FailureReason::never_settled,
                    "step2.drop",
                    world_.step,
@@ -91,6 +91,7 @@ class Drop {
   World world_;
   Runner runner_;
   Wall& table_;
+  bool stopped_ = false;  ///< the plate has fallen
 };
 
 }  // namespace

@@ -1,0 +1,91 @@
+#include "calibrate/store/checkpoint.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/content_hash.h"
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/store/program.h"
+#include "core/step/kernels.h"
+
+namespace pastefit {
+
+namespace {
+
+const std::string kFormat = "pastefit-checkpoint-1";
+
+/// SSE2 has other bits than the other instruction sets.
+bool rounds_once() {
+  return kernels_of_this_processor().instruction_set != sse2::kernels.instruction_set;
+}
+
+std::string name_of_run(const Test& test, const RunOptions& options) {
+  const auto& step = options.steps.fixed_step_s;
+  return content_hash(nlohmann::json{identity_of(test), step ? nlohmann::json(*step) : nlohmann::json(),
+                                     options.steps.sleep, rounds_once()}
+                          .dump());
+}
+
+/// Takes a line off the text.
+std::string_view next_line(std::string_view& text) {
+  const auto end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+const char* const kAnew = "delete it to start anew, or name another file";
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::filesystem::path file, const Test& test, const RunOptions& options)
+    : file_(std::move(file)), run_(name_of_run(test, options)) {}
+
+Result<RunState> Checkpoint::read() const {
+  std::error_code error;
+  if (!std::filesystem::exists(file_, error)) return RunState{};
+  const auto fault = [&](std::string what, std::string remedy) {
+    return Fault{file_.string(), std::move(what), std::move(remedy)};
+  };
+  std::ifstream in(file_, std::ios::binary);
+  std::ostringstream content;
+  if (!in || !(content << in.rdbuf()))
+    return fault(std::string("cannot be read: ") + std::strerror(errno), "a file that can be read");
+  const std::string whole = std::move(content).str();
+  std::string_view left = whole;
+  if (next_line(left) != kFormat)
+    return fault("is no checkpoint of pastefit", "name another file, which it would replace");
+  const std::string_view program = next_line(left), run = next_line(left);
+  if (program != program_identity())
+    return fault("was written by " + printable(std::string(program)) + ", this is " + program_identity(),
+                 std::string("go on with that program; or ") + kAnew);
+  if (run != run_)
+    return fault("is of another run: another test, seed, --set, --time-step or --sleep",
+                 std::string("go on with the same command; or ") + kAnew);
+  const std::string wall(next_line(left)), hash(next_line(left));
+  if (content_hash(wall + "\n" + std::string(left)) != hash || left.empty())
+    return fault("is damaged: its state is not what was written", kAnew);
+  return RunState{std::string(left), std::strtod(wall.c_str(), nullptr)};
+}
+
+Faults Checkpoint::write(const RunState& state) const {
+  const std::string body = format("%.6g", state.wall_s) + "\n" + state.bytes;
+  const auto end = body.find('\n') + 1;
+  return write_atomically(file_, kFormat + "\n" + program_identity() + "\n" + run_ + "\n" + body.substr(0, end) +
+                                     content_hash(body) + "\n" + state.bytes);
+}
+
+void Checkpoint::remove() const {
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+}  // namespace pastefit
