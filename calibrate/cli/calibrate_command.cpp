@@ -17,6 +17,7 @@
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
+#include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/coarse_rung.h"
@@ -47,8 +48,14 @@ struct CalibrateOptions {
 
 const std::string kCard = "card.json";
 const std::string kSummary = "summary.txt";
-const std::vector<std::string> kCalibration = with_store({kCard, kSummary, kPage, kViewsFile});
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
+
+/// The files of an earlier result.
+std::vector<std::string> results_of(const Study& study) {
+  std::vector<std::string> files{kCard, kSummary, kPage, kViewsFile};
+  for (const StudyTest& test : study.tests) files.push_back(curve_file(test.name));
+  return with_store(std::move(files));
+}
 
 std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
   std::vector<std::string> names;
@@ -104,21 +111,23 @@ std::string notes_on_readings(const Study& study) {
   return out;
 }
 
-/// Card, summary and page, to the folder and to the person. Only a confirmed material is what was asked for. Who
-/// interrupts gets the page with what was seen until then.
+/// Card, summary, curves and page, to the folder and to the person. Only a confirmed material is what was asked for.
+/// Who interrupts gets the page with what was seen until then.
 int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
             const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop, Looks& looks) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
+  std::vector<std::string> files{kCard, kSummary, kPage, kStore};
   if (faults.empty()) {
     Findings findings = findings_of(card, store, inference);
     faults = look_at_tests(findings, options.out, stop, {.threads = options.threads, .seen = &looks});
+    if (faults.empty()) faults = write_curves(options.out, findings, files);
     if (faults.empty()) faults = write_page(options.out, findings);
   }
   if (!faults.empty()) return report(faults, kFailed);
-  for (const std::string& name : {kCard, kSummary, kPage, kStore}) note("wrote %s\n", folder.file(name).c_str());
+  for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
@@ -159,10 +168,10 @@ int calibrate(const CalibrateOptions& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
-  auto folder = OutputFolder::open(options.out, kCalibration, earlier,
+  auto folder = OutputFolder::open(options.out, results_of(study), earlier,
                                    kSpace + static_cast<std::uintmax_t>(budget) * kSpaceOfEvaluation);
   if (!folder.ok()) return report(folder.faults());
-  if (options.force) folder.value().clear(kCalibration);
+  if (options.force) folder.value().clear(results_of(study));
   auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
   if (!store.ok()) return report(store.faults());
   if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())

@@ -27,9 +27,12 @@ int write_report(const ReportOptions& options) {
   const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
                                     {.threads = options.threads, .simulate = !options.quick});
   for (const std::string& sentence : findings.value().missing) note("pastefit: %s\n", one_line(sentence).c_str());
-  if (const auto faults = write_page(folder, findings.value()); !faults.empty()) return report(faults, kFailed);
+  std::vector<std::string> files{kPage};
+  auto faults = write_curves(folder, findings.value(), files);
+  if (faults.empty()) faults = write_page(folder, findings.value());
+  if (!faults.empty()) return report(faults, kFailed);
   if (!unkept.empty()) return report(unkept, kFailed);
-  print("wrote %s\n", (folder / kPage).c_str());
+  for (const std::string& name : files) print("wrote %s\n", (folder / name).c_str());
   return kDone;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"
 
@@ -51,6 +52,17 @@ void LivePage::show(const Study& study, const Store& store) {
   if (std::chrono::steady_clock::now() < next_) return;
   (void)write_page(folder_, findings_under_way(study, store));
   next_ = std::chrono::steady_clock::now() + kInterval;
+}
+
+Faults write_curves(const std::filesystem::path& folder, const Findings& findings, std::vector<std::string>& written) {
+  for (std::size_t i = 0; i < findings.views.size(); ++i) {
+    const CardTest& test = findings.card->tests[i];
+    const auto curve = curve_csv(test, findings.views[i]);
+    if (!curve || findings.views[i].lacking > 0) continue;  // some of the runs alone would be other means
+    written.push_back(curve_file(test.name));
+    if (auto faults = write_atomically(folder / written.back(), *curve); !faults.empty()) return faults;
+  }
+  return {};
 }
 
 Faults write_page(const std::filesystem::path& folder, const Findings& findings) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "calibrate/report/findings.h"
 
@@ -36,6 +37,10 @@ class LivePage {
   std::filesystem::path folder_;
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(5);
 };
+
+/// Writes the curve of each test that draws one and whose runs were all seen (`curve_csv`) into a result folder; adds
+/// the names of the files to `written`. Errors: the folder cannot be written.
+Faults write_curves(const std::filesystem::path& folder, const Findings& findings, std::vector<std::string>& written);
 
 /// Writes the page of a result folder into it. Errors: the folder cannot be written.
 Faults write_page(const std::filesystem::path& folder, const Findings& findings);

@@ -85,8 +85,28 @@ class Pipe(Desk):
                     self.assertTrue((out / target / "parameters.csv").read_text().startswith("name,value,meaning"))
                 self.assertEqual((out / LAWS[0] / "grains.csv").exists(), is_slump(kind))
                 self.assertEqual((out / "film/curve.csv").exists(), kind in ("pellet", "shear"))
+                self.assertEqual((out / "curve.csv").exists(), kind in ("pellet", "shear"))
+                if (out / "curve.csv").exists():
+                    self.check_curve(out / "curve.csv", document["tests"][0])
                 resumed = self.calibrated(self.folder / "study.json", "--out", out, "--resume")
                 self.assertEqual(json.loads(card.read_text()), document, resumed)
+
+    def check_curve(self, file, test):
+        """Mean and range of the packings, beside what the laboratory measured in the same unit."""
+        header, *rows = [line.split(",") for line in file.read_text().splitlines()]
+        self.assertEqual(header[1:4], ["stress_pa", "stress_pa_lowest", "stress_pa_highest"])
+        in_pascal = {name: one for name, one in test["observables"].items()
+                     if name.endswith("_pa") and one.get("measured") is not None}
+        self.assertEqual(header[4:], [word for name in in_pascal for word in (name, name + "_deviation")])
+        self.assertGreater(len(in_pascal), 0)
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            x, mean, lowest, highest, *laboratory = map(float, row)
+            self.assertLessEqual(lowest, mean + 1e-6 * abs(mean))
+            self.assertLessEqual(mean, highest + 1e-6 * abs(mean))
+            for value, one in zip(laboratory[::2], in_pascal.values()):
+                self.assertAlmostEqual(value, one["measured"], delta=1e-5 * abs(value))
+        self.assertTrue(any(float(row[2]) < float(row[3]) for row in rows))
 
     def test_a_deck_is_written_of_a_slump_test_and_refused_with_a_reason_of_others(self):
         for kind in kinds():
