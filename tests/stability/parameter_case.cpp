@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "calibrate/study/parameters.h"
+#include "core/laws/table.h"
 #include "core/random.h"
 
 namespace pastefit {
@@ -17,7 +18,7 @@ namespace {
 // Parameter j of corner n is at its upper end where n and column j have an odd number of bits in common. No four or
 // fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Found one after the other,
 // each the smallest that will do.
-constexpr std::array<unsigned, 16> kColumns{1, 2, 4, 8, 15, 16, 32, 51, 64, 85, 106, 128, 150, 171, 219, 237};
+constexpr std::array<unsigned, 17> kColumns{1, 2, 4, 8, 15, 16, 32, 51, 64, 85, 106, 128, 150, 171, 219, 237, 247};
 
 constexpr bool have_strength_4() {
   for (const unsigned a : kColumns)
@@ -50,6 +51,7 @@ StressCase case_at(const std::vector<double>& unit, int number, const RandomStre
   test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = 0.009;
   test.contact.normal = choice<NormalLaw>(laws.bits(0));
   test.contact.bridge.shape = choice<BridgeShape>(laws.bits(1));
+  if (!go_together(test.contact.normal, test.contact.bridge.shape)) test.contact.bridge.shape = BridgeShape::none;
   test.contact.rolling = choice<RollingModel>(laws.bits(2));
   test.contact.bridge.formation = laws.bits(3) % 2 ? BridgeFormation::film : BridgeFormation::touch;
   test.contact.friction_basis = laws.bits(4) % 2 ? FrictionBasis::total : FrictionBasis::elastic;
