@@ -1,9 +1,9 @@
 #include "calibrate/cli/report_page.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"
@@ -25,7 +25,7 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
     findings.views = std::move(kept).value();
   } else {
     if (const Fault& why = kept.faults().front(); options.simulate && !options.seen)
-      std::fprintf(stderr, "pastefit: %s %s: the tests are simulated anew\n", why.where.c_str(), why.what.c_str());
+      note("pastefit: %s %s: the tests are simulated anew\n", why.where.c_str(), why.what.c_str());
     const auto goes_on = [&] { return options.simulate && !stop; };
     for (const CardTest& test : card.tests)
       findings.views.push_back(view_of(test, shown, options.threads, goes_on, options.seen));

@@ -247,7 +247,7 @@ int simulate_file(const SimulateOptions& options) {
     if (!state.ok()) return report(state.faults());
     saved.emplace(std::move(file), std::move(state).value(), stop);
     if (saved->goes_on())
-      std::fprintf(stderr, "pastefit: goes on from %s, after %.0f s\n", options.checkpoint.c_str(), saved->wall_s());
+      note("pastefit: goes on from %s, after %.0f s\n", options.checkpoint.c_str(), saved->wall_s());
     run.journal = saved->journal();
   }
 
