@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace pastefit {
 namespace {
@@ -222,11 +223,24 @@ bool ObjectReader::check_number(std::string_view place, const json& value, const
   return good;
 }
 
-void ObjectReader::wrong_word(std::string_view key, const json& value, const Words& words) {
-  const std::optional<std::string> near =
-      value.is_string() ? nearest(value.get_ref<const std::string&>(), words) : std::nullopt;
-  fault(key, "is " + text_of(value),
-        (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(words));
+std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<const std::string_view> words, Need need) {
+  const json* value = find(key, need);
+  if (!value) return std::nullopt;
+  const std::string* text = value->get_ptr<const std::string*>();
+  const auto found = text ? std::find(words.begin(), words.end(), *text) : words.end();
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const Words names(words.begin(), words.end());
+  const std::optional<std::string> near = text ? nearest(*text, names) : std::nullopt;
+  fault(key, "is " + text_of(*value),
+        (near ? "did you mean " + in_quotes(*near) + "? Known: " : "one of ") + listed(names));
+  return std::nullopt;
+}
+
+bool ObjectReader::null(std::string_view key) {
+  const auto value = object_.find(key);
+  if (value == object_.end() || !value->is_null()) return false;
+  known_.emplace(key);
+  return true;
 }
 
 }  // namespace pastefit

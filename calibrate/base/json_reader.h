@@ -3,9 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -105,8 +106,11 @@ class ObjectReader {
  private:
   const nlohmann::json* find(std::string_view key, Need need);
   const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy);
+  /// Which of the words it is; a fault if none.
+  std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words, Need need);
+  /// Whether the key is there and null.
+  bool null(std::string_view key);
   bool check_number(std::string_view place, const nlohmann::json& value, const Range& range);
-  void wrong_word(std::string_view key, const nlohmann::json& value, const std::set<std::string, std::less<>>& words);
 
   const nlohmann::json& object_;
   std::string place_;
@@ -116,18 +120,11 @@ class ObjectReader {
 
 template <class T, std::size_t N>
 bool ObjectReader::choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need) {
-  const nlohmann::json* value = find(key, need);
-  if (!value) return false;
-  std::set<std::string, std::less<>> names;
-  for (const Named<T>& word : words) {
-    if (value->is_string() && value->get_ref<const std::string&>() == word.name) {
-      target = word.value;
-      return true;
-    }
-    names.emplace(word.name);
-  }
-  wrong_word(key, *value, names);
-  return false;
+  std::array<std::string_view, N> names;
+  for (std::size_t n = 0; n < N; ++n) names[n] = words[n].name;
+  const std::optional<std::size_t> found = word(key, names, need);
+  if (found) target = words[*found].value;
+  return found.has_value();
 }
 
 template <class Body>
@@ -141,9 +138,7 @@ bool ObjectReader::object(std::string_view key, Need need, Body body) {
 
 template <class T, class Body>
 bool ObjectReader::nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body) {
-  const auto value = object_.find(key);
-  if (value != object_.end() && value->is_null()) {
-    known_.emplace(key);
+  if (null(key)) {
     target.reset();
     return true;
   }

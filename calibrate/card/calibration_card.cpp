@@ -130,7 +130,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
              const EvaluationCounts& counts, const std::string& study_file) {
   const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
   const auto& shown = fresh ? calibration.confirmation : calibration.best;
-  const auto values = values_at(study, shown.point);
+  const auto values = values_at(study, coordinates(shown.point));
 
   Card card;
   card.title = study.title;

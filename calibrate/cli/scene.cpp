@@ -168,7 +168,7 @@ std::optional<FoundScene> study_scene(const Settings& settings, const std::strin
     test = changed.value().test;
     specimen_of(test).contact = contact;
   }
-  const UnitPoint middle = UnitPoint::Constant(free_count(study.value()), 0.5);
+  const std::vector<double> middle(static_cast<std::size_t>(free_count(study.value())), 0.5);
   return FoundScene{with_parameters(test, values_at(study.value(), middle), settings, faults), of_study.lab.note};
 }
 

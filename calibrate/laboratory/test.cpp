@@ -11,6 +11,12 @@ namespace {
 
 using nlohmann::json;
 
+template <class... Kinds>
+constexpr bool are_laboratory_tests(const std::variant<Kinds...>*) {
+  return (LaboratoryTest<Kinds> && ...);
+}
+static_assert(are_laboratory_tests(static_cast<const Test*>(nullptr)), "a kind of test lacks something");
+
 /// Calls `look(Kind{})` for every kind until one returns true.
 template <class Look>
 void each_kind(const Look& look) {

@@ -57,14 +57,6 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { doubts_about(given, measurements) } -> std::same_as<Doubts>;
 };
 
-namespace detail {
-template <class... Kinds>
-constexpr bool are_laboratory_tests(const std::variant<Kinds...>*) {
-  return (LaboratoryTest<Kinds> && ...);
-}
-}  // namespace detail
-static_assert(detail::are_laboratory_tests(static_cast<const Test*>(nullptr)), "a kind of test lacks something");
-
 Specimen& specimen_of(Test& test);
 const Specimen& specimen_of(const Test& test);
 

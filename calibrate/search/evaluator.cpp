@@ -106,7 +106,7 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
   for (const auto& point : points) {
     if (point.size() != parameters() || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1)
       throw std::logic_error("a candidate must lie in the unit cube over the free parameters");
-    const auto values = values_at(study_, point);
+    const auto values = values_at(study_, coordinates(point));
     for (const auto seed : packings) {
       for (const auto test : tests) {
         auto key = key_of(study_, test, values, seed, store_.identity().program);

@@ -14,6 +14,10 @@ namespace pastefit {
 /// A point of the unit cube over the study's free parameters.
 using UnitPoint = Eigen::VectorXd;
 
+inline std::span<const double> coordinates(const UnitPoint& point) {
+  return {point.data(), static_cast<std::size_t>(point.size())};
+}
+
 /// One finished simulation of a candidate on one packing.
 struct Evaluation {
   UnitPoint point;

@@ -139,7 +139,7 @@ std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, 
   std::unordered_set<std::string> known;
   for (const StoredEvaluation& evaluation : record) known.insert(evaluation.key);
   for (const Response& response : history) {
-    const std::vector<double> values = values_at(study, response.point);
+    const std::vector<double> values = values_at(study, coordinates(response.point));
     for (const Evaluation& one : response.evaluations) {
       auto found = find_in(study, tests, store, values, one.packing, std::numeric_limits<int>::max(), one.ended_early);
       if (!found || !known.insert(found->key).second) continue;

@@ -1,5 +1,6 @@
 #include "calibrate/study/lab.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "calibrate/base/content_hash.h"

@@ -81,10 +81,10 @@ UnitPrior unit_prior(const Parameter& parameter) {
   return {unit_of(parameter, prior.value), deviation};
 }
 
-std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point) {
-  assert(unit_point.size() == free_count(study));
+std::vector<double> values_at(const Study& study, std::span<const double> unit_point) {
+  assert(std::ssize(unit_point) == free_count(study));
   std::vector<double> values;
-  Eigen::Index coordinate = 0;
+  std::size_t coordinate = 0;
   for (const Parameter& parameter : study.parameters)
     values.push_back(parameter.free ? value_between(parameter, unit_point[coordinate++]) : parameter.value);
   return values;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <string>
@@ -60,7 +59,7 @@ struct UnitPrior {
 UnitPrior unit_prior(const Parameter& parameter);
 
 /// Values of all parameters at a point of the unit cube over the free ones. Shapes: free_count -> parameters.size().
-std::vector<double> values_at(const Study& study, const Eigen::VectorXd& unit_point);
+std::vector<double> values_at(const Study& study, std::span<const double> unit_point);
 
 /// The usual value of every parameter, in their fixed order.
 std::vector<double> usual_values();

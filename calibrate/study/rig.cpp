@@ -1,6 +1,7 @@
 #include "calibrate/study/rig.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 

@@ -1,6 +1,7 @@
 #include "calibrate/study/study.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "calibrate/base/content_hash.h"
@@ -131,23 +132,18 @@ void choose(const ContactModel& laws, Test& test) {
 
 /// The point of the bounds' cube where everything free is at its upper bound, but the stiffness at its lower one: the
 /// grains that are pressed into each other most.
-Eigen::VectorXd most_squeezed(const Study& study) {
-  Eigen::VectorXd point = Eigen::VectorXd::Ones(free_count(study));
-  Eigen::Index coordinate = 0;
-  for (const Parameter& parameter : study.parameters) {
-    if (!parameter.free) continue;
-    if (parameter.name == "youngs_modulus_pa") point[coordinate] = 0;
-    ++coordinate;
-  }
+std::vector<double> most_squeezed(const Study& study) {
+  std::vector<double> point;
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free) point.push_back(parameter.name == "youngs_modulus_pa" ? 0 : 1);
   return point;
 }
 
 /// The study's test at the centre and at corners of its bounds: every point must be fit to run.
 Faults validate_points(const Study& study) {
-  const Eigen::Index free = free_count(study);
-  using Point = Eigen::VectorXd;
-  for (const Point& point :
-       {Point(Point::Constant(free, 0.5)), Point(Point::Zero(free)), Point(Point::Ones(free)), most_squeezed(study)}) {
+  const auto free = static_cast<std::size_t>(free_count(study));
+  using Point = std::vector<double>;
+  for (const Point& point : {Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study)}) {
     const std::vector<double> values = values_at(study, point);
     for (const StudyTest& test : study.tests)
       if (Faults faults = validate_in_file_words(test_with(test.lab.test, values, 1)); !faults.empty()) return faults;

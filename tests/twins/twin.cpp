@@ -54,7 +54,7 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   twin.number = number;
   twin.study = study;
   twin.truth = screening_points(free_count(study), number + 1, recipe.seed).back();
-  const std::vector<double> values = values_at(study, twin.truth);
+  const std::vector<double> values = values_at(study, coordinates(twin.truth));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (study.parameters[i].free) twin.values.push_back(values[i]);
 

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "calibrate/base/json_reader.h"
 #include "tests/calibrate/files.h"

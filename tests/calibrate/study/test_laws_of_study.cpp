@@ -24,7 +24,7 @@ TEST_CASE("contact choices of the study reach the test") {
   const Result<Study> read = Desk().read(document);
   REQUIRE(read.ok());
   const Test of_study =
-      test_with(read.value().tests[0].lab.test, values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
+      test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
   const Specimen& test = specimen_of(of_study);
   CHECK(test.contact.bridge.formation == BridgeFormation::touch);
   CHECK(test.contact.rolling == RollingModel::none);
@@ -55,7 +55,7 @@ TEST_CASE("every law reaches the tests of a study, with its parameters and witho
       INFO((read.ok() ? "" : message_of(read.faults())));
       REQUIRE(read.ok());
       const Test test =
-          test_with(read.value().tests[0].lab.test, values_at(read.value(), Eigen::VectorXd::Constant(1, 0.5)), 3);
+          test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
       const auto& [grains, contact] = std::pair(specimen_of(test).grains, specimen_of(test).contact);
       const double radius = grains.radius_m;
       CHECK(contact.normal == normal.value);

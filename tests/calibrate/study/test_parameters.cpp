@@ -31,7 +31,7 @@ TEST_CASE("every point of the unit cube is an admissible bridge that is fit to r
     Test own = with_usual_contact(SlumpTest{});
     specimen_of(own).contact.bridge.formation = formation;
     std::ranges::find(study.parameters, "youngs_modulus_pa", &Parameter::name)->value = 1e9;  // carries the strongest
-    Eigen::VectorXd point(5);
+    std::vector<double> point(5);
     for (int corner = 0; corner < 243; ++corner) {
       for (int axis = 0, rest = corner; axis < 5; ++axis, rest /= 3) point[axis] = std::array{0.0, 0.37, 1.0}[rest % 3];
       const Test test = test_with(own, values_at(study, point), 1);
@@ -105,7 +105,7 @@ TEST_CASE("the unit interval spans the bounds exactly, in equal steps or equal r
   Study study = bridge_study();
   study.parameters[0].lower = 200;
   study.parameters[0].upper = 60000;
-  const auto at = [&](double unit) { return values_at(study, Eigen::VectorXd::Constant(5, unit)); };
+  const auto at = [&](double unit) { return values_at(study, std::vector<double>(5, unit)); };
   CHECK(at(0)[0] == 200);
   CHECK(at(1)[0] == 60000);
   CHECK(at(0.5)[0] == Approx(std::sqrt(200.0 * 60000.0)));
