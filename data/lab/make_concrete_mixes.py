@@ -87,12 +87,13 @@ def study_file(row, kind):
             "curvature": {"free": [-0.5, 1]},
             "rupture_gap_ratio": {"free": [0.15, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
             "formation_ratio": {"free": [0, 1]},
-            "friction": {"free": [0.05, 0.8]} if both else {"value": 0.15},
+            "friction": {"free": [0.01, 0.8], "scale": "log"} if both else {"value": 0.15},
             "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
         },
         "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both), "step1.lateral_shift_mm": int(both)},
     }
     if both:
+        study["parameters"]["table_friction"] = {"free": [0.1, 1]}  # the source names no table
         study["tolerances"] = {
             "step1.height_mm": HEIGHT_DEVIATION_MM,
             "step1.spread_mm": SPREAD_DEVIATION_MM,
@@ -105,7 +106,9 @@ def study_file(row, kind):
         "packings": 2,
         "confirmation_packings": 8,
     }
-    if not both:
+    if both:
+        study["search"]["coarse_first"] = True
+    else:
         study["search"]["tolerance_mm"] = 5
     study["search"]["seed"] = 1
     return study
