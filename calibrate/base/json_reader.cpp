@@ -223,7 +223,8 @@ bool ObjectReader::check_number(std::string_view place, const json& value, const
   return good;
 }
 
-std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<const std::string_view> words, Need need) {
+std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<const std::string_view> words,
+                                              Need need) {
   const json* value = find(key, need);
   if (!value) return std::nullopt;
   const std::string* text = value->get_ptr<const std::string*>();

@@ -230,8 +230,8 @@ TEST_CASE("what LAMMPS's JKR has otherwise is said with numbers") {
   const auto written = export_lammps_tables(scene(material));
   REQUIRE(written.ok());
   // 3 pi gamma R* with gamma 8 J/m^2 and R* 4 mm
-  CHECK_THAT(text_of(written.value()), Catch::Contains("(0.302 N), at 0.481 of the gap") &&
-                                           Catch::Contains("Two grains that only stick hold"));
+  CHECK_THAT(text_of(written.value()),
+             Catch::Contains("(0.302 N), at 0.481 of the gap") && Catch::Contains("Two grains that only stick hold"));
 }
 
 TEST_CASE("an attraction of every law is written by every exporter, and its curve is the card's") {

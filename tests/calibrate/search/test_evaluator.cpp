@@ -46,7 +46,8 @@ TEST_CASE("the mould is filled once for each packing and way to fill it, however
   (void)objective.evaluate(points, kPackings);
   std::set<std::string> ways;
   for (const UnitPoint& point : points)
-    ways.insert(preparation_key(test_with(laboratory.study.tests[0].lab.test, values_at(laboratory.study, coordinates(point)), 1)));
+    ways.insert(preparation_key(
+        test_with(laboratory.study.tests[0].lab.test, values_at(laboratory.study, coordinates(point)), 1)));
   CHECK(laboratory.runs == 16);
   CHECK(laboratory.fills == 2 * static_cast<int>(ways.size()));
   CHECK(ways.size() < points.size());

@@ -23,8 +23,7 @@ TEST_CASE("contact choices of the study reach the test") {
   document["contact"] = {{"formation", "touch"}, {"rolling_model", "none"}, {"friction_basis", "total"}};
   const Result<Study> read = Desk().read(document);
   REQUIRE(read.ok());
-  const Test of_study =
-      test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
+  const Test of_study = test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
   const Specimen& test = specimen_of(of_study);
   CHECK(test.contact.bridge.formation == BridgeFormation::touch);
   CHECK(test.contact.rolling == RollingModel::none);
@@ -54,8 +53,7 @@ TEST_CASE("every law reaches the tests of a study, with its parameters and witho
       const Result<Study> read = Desk().read(document);
       INFO((read.ok() ? "" : message_of(read.faults())));
       REQUIRE(read.ok());
-      const Test test =
-          test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
+      const Test test = test_with(read.value().tests[0].lab.test, values_at(read.value(), std::vector{0.5}), 3);
       const auto& [grains, contact] = std::pair(specimen_of(test).grains, specimen_of(test).contact);
       const double radius = grains.radius_m;
       CHECK(contact.normal == normal.value);
@@ -82,7 +80,8 @@ TEST_CASE("parameters of laws that a study did not choose are refused, all at on
   CHECK(says(at(faults, "parameters.rolling_friction"), "rolling_model \"spring_dashpot\""));
   document = Desk::study();
   document["parameters"]["adhesion_pa"] = {{"value", 1000}};
-  CHECK(says(at(Desk().faults(document), "parameters.adhesion_pa"), "belongs to normal \"jkr\", \"dmt\"; chosen is normal"));
+  CHECK(says(at(Desk().faults(document), "parameters.adhesion_pa"),
+             "belongs to normal \"jkr\", \"dmt\"; chosen is normal"));
   document["contact"] = {{"attraction", "cubic"}, {"normal", "hertzian"}};
   CHECK(says(at(Desk().faults(document), "contact.attraction"), "exponential"));
   CHECK(says(at(Desk().faults(document), "contact.normal"), "did you mean \"hertz\"?"));
