@@ -18,12 +18,13 @@ std::string reason_for(bool confirmed, std::size_t packings) {
                    : "the best that was found; it is not confirmed";
 }
 
-Inference examine(const Study& study, Objective& objective, const Store& store, const Calibration& calibration,
-                  int simulations, std::uint64_t seed) {
+std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
+                                 const Calibration& calibration, int simulations, std::uint64_t seed) {
   std::vector<Response> history = calibration.history;
   InferenceOptions options;
   options.seed = seed;
   const auto evidence = [&] { return evidence_of(study, record_of(study, store, history)); };
+  if (evidence().points.empty()) return std::nullopt;
   for (int round = 0; round < rounds; ++round) {
     const int count = std::min(simulations / rounds, objective.budget_left());
     if (count < 1 || objective.stop_requested()) break;

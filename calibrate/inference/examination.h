@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "calibrate/inference/inference.h"
@@ -16,8 +17,9 @@ std::string reason_for(bool confirmed, std::size_t packings);
 /// along the whole family, and whether its members hold.
 /// Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
 /// Requirements: the calibration's best candidate did not fail; `objective` stores in `store`.
-/// The answer depends on what was asked only: a resumed calibration infers the same.
-Inference examine(const Study& study, Objective& objective, const Store& store, const Calibration& calibration,
-                  int simulations, std::uint64_t seed);
+/// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation in
+/// the store has run to its end.
+std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
+                                 const Calibration& calibration, int simulations, std::uint64_t seed);
 
 }  // namespace pastefit

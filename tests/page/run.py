@@ -104,7 +104,11 @@ def interrupted(program, study, place):
     """Begins a calibration, keeps its page of the way as place/live.html, and ends it as Ctrl-C does."""
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
-    made = subprocess.Popen([program, "calibrate", study, "--out", place / "out", "--budget", "1000"],
+    content = json.loads(study.read_text())
+    content["lab"] = str(study.parent / content["lab"])
+    content["search"]["tolerance_mm"] = 0.001  # never confirmed before it is interrupted
+    (place / "study.json").write_text(json.dumps(content))
+    made = subprocess.Popen([program, "calibrate", place / "study.json", "--out", place / "out", "--budget", "1000"],
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     page, deadline = place / "out/report.html", time.monotonic() + 60
     while not page.exists() and made.poll() is None and time.monotonic() < deadline:

@@ -69,12 +69,13 @@ int main(int argc, char** argv) {
   const auto known = store.value().size();
   const Calibration calibration = search(objective, study.search);
   if (calibration.best.point.size() == 0) return 1;
-  const Inference inference =
+  const std::optional<Inference> inference =
       examine(study, objective, store.value(), calibration, study.search.examination_simulations, study.search.seed);
   if (const Faults faults = objective.store_faults(); !faults.empty()) return fail(faults);
   Card card = card_of(study, calibration, study.search, store.value(), objective.counts(), "study.json");
-  card.inference = card_inference(inference);
-  const Faults faults = write_atomically(folder + "/card.json", to_json(card).dump(2) + words_of(inference));
+  if (inference) card.inference = card_inference(*inference);
+  const Faults faults =
+      write_atomically(folder + "/card.json", to_json(card).dump(2) + (inference ? words_of(*inference) : ""));
   if (!faults.empty()) return fail(faults);
   std::printf("known %zu simulated %d\n", known, objective.counts().simulated);
   return 0;

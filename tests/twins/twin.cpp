@@ -107,7 +107,8 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   result.status = name_of(calibration.status);
   if (!is_feasible(calibration.best)) return result;
   const Inference inference = examine(twin.study, objective, store.value(), calibration,
-                                      search_options.examination_simulations, search_options.seed);
+                                      search_options.examination_simulations, search_options.seed)
+                                  .value();
   const EvaluationCounts counts = objective.counts();
   result.simulations = counts.simulated + counts.answered;
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -76,7 +76,8 @@ TEST_CASE("restitution and friction of the drop twin are found, confirmed, and l
   CHECK(card.tests[0].lab.twin);
   CHECK(card.material.grain_density_kg_m3 == 2500);
   const Inference inference = examine(twin.study, twin.objective, twin.store, twin.calibration,
-                                      twin.study.search.examination_simulations, twin.study.search.seed);
+                                      twin.study.search.examination_simulations, twin.study.search.seed)
+                                  .value();
   for (const ParameterInterval& one : inference.intervals) {
     const double truth = one.name == "restitution" ? 0.9 : 0.08;
     INFO(one.name << " between " << one.lower << " and " << one.upper);

@@ -73,7 +73,7 @@ TEST_CASE("the shipped studies are read: height and spread to fit where a heap c
     CHECK(study.value().tests[0].targets[1].weight == (both ? 1 : 0));
     CHECK(study.value().tests[0].targets[2].observable == "step1.spread_mm");
     CHECK(study.value().tests[0].targets[2].weight == (both ? 1 : 0));
-    CHECK(free_count(study.value()) == (both ? 7 : 5));
+    CHECK(free_count(study.value()) == (both ? 8 : 5));
     CHECK(study.value().tests[0].lab.provenance.licence == "CC BY 4.0");
   }
   CHECK(studies == 9);
