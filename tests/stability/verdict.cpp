@@ -92,9 +92,10 @@ std::string contradiction_in(const Observables& readings, const SlumpTest& test)
     const auto value = kind.name == kind.measure ? readings.find(kind.name) : std::nullopt;
     if (!value) continue;
     const auto [possible, highest] = kind.possible;
-    // Coarse grains do not fill the rim of the mould: a heap may be narrower than its base by a radius.
+    // Coarse grains do not fill the rim of the mould: a gap of less than a diameter on each side takes no further
+    // grain.
     const bool is_width = kind.name.find("spread") != std::string_view::npos;
-    const double lowest = possible - (is_width ? 1e3 * test.grains.largest_m : 0);
+    const double lowest = possible - (is_width ? 4e3 * test.grains.largest_m : 0);
     if (*value < lowest - kRounding || *value > highest + kRounding)
       return std::string(kind.name) + " = " + number(*value) + " is not between " + number(lowest) + " and " +
              number(highest);
