@@ -20,11 +20,12 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
   if (packings.size() > shown.size())
     findings.missing.push_back("The drawings show " + std::to_string(shown.size()) + " of the " +
                                std::to_string(packings.size()) + " packings that the readings are means over.");
-  auto kept = read_views(folder / kViewsFile, card, shown);
+  const auto kept = read_views(folder / kViewsFile, card, shown);
+  const Fault why = kept.ok() ? Fault{} : kept.faults().front();  // not read
   if (kept.ok()) {
-    findings.views = std::move(kept).value();
+    findings.views = kept.value();
   } else {
-    if (const Fault& why = kept.faults().front(); options.simulate && !options.seen)
+    if (options.simulate && !options.seen)
       note("pastefit: %s %s: the tests are simulated anew\n", why.where.c_str(), why.what.c_str());
     const auto goes_on = [&] { return options.simulate && !stop; };
     for (const CardTest& test : card.tests)
@@ -37,7 +38,6 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
       findings.missing.push_back(heading_of(card.tests[i]) + "a run that should be shown failed, " + failure);
   }
   if (lacking > 0) {
-    const Fault& why = kept.faults().front();
     findings.missing.push_back("Film and heaps of " + std::to_string(lacking) + " of " +
                                std::to_string(shown.size() * card.tests.size()) + " runs are not shown: " + why.where +
                                " " + why.what + ", and they were not simulated anew" +

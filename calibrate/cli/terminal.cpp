@@ -41,7 +41,8 @@ std::string fitted(const std::vector<std::string>& parts) {
 }
 
 std::string range_of_time(double least_s, double most_s) {
-  const std::string least = time_in_words(least_s), most = time_in_words(most_s);
+  std::string least = time_in_words(least_s);
+  const std::string most = time_in_words(most_s);
   if (least == most) return least;
   const auto unit = [](const std::string& words) { return words.substr(words.find(' ')); };
   return (unit(least) == unit(most) ? least.substr(0, least.find(' ')) : least) + " to " + most;

@@ -26,12 +26,13 @@ std::shared_future<void> WorkerPool::submit(std::function<void()> work) {
         // Those that the system let us have do the work; if there is none, whoever hands it in.
       }
     }
-    if (!workers_.empty()) waiting_.push_back(std::move(task));
+    if (!workers_.empty()) {
+      waiting_.push_back(std::move(task));
+      changed_.notify_one();
+      return done;
+    }
   }
-  if (task.valid())
-    task();
-  else
-    changed_.notify_one();
+  task();
   return done;
 }
 
