@@ -26,12 +26,11 @@ struct PairConstants {
   double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
   double spin_damping = 0;     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
   double size_per_radius = 0;  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  double adhesion =
-      0;  ///< of a law of the overlap that `adheres`. JKR: pi gamma, DMT: 4 pi gamma [J/m^2]; SJKR: 2 pi k [Pa]
-  double tear_patch = 0;     ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  double tear_gap = 0;       ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  double cohesion = 0;       ///< constant attraction in overlap [N]
-  double bridge_a = 0;       ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  double adhesion = 0;         ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
+  double tear_patch = 0;       ///< JKR: contact radius of reference grains at which they are torn apart [m]
+  double tear_gap = 0;         ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
+  double cohesion = 0;         ///< constant attraction in overlap [N]
+  double bridge_a = 0;         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
   double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
   double bridge_c = 0;       ///< attraction at touch [N]
   double rupture_gap = 0;    ///< -d_c [m]

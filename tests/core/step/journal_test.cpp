@@ -13,11 +13,7 @@ namespace pastefit {
 namespace {
 
 PelletCrush pellet() {
-  PelletCrush test;
-  make_soft_granules(test, 1.0);
-  test.die_diameter_m = 0.006;
-  test.fill_height_m = 0.0075;
-  test.pressed_height_m = 0.006;
+  PelletCrush test = small_pellet(1.0);
   test.press_speedup = 500;
   test.platen_speed_m_s = 0.4;
   test.final_strain = 0.05;
@@ -25,13 +21,7 @@ PelletCrush pellet() {
 }
 
 ShearCell cell() {
-  ShearCell test;
-  make_soft_granules(test, 0.5);
-  test.length_m = 0.006;
-  test.width_m = 0.006;
-  test.fill_height_m = 0.0065;
-  test.lid_ribs = {0.0006, 0.0003, 0.003};
-  test.base_ribs = {0.0006, 0.0003, 0.002};
+  ShearCell test = small_cell(0.5);
   test.shear_speedup = 1000;
   test.final_displacement_m = 0.002;
   return test;

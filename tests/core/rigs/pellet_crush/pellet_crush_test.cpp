@@ -12,16 +12,6 @@
 namespace pastefit {
 namespace {
 
-/// Some two hundred soft granules in a die of six across.
-PelletCrush small(double surface_energy_j_m2) {
-  PelletCrush test;
-  make_soft_granules(test, surface_energy_j_m2);
-  test.die_diameter_m = 0.006;
-  test.fill_height_m = 0.0075;
-  test.pressed_height_m = 0.006;
-  return test;
-}
-
 double reading_of(const Outcome& outcome, const char* name) {
   return outcome.observables.find(name).value();
 }
@@ -43,7 +33,7 @@ std::string faults_at(const PelletCrush& test, const std::string& place) {
 }
 
 TEST_CASE("what platen and floor push a pellet with is its weight and its change of momentum") {
-  const PelletCrush test = small(1.0);
+  const PelletCrush test = small_pellet(1.0);
   struct Seen {
     double time_s, momentum, weight, push_n, platen_n;
   };
@@ -86,7 +76,7 @@ TEST_CASE("what platen and floor push a pellet with is its weight and its change
 }
 
 TEST_CASE("granules that do not stick make no pellet, and that is what the failure says") {
-  const Outcome outcome = simulate(small(0));
+  const Outcome outcome = simulate(small_pellet(0));
   REQUIRE(outcome.failure);
   CHECK(outcome.failure->reason == FailureReason::fell_apart);
   CHECK(outcome.failure->phase == "release");
@@ -95,7 +85,7 @@ TEST_CASE("granules that do not stick make no pellet, and that is what the failu
 }
 
 TEST_CASE("a pellet that the punch takes along is no pellet") {
-  PelletCrush test = small(2.0);
+  PelletCrush test = small_pellet(2.0);
   test.tools.cohesion_factor = 3;
   const Outcome outcome = simulate(test);
   REQUIRE(outcome.failure);
@@ -105,7 +95,7 @@ TEST_CASE("a pellet that the punch takes along is no pellet") {
 }
 
 TEST_CASE("a pellet is the stronger the more its granules stick, and springs back when the punch is withdrawn") {
-  const PelletCrush weak = small(0.5), strong = small(2.0);
+  const PelletCrush weak = small_pellet(0.5), strong = small_pellet(2.0);
   const Outcome of_weak = done(weak), of_strong = done(strong);
   const double ratio = reading_of(of_strong, "pellet.dynamic_yield_strength_pa") /
                        reading_of(of_weak, "pellet.dynamic_yield_strength_pa");
@@ -120,7 +110,7 @@ TEST_CASE("a pellet is the stronger the more its granules stick, and springs bac
 }
 
 TEST_CASE("the bits of a pellet crush do not depend on the number of threads, but on the packing") {
-  PelletCrush test = small(1.0);
+  PelletCrush test = small_pellet(1.0);
   const Outcome one = done(test);
   for (const int threads : {2, 3}) {
     RunOptions options;
@@ -135,23 +125,23 @@ TEST_CASE("the bits of a pellet crush do not depend on the number of threads, bu
 }
 
 TEST_CASE("a pellet crush that says nothing is refused, with the place and what would be right") {
-  PelletCrush test = small(1.0);
+  PelletCrush test = small_pellet(1.0);
   test.grains.radius_m = 0.0006;
   CHECK_THAT(faults_at(test, "grains.radius_m"), Catch::Contains("one of a few granules"));
-  test = small(1.0);
+  test = small_pellet(1.0);
   test.press_speedup = 1e4;
   CHECK_THAT(faults_at(test, "press_speedup"), Catch::Contains("but sound in a bed of these granules"));
   CHECK_THAT(faults_at(test, "platen_speed_m_s"), Catch::Equals(""));
-  test = small(1.0);
+  test = small_pellet(1.0);
   test.pressed_height_m = 0.008;
   CHECK_THAT(faults_at(test, "pressed_height_m"), Catch::Contains("above the fill height"));
-  test = small(1.0);
+  test = small_pellet(1.0);
   test.grains = {SizeDistribution::normal, 0.0005, 0.0004, 0.0005, 0.000501};
   CHECK_THAT(faults_at(test, "grains.standard_deviation_m"), Catch::Contains("between smallest and largest"));
 }
 
 TEST_CASE("sound runs through a row of granules as its springs and masses let it") {
-  const PelletCrush test = small(1.0);
+  const PelletCrush test = small_pellet(1.0);
   // A chain of masses m and springs k at a distance 2R: 2R sqrt(k/m), k = d(4/3 E* sqrt(R*) d^1.5)/dd at d = 0.02 R.
   const double e_star = 2.4e6 / (2 * (1 - 0.2 * 0.2)), radius = 0.0005;
   const double spring = 2 * e_star * std::sqrt(0.5 * radius * 0.02 * radius);

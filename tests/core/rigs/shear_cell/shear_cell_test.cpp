@@ -10,20 +10,6 @@
 namespace pastefit {
 namespace {
 
-/// Some two hundred soft granules in a cell of six across.
-ShearCell small_cell(double surface_energy_j_m2) {
-  ShearCell test;
-  make_soft_granules(test, surface_energy_j_m2);
-  test.length_m = 0.006;
-  test.width_m = 0.006;
-  test.fill_height_m = 0.0065;
-  test.lid_ribs = {0.0006, 0.0003, 0.003};
-  test.base_ribs = {0.0006, 0.0003, 0.002};
-  test.shear_speedup = 500;
-  test.final_displacement_m = 0.004;
-  return test;
-}
-
 double value_of(const Outcome& outcome, const char* name) {
   return outcome.observables.find(name).value();
 }
