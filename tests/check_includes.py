@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Reads the #include lines of core and calibrate: folders include each other in one direction only, core nothing of
-calibrate, no two headers have one file name, and no two types of one name are declared.
+"""Reads core and calibrate: folders include each other in one direction only, core nothing of calibrate, no two headers
+have one file name, no two types of one name are declared, files include what they name, and what a file keeps to itself
+has a name of its own.
 
 usage: check_includes.py SOURCE_DIR
 """
@@ -70,6 +71,98 @@ def circle_in(graph):
     return None
 
 
+# What stands at the left edge of a namespace: functions, types, constants and aliases.
+DECLARED = [re.compile(pattern, re.M) for pattern in (
+    r"^(?!return\b|namespace\b|using\b|struct\b|class\b|enum\b)[A-Za-z_][\w:<>,&*\s\[\]]*?[\s&*](\w+)\(",
+    r"^(?:struct|class|enum class|enum) (\w+)(?!\w*;)",
+    r"^(?:constexpr|const|static|thread_local|inline)\b[\w:<>,&*\s]*?\b(\w+)(?:\[\w*\])?\s*[={]",
+    r"^using (\w+) =")]
+
+
+def declared(text):
+    return {found.group(1) for pattern in DECLARED for found in pattern.finditer(text)}
+
+
+def without_texts(code):
+    return re.sub(r'R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"', '""', code, flags=re.S)
+
+
+def without_comments(code):
+    return re.sub(r"//[^\n]*", "", without_texts(code))
+
+
+def kept_to_itself(text):
+    """Names that a source declares in its namespaces without a name."""
+    return {name for part in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", without_texts(text), re.S | re.M)
+            for name in declared(part)}
+
+
+def names_twice(sources, headers):
+    """Places of names that a source keeps to itself and another one of its folder has too, or a header has.
+    Both arguments: {path: text}."""
+    known, found = collections.defaultdict(list), []
+    for header, text in headers.items():
+        for name in declared(text):
+            known[name].append(header)
+    owners = collections.defaultdict(list)
+    for source, text in sources.items():
+        for name in kept_to_itself(text):
+            owners[source.parent, name].append(source)
+    for (_, name), places in sorted(owners.items()):
+        places = places + known[name]
+        if len(places) > 1:
+            found.append(f"{name}: " + ", ".join(map(str, places)))
+    return found
+
+
+# The header that declares it, for names that are used often and easily come along with another header.
+STANDARD = {
+    "algorithm": "sort stable_sort max min clamp find find_if any_of all_of none_of count_if transform copy_if remove_if "
+                 "minmax_element max_element min_element lower_bound upper_bound nth_element ranges::sort ranges::find",
+    "array": "array", "atomic": "atomic", "bit": "bit_cast", "charconv": "from_chars to_chars",
+    "chrono": "chrono", "cmath": "sqrt sin cos tan exp log log10 pow hypot isfinite isnan abs floor ceil round cbrt",
+    "cstdint": "int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque", "filesystem": "filesystem",
+    "fstream": "ifstream ofstream", "functional": "function", "future": "future async", "limits": "numeric_limits",
+    "map": "map multimap", "memory": "unique_ptr shared_ptr make_unique make_shared",
+    "mutex": "mutex lock_guard unique_lock scoped_lock", "numbers": "numbers", "numeric": "accumulate iota",
+    "optional": "optional nullopt", "random": "mt19937_64", "set": "set multiset", "span": "span",
+    "sstream": "ostringstream istringstream", "string": "string to_string", "string_view": "string_view",
+    "thread": "thread", "tuple": "tuple tie", "variant": "variant get_if visit", "vector": "vector",
+}
+HEADER_OF = {name: header for header, names in STANDARD.items() for name in names.split()}
+
+
+def included(file, texts):
+    """What a file includes, and what that includes: project headers and standard headers."""
+    found, waiting = set(), [file]
+    while waiting:
+        for header in re.findall(r'^#include [<"]([^>"]+)[>"]', texts.get(waiting.pop(), ""), re.M):
+            if header not in found:
+                found.add(header)
+                waiting.append(header)
+    return found
+
+
+def missing_includes(texts):
+    """What files use and do not come to include: {path: text} of all sources and headers."""
+    homes = collections.defaultdict(set)
+    for file, text in texts.items():
+        if file.endswith(".h"):
+            for name in re.findall(r"^(?:enum class|enum|class|struct) (\w+)[^;(]*\{", text, re.M):
+                homes[name].add(file)
+    missing = []
+    for file, text in texts.items():
+        code, reached = without_comments(text), included(file, texts) | {file}
+        own = set(re.findall(r"\b(?:enum class|class|struct|typename|concept|using|enum) (\w+)", " ".join(
+            without_comments(texts.get(header, "")) for header in reached)))
+        missing += {f"{file}: <{HEADER_OF[name]}> for std::{name}"
+                    for name in re.findall(r"\bstd::((?:ranges::)?\w+)", code)
+                    if name in HEADER_OF and HEADER_OF[name] not in reached}
+        missing += {f"{file}: {min(homes[name])} for {name}" for name in set(re.findall(r"\b[A-Z]\w+\b", code))
+                    if homes[name] and name not in own}
+    return sorted(missing)
+
+
 def graph_of(pairs):
     graph = collections.defaultdict(set)
     for one, other in pairs:
@@ -79,6 +172,8 @@ def graph_of(pairs):
 
 
 class Includes(unittest.TestCase):
+    maxDiff = None
+
     def test_a_circle_is_seen(self):
         self.assertEqual(circle_in(graph_of([("a", "b"), ("b", "c"), ("c", "a")])), ["a", "b", "c", "a"])
         self.assertIsNone(circle_in(graph_of([("a", "b"), ("b", "c"), ("a", "c")])))
@@ -103,6 +198,32 @@ class Includes(unittest.TestCase):
         places = [place for (one, other), found in arrows().items() if one.startswith("core")
                   and other.startswith("calibrate") for place in found]
         self.assertEqual(places, [])
+
+    def test_a_name_twice_is_seen(self):
+        path = pathlib.PurePath
+        own = "namespace {\ndouble half(double x) {\n  return x / 2;\n}\n}  // namespace\n"
+        self.assertEqual(names_twice({path("a/one.cpp"): own, path("b/two.cpp"): own}, {}), [])
+        self.assertEqual(names_twice({path("a/one.cpp"): own, path("a/two.cpp"): own}, {}),
+                         ["half: a/one.cpp, a/two.cpp"])
+        self.assertEqual(names_twice({path("a/one.cpp"): own}, {path("c.h"): "int half(int x);\n"}),
+                         ["half: a/one.cpp, c.h"])
+
+    def test_a_missing_include_is_seen(self):
+        use = "std::vector<Grain> x;\n"
+        self.assertEqual(missing_includes({"a.cpp": use, "b.h": "struct Grain {\n"}),
+                         ["a.cpp: <vector> for std::vector", "a.cpp: b.h for Grain"])
+        self.assertEqual(missing_includes({"a.cpp": '#include "c.h"\n' + use, "b.h": "struct Grain {\n",
+                                           "c.h": '#include "b.h"\n#include <vector>\n'}), [])
+
+    # The files of a folder are compiled as one (CMakeLists.txt): another file's name would be found, and the program would
+    # silently be another one.
+    def test_a_name_that_a_file_keeps_to_itself_is_nobody_elses(self):
+        texts = {file.relative_to(SOURCE): file.read_text() for file in FILES}
+        self.assertEqual(names_twice({file: text for file, text in texts.items() if file.suffix == ".cpp"},
+                                     {file: text for file, text in texts.items() if file.suffix == ".h"}), [])
+
+    def test_files_come_to_include_what_they_use(self):
+        self.assertEqual(missing_includes({str(file.relative_to(SOURCE)): file.read_text() for file in FILES}), [])
 
     def test_no_two_headers_have_one_name(self):
         headers = collections.defaultdict(list)

@@ -18,7 +18,7 @@ namespace {
 constexpr double kHoldOutAlarm = 0.05;  // probability that a right prediction is called wrong, all readings of a test
 
 /// Mean and standard deviation of a reading over the packings; nothing if some packing did not give it.
-std::optional<CardObservable> mean_of(const std::string& name, const std::vector<Observables>& runs) {
+std::optional<CardObservable> mean_over(const std::string& name, const std::vector<Observables>& runs) {
   std::vector<double> values;
   for (const auto& run : runs) {
     const auto value = run.find(name);
@@ -51,7 +51,7 @@ std::vector<CardObservable> observables_of(const Study& study, std::size_t index
   const StudyTest& test = study.tests[index];
   std::vector<CardObservable> out;
   for (const auto& reading : runs.at(0).all()) {
-    auto observable = mean_of(reading.name, runs);
+    auto observable = mean_over(reading.name, runs);
     if (!observable) continue;
     for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
       const auto& measurement = test.lab.measurements[i];

@@ -70,7 +70,7 @@ json object_in(const json& object, const char* key) {
 
 /// A test with a reader of its own, which knows its fields; whether it could be read. What it does not say is the
 /// material's, and so are the faults of that.
-bool read_test(json document, const json& material, const std::string& place, Test& target, Faults& faults) {
+bool read_card_test(json document, const json& material, const std::string& place, Test& target, Faults& faults) {
   std::set<std::string> taken;
   for (const std::string key : of_material)
     if (document.is_object() && !document.contains(key)) {
@@ -127,7 +127,7 @@ void read_card_test(ObjectReader& reader, const json& document, const json& mate
   reader.known("conditions");
   reader.known("test");
   const bool has_test =
-      read_test(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());
+      read_card_test(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());
   const Test* ranges = has_test ? &test.test : nullptr;
   read_observables(reader, document, ranges, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;
@@ -164,7 +164,7 @@ void read_parameters(ObjectReader& material, std::vector<Parameter>& parameters)
   });
 }
 
-void read_material(ObjectReader& reader, Material& material) {
+void read_card_material(ObjectReader& reader, Material& material) {
   describe_material(reader, material);
   reader.nullable_number("grain_density_kg_m3", material.grain_density_kg_m3, kNotNegative, kRequired);
   read_parameters(reader, material.parameters);
@@ -189,7 +189,7 @@ void read_search(ObjectReader& reader, SearchRecord& search) {
   });
 }
 
-void read_provenance(ObjectReader& reader, CardProvenance& provenance) {
+void read_card_provenance(ObjectReader& reader, CardProvenance& provenance) {
   reader.text("study_file", provenance.study_file, kRequired);
   reader.text("study_hash", provenance.study_hash, kRequired);
   reader.text("program", provenance.program, kRequired);
@@ -304,7 +304,7 @@ Result<Card> card_from_json(const json& document) {
     ObjectReader reader(rest, "", faults);
     reader.known("format");
     reader.text("title", card.title, kRequired);
-    reader.object("material", kRequired, [&](ObjectReader& material) { read_material(material, card.material); });
+    reader.object("material", kRequired, [&](ObjectReader& material) { read_card_material(material, card.material); });
     read_list(reader, rest, "tests", card.tests,
               [material = object_in(rest, "material")](ObjectReader& test, const json& entry, CardTest& target) {
                 read_card_test(test, entry, material, target);
@@ -318,7 +318,7 @@ Result<Card> card_from_json(const json& document) {
     });
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
     reader.object("provenance", kRequired,
-                  [&](ObjectReader& provenance) { read_provenance(provenance, card.provenance); });
+                  [&](ObjectReader& provenance) { read_card_provenance(provenance, card.provenance); });
     read_inference(reader, rest, card.inference);
     read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);

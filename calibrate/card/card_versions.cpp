@@ -59,7 +59,7 @@ void from_2(json& card) {
 }
 
 /// Moves a member to another object, if it is there.
-void move(json& from, const char* key, json& to, const char* as) {
+void carry(json& from, const char* key, json& to, const char* as) {
   const auto found = from.find(key);
   if (found == from.end()) return;
   to[as] = std::move(*found);
@@ -69,11 +69,11 @@ void move(json& from, const char* key, json& to, const char* as) {
 void from_3(json& card) {
   json material = json::object(), first = json::object();
   if (const auto given = card.find("material"); given != card.end() && given->is_object()) material = std::move(*given);
-  for (const char* key : {"parameters", "free"}) move(card, key, material, key);
-  move(card, "test_name", first, "name");
-  for (const char* key : {"test", "observables", "baseline"}) move(card, key, first, key);
+  for (const char* key : {"parameters", "free"}) carry(card, key, material, key);
+  carry(card, "test_name", first, "name");
+  for (const char* key : {"test", "observables", "baseline"}) carry(card, key, first, key);
   if (const auto provenance = card.find("provenance"); provenance != card.end() && provenance->is_object())
-    for (const char* key : {"lab_file", "lab_hash", "lab"}) move(*provenance, key, first, key);
+    for (const char* key : {"lab_file", "lab_hash", "lab"}) carry(*provenance, key, first, key);
 
   json tests = json::array({std::move(first)});
   if (const auto further = card.find("further_tests"); further != card.end() && further->is_array())
@@ -93,30 +93,30 @@ void from_3(json& card) {
 }
 
 /// The member as an object; nothing if there is none.
-json* object_in(json& from, const char* key) {
+json* part_of(json& from, const char* key) {
   const auto found = from.is_object() ? from.find(key) : from.end();
   return found != from.end() && found->is_object() ? &*found : nullptr;
 }
 
 /// The bridge ends where its shells meet at most: what an offset did beyond that.
 void bound_offset(json& holder, double reach, double radius_m) {
-  json* const contact = object_in(holder, "contact");
-  json* const bridge = contact ? object_in(*contact, "bridge") : nullptr;
+  json* const contact = part_of(holder, "contact");
+  json* const bridge = contact ? part_of(*contact, "bridge") : nullptr;
   if (!bridge || bridge->value("shape", json()) == "none" || !number_in(*bridge, "offset_m")) return;
   if (bridge->value("formation", json()) == "touch" || bridge->at("offset_m").get<double>() > 0.5 * reach * radius_m)
     (*bridge)["offset_m"] = 0.5 * reach * radius_m;
 }
 
 bool is_touch(json& material) {
-  json* const contact = object_in(material, "contact");
-  json* const bridge = contact ? object_in(*contact, "bridge") : nullptr;
+  json* const contact = part_of(material, "contact");
+  json* const bridge = contact ? part_of(*contact, "bridge") : nullptr;
   return bridge && bridge->value("formation", json()) == "touch";
 }
 
 void from_4(json& card) {
   constexpr auto before = "offset_ratio", now = "formation_ratio", gap_key = "rupture_gap_ratio";
-  json* const material = object_in(card, "material");
-  json* const parameters = material ? object_in(*material, "parameters") : nullptr;
+  json* const material = part_of(card, "material");
+  json* const parameters = material ? part_of(*material, "parameters") : nullptr;
   if (!parameters) return;
   const double offset = number_in(*parameters, before).value_or(0.15);
   double gap = number_in(*parameters, gap_key).value_or(0.3);
@@ -126,32 +126,32 @@ void from_4(json& card) {
   if (!is_touch(*material)) (*parameters)[now] = ratio(offset);
 
   const auto radius_of = [](json& holder) {
-    json* const grains = object_in(holder, "grains");
+    json* const grains = part_of(holder, "grains");
     return grains ? number_in(*grains, "radius_m") : std::nullopt;
   };
   const double radius_m = radius_of(*material).value_or(0);
   bound_offset(*material, gap, radius_m);
   if (const auto tests = card.find("tests"); tests != card.end() && tests->is_array())
     for (json& entry : *tests)
-      if (json* const test = object_in(entry, "test")) bound_offset(*test, gap, radius_of(*test).value_or(radius_m));
+      if (json* const test = part_of(entry, "test")) bound_offset(*test, gap, radius_of(*test).value_or(radius_m));
 
   const auto rename = [&](json* object) {
     if (!object || !object->contains(before)) return;
     if (!is_touch(*material)) (*object)[now] = std::move((*object)[before]);
     object->erase(before);
   };
-  json* const free = object_in(*material, "free");
-  json* const intervals = object_in(card, "intervals");
-  for (json* bounds : {free, intervals ? object_in(*intervals, "parameters") : nullptr}) {
+  json* const free = part_of(*material, "free");
+  json* const intervals = part_of(card, "intervals");
+  for (json* bounds : {free, intervals ? part_of(*intervals, "parameters") : nullptr}) {
     rename(bounds);
-    json* const own = bounds ? object_in(*bounds, now) : nullptr;
+    json* const own = bounds ? part_of(*bounds, now) : nullptr;
     for (const char* end : {"lower", "upper"})
       if (const auto bound = own ? number_in(*own, end) : std::nullopt) (*own)[end] = ratio(*bound);
     if (own) own->erase("prior");
     if (own && bounds == free && own->value("lower", json()) == own->value("upper", json())) (*own)["lower"] = 0;
   }
-  rename(object_in(card, "not_identified"));
-  if (json* const correlation = object_in(card, "correlation")) {
+  rename(part_of(card, "not_identified"));
+  if (json* const correlation = part_of(card, "correlation")) {
     rename(correlation);
     for (auto& [first, row] : correlation->items()) rename(row.is_object() ? &row : nullptr);
   }

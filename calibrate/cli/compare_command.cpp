@@ -38,13 +38,13 @@ struct CompareOptions {
   bool json = false;
 };
 
-const std::string kTable = "comparison.csv";
+const std::string kTrials = "comparison.csv";
 const std::string kCourse = "course.csv";
 const std::string kFigure = "comparison.svg";
-const std::vector<std::string> kComparison = with_store({kTable, kCourse, kFigure});
+const std::vector<std::string> kComparison = with_store({kTrials, kCourse, kFigure});
 constexpr std::uint64_t kFirstJudge = 1'000'000'001;  // packings far from those of any search
 
-std::string table_of(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
+std::string trials_csv(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
   std::string out = std::string("strategy,seed,status,simulations,failures,judged_misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
     out += format("%s,%llu,%s,%d,%d,", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed),
@@ -63,7 +63,7 @@ std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit
   return out;
 }
 
-void print_table(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+void print_comparison(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
   print("%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
         unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
   for (const auto& row : rows) {
@@ -80,7 +80,7 @@ void print_table(const std::vector<StrategySummary>& rows, const MisfitUnit& uni
 }
 
 /// The same, in the words of the table.
-nlohmann::ordered_json json_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+nlohmann::ordered_json comparison_json(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
   auto out = nlohmann::ordered_json::array();
   const auto judged = [&](double miss) { return miss >= 0 ? nlohmann::ordered_json(unit.of(miss)) : nullptr; };
   const std::string name = std::string("judged_misfit_") + unit.name();
@@ -165,10 +165,10 @@ int compare(const CompareOptions& options) {
   if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
   const auto rows = summary_of(trials);
   if (options.json)
-    print("%s", json_text(json_of(rows, unit)).c_str());
+    print("%s", json_text(comparison_json(rows, unit)).c_str());
   else
-    print_table(rows, unit);
-  const std::vector<std::pair<std::string, std::string>> files{{kTable, table_of(trials, unit)},
+    print_comparison(rows, unit);
+  const std::vector<std::pair<std::string, std::string>> files{{kTrials, trials_csv(trials, unit)},
                                                                {kCourse, course_of(trials, unit)},
                                                                {kFigure, misfit_figure(rows, unit, study.title)}};
   for (const auto& [name, content] : files) {
@@ -184,7 +184,7 @@ int compare(const CompareOptions& options) {
 Command add_compare_optimisers(CLI::App& verb) {
   const auto options = std::make_shared<CompareOptions>();
   verb.add_option("STUDY", options->study, "study file")->required();
-  verb.add_option("--out", options->out, "folder for " + kTable + ", " + kCourse + ", " + kFigure + " and " + kStore)
+  verb.add_option("--out", options->out, "folder for " + kTrials + ", " + kCourse + ", " + kFigure + " and " + kStore)
       ->required()
       ->type_name("DIR");
   verb.add_option("--strategies", options->strategies, "names, separated by commas; default: all")

@@ -48,7 +48,7 @@ Faults differences(const Card& card, const Study& study, const std::string& file
   return faults;
 }
 
-int infer(const InferOptions& options) {
+int infer_again(const InferOptions& options) {
   const std::filesystem::path from = options.from;
   const std::string card_file = (from / kResults[0]).string(), store_file = (from / kStore).string();
   const auto study = read_study(options.study);
@@ -113,7 +113,7 @@ Command add_infer(CLI::App& verb) {
       ->type_name("DIR");
   verb.add_flag("--force", options->force, "replace the card and the summary in --out");
   verb.add_flag("--json", options->json, "print the card instead of the summary");
-  return [options] { return infer(*options); };
+  return [options] { return infer_again(*options); };
 }
 
 }  // namespace pastefit

@@ -12,7 +12,7 @@ namespace pastefit {
 namespace {
 
 constexpr std::chrono::seconds kPatience{2}, kPlain{10};
-constexpr std::chrono::milliseconds kRewrite{500};
+constexpr std::chrono::milliseconds kSign{500};
 
 }  // namespace
 
@@ -25,7 +25,7 @@ SignOfLife::~SignOfLife() {
 void SignOfLife::show(const Moment& moment) {
   const auto now = Clock::now();
   if (now < next_ || is_quiet()) return;
-  next_ = now + (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain));
+  next_ = now + (terminal_ ? Clock::duration(kSign) : Clock::duration(kPlain));
   shown_ = true;
   const double gone_s = std::chrono::duration<double>(now - start_).count();
   const std::string line =

@@ -58,7 +58,7 @@ std::vector<std::string> names_of_series(const Scene& scene) {
   return {names.begin(), names.end()};
 }
 
-std::size_t series_at(const Scene& scene, const Moment& moment) {
+std::size_t series_in(const Scene& scene, const Moment& moment) {
   const auto* test = std::get_if<Test>(&scene);
   return test ? series_at(*test, moment) : 0;
 }
@@ -109,7 +109,7 @@ class Pictures {
 };
 
 /// Outlines by name, as the points of a profile in a laboratory file: {"step1": [[x_mm, z_mm], ...], ...}.
-nlohmann::ordered_json to_json(const std::map<std::string_view, Outline>& outlines) {
+nlohmann::ordered_json outlines_json(const std::map<std::string_view, Outline>& outlines) {
   auto out = nlohmann::ordered_json::object();
   for (const auto& [name, side] : outlines) {
     auto& points = out[std::string(name)] = nlohmann::ordered_json::array();
@@ -119,7 +119,7 @@ nlohmann::ordered_json to_json(const std::map<std::string_view, Outline>& outlin
   return out;
 }
 
-nlohmann::ordered_json json_of(const Outcome& outcome, const nlohmann::ordered_json& outlines, double wall_s) {
+nlohmann::ordered_json simulation_json(const Outcome& outcome, const nlohmann::ordered_json& outlines, double wall_s) {
   const auto& run = outcome.run;
   nlohmann::ordered_json out;
   out["observables"] = to_json(outcome.observables);
@@ -153,7 +153,7 @@ Faults write_results(const OutputFolder& folder, const std::string& text, const 
   return faults;
 }
 
-void print_table(const Outcome& outcome, double wall_s) {
+void print_simulation(const Outcome& outcome, double wall_s) {
   for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
   const auto& run = outcome.run;
   print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
@@ -272,7 +272,7 @@ int simulate_file(const SimulateOptions& options) {
     if (!moment.world) return true;
     if (of_lab)
       if (auto seen = outline_at(*of_lab, moment)) outlines[seen->name] = std::move(seen->outline);
-    if (pictures) unwritten = pictures->add(moment, series_at(test, moment));
+    if (pictures) unwritten = pictures->add(moment, series_in(test, moment));
     return unwritten.empty();
   };
   std::optional<SignOfLife> sign(std::in_place);
@@ -294,11 +294,11 @@ int simulate_file(const SimulateOptions& options) {
   }
 
   if (outcome.failure) outlines.clear();
-  const auto text = json_text(json_of(outcome, to_json(outlines), wall_s));
+  const auto text = json_text(simulation_json(outcome, outlines_json(outlines), wall_s));
   if (options.json)
     print("%s", text.c_str());
   else
-    print_table(outcome, wall_s);
+    print_simulation(outcome, wall_s);
   if (folder) {
     if (const auto faults = write_results(*folder, text, outcome); !faults.empty()) return report(faults, kFailed);
     note("wrote %s\n", folder->file(kResult).c_str());

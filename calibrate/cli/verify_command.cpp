@@ -53,7 +53,7 @@ void print_notes(const std::vector<CheckRow>& rows) {
     if (!row.note.empty() && told.insert(row.note).second) print("  %s\n", row.note.c_str());
 }
 
-void print_table(const std::vector<VerifiedCase>& cases, bool every_point) {
+void print_cases(const std::vector<VerifiedCase>& cases, bool every_point) {
   print_header();
   for (const auto& [test, rows] : cases) {
     for (const CheckRow& row : every_point ? rows : worst_rows(rows))
@@ -62,7 +62,7 @@ void print_table(const std::vector<VerifiedCase>& cases, bool every_point) {
   }
 }
 
-nlohmann::ordered_json json_of(const VerifiedCase& verified) {
+nlohmann::ordered_json case_json(const VerifiedCase& verified) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const CheckRow& row : verified.rows)
     rows.push_back({{"point", row.point},
@@ -119,10 +119,10 @@ int verify_cases(const VerifyOptions& options) {
   }
   if (options.json) {
     nlohmann::ordered_json out{{"checks", checks}, {"failed", failed}, {"known_deviations", known}};
-    for (const VerifiedCase& verified : cases) out["cases"].push_back(json_of(verified));
+    for (const VerifiedCase& verified : cases) out["cases"].push_back(case_json(verified));
     print("%s", json_text(out).c_str());
   } else {
-    print_table(cases, options.points);
+    print_cases(cases, options.points);
     print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), checks, failed, known);
   }
   return failed == 0 ? kDone : kFailed;

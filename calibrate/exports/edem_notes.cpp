@@ -17,7 +17,7 @@ How to use this in EDEM
 Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
 )";
 
-constexpr const char* kInstructions = R"(
+constexpr const char* kEdemInstructions = R"(
 How to use this in EDEM
 1. Base model Hertz-Mindlin (no slip): shear modulus G = E/(2 (1 + nu)), Poisson's ratio, restitution, static friction
    from the table above. EDEM's damping is the same function of the restitution.
@@ -47,7 +47,7 @@ Result<Export> export_edem_notes(const ExportLaw& law) {
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   return Export{
-      law_files(law, {{"edem.txt", laws_in_words(law) + kInstructions}}),
+      law_files(law, {{"edem.txt", laws_in_words(law) + kEdemInstructions}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
 }
 

@@ -13,7 +13,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kFall = 9.81;
 constexpr double kRelaxDrag = 40;  // [1/s], as in our own relaxation of the fill
 constexpr double kRelaxTime = 0.25;
 constexpr double kRestTime = 4.0;
@@ -35,7 +35,7 @@ std::string header(const ExportScene& scene, const std::vector<std::string>& not
   return out;
 }
 
-std::string begin(const char* comment) {
+std::string deck_begin(const char* comment) {
   return std::string(comment) + R"(
 units        si
 atom_style   sphere
@@ -91,11 +91,11 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   const auto& test = scene.test;
   const auto& mould = test.mould;
   std::string out = header(scene, notes) + laws.conventions;
-  out += begin("# the scene") + laws.guard;
+  out += deck_begin("# the scene") + laws.guard;
   out += "processors   * * 1\nread_data    grains.data\n" + laws.pairs;
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
-  out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
+  out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kFall);
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
   const bool falls = test.drop && laws.hinge;
   if (falls) out += "variable     tilt equal 0\n";
@@ -141,7 +141,8 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
   const double reach = bridge_gaps(scene.test.contact, {radius, radius, scene.test.grains.radius_m}).rupture_m;
   const double farthest = 2 * radius + 1.05 * std::max(reach, 0.05 * radius);
   std::string out = header(scene, {});
-  out += begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
+  out +=
+      deck_begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
                 4 * radius, -4 * radius, 4 * radius);
   out += "create_box   1 box\ncreate_atoms 1 single 0 0 0\n";

@@ -101,7 +101,7 @@ std::string granular_model(const std::string& normal, const PairConstants& pair,
 
 /// One table, equidistant in r^2 with a point at touch and the last one at rupture: what LAMMPS uses as it stands.
 /// Columns: number, r, energy, force; negative forces attract.
-std::string table_of(const ContactModel& contact, const GrainPair& pair, const std::string& name, double& cutoff) {
+std::string table_text(const ContactModel& contact, const GrainPair& pair, const std::string& name, double& cutoff) {
   const double touch = pair.first_radius_m + pair.second_radius_m;
   const double reach = bridge_gaps(contact, pair).rupture_m;
   const double deepest = touch - kDeepest * std::min(pair.first_radius_m, pair.second_radius_m);
@@ -161,7 +161,7 @@ std::vector<std::string> losses_of_sticking(const ContactModel& contact, double 
   return notes;
 }
 
-std::vector<std::string> losses_of(const ExportScene& scene, double weight) {
+std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
@@ -226,7 +226,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
       if (attracts) {
         const std::string name = format("ATTRACTION_%zu_%zu", i + 1, j + 1);
         double cutoff = 0;
-        tables += table_of(test.contact, pair, name, cutoff);
+        tables += table_text(test.contact, pair, name, cutoff);
         laws.pairs += types + format("table attraction.table %s %.17g\n", name.c_str(), cutoff);
       }
       if (j == 0) laws.first_pair = style + laws.pairs;
@@ -251,7 +251,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
 
   Export out;
   out.instructions = "lmp -in in.slump              or: mpirun -np 2 lmp -in in.slump\n";
-  out.notes = losses_of(scene, load / 10);
+  out.notes = table_losses(scene, load / 10);
   out.files = {{"in.slump", slump_deck(scene, laws, out.notes)},
                {"in.two_grains", two_grains_deck(scene, laws)},
                {"grains.data", grains_data(scene, radii)}};

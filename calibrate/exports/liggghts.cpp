@@ -78,7 +78,7 @@ std::string properties(const ExportScene& scene, const SoulieFit* fit) {
   return out;
 }
 
-std::string begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
+std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
   out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
   out += "# takes grains softer than 5 MPa.\n";
@@ -93,12 +93,12 @@ communicate  single vel yes
 )";
 }
 
-std::string slump_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit,
-                       const std::vector<std::string>& notes) {
+std::string liggghts_slump(const ExportScene& scene, const Models& models, const SoulieFit* fit,
+                           const std::vector<std::string>& notes) {
   const auto& test = scene.test;
   const double step = deck_time_step_s(scene);
   const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
-  std::string out = begin(scene, "the slump test, step 1", notes);
+  std::string out = liggghts_begin(scene, "the slump test, step 1", notes);
   out += "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump\n\nread_data    grains.data\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * test.grains.radius_m);
   out += properties(scene, fit);
@@ -123,12 +123,12 @@ std::string slump_deck(const ExportScene& scene, const Models& models, const Sou
 }
 
 /// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
-std::string two_grains_deck(const ExportScene& scene, const Models& models, const SoulieFit* fit) {
+std::string liggghts_two_grains(const ExportScene& scene, const Models& models, const SoulieFit* fit) {
   constexpr int kDistances = 240;
   const double radius = scene.test.grains.radius_m, speed = 1e-9;
   const double nearest = 1.95 * radius;
   const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
-  std::string out = begin(scene, "force of two grains against their distance; prints \"apart r F\"", {});
+  std::string out = liggghts_begin(scene, "force of two grains against their distance; prints \"apart r F\"", {});
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   3 box\n", -4 * radius,
                 8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius);
   out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", nearest);
@@ -184,7 +184,7 @@ std::string liggghts_data(const ExportScene& scene) {
   return out;
 }
 
-std::vector<std::string> losses_of(const ExportScene& scene, const SoulieFit* fit) {
+std::vector<std::string> liggghts_losses(const ExportScene& scene, const SoulieFit* fit) {
   const auto& test = scene.test;
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
@@ -239,7 +239,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   const SoulieFit* const fitted = attracts ? &fit : nullptr;
   const Models models = models_of(contact, attracts);
   Export out;
-  out.notes = losses_of(scene, fitted);
+  out.notes = liggghts_losses(scene, fitted);
   std::string law = "gap_m,card_n,liggghts_n\n";
   if (attracts)
     for (int i = 0; i <= 400; ++i) {
@@ -249,8 +249,8 @@ Result<Export> export_liggghts(const ExportScene& scene) {
       law += format("%.17g,%.17g,%.17g\n", gap, attraction_n(contact, {radius, radius, radius}, -gap),
                     fit.bridge.force_n(gap));
     }
-  out.files = {{"in.slump", slump_deck(scene, models, fitted, out.notes)},
-               {"in.two_grains", two_grains_deck(scene, models, fitted)},
+  out.files = {{"in.slump", liggghts_slump(scene, models, fitted, out.notes)},
+               {"in.two_grains", liggghts_two_grains(scene, models, fitted)},
                {"grains.data", liggghts_data(scene)},
                {"mould.stl", mould_stl(scene.test.mould)},
                {"curves.csv", law}};

@@ -6,7 +6,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr const char* kInstructions = R"(
+constexpr const char* kMercuryInstructions = R"(
 How to use this in MercuryDPM
 1. Species: HertzianViscoelasticMindlinRollingTorsionSpecies carries repulsion, damping, friction and rolling. Set the
    effective elastic modulus E* and shear modulus G* by hand (its setters take effective values), friction and rolling
@@ -25,7 +25,7 @@ Result<Export> export_mercurydpm(const ExportLaw& law) {
   const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
   if (Faults faults = unknown_laws(specimen_of(law.test_of_card).contact, known); !faults.empty()) return faults;
   return Export{
-      law_files(law, {{"mercurydpm.txt", laws_in_words(law) + kInstructions}}),
+      law_files(law, {{"mercurydpm.txt", laws_in_words(law) + kMercuryInstructions}}),
       {"MercuryDPM has no such bridge as it comes; an adhesive species has to be derived.", "Not run in MercuryDPM."}};
 }
 

@@ -217,7 +217,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
   return family;
 }
 
-std::vector<UnitPoint> sample_of(const ResponseModel& model, const InferenceOptions& options) {
+std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const InferenceOptions& options) {
   return posterior_sample([&](const UnitPoint& point) { return model.log_posterior(point); },
                           static_cast<int>(model.evidence().parameters.size()), options.sample, options.seed);
 }
@@ -310,7 +310,7 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
                                              const InferenceOptions& options) {
   const ResponseModel model(evidence);
   std::vector<UnitPoint> chosen{recommended};
-  spread_out(chosen, better_half(model, sample_of(model, options)), static_cast<std::size_t>(count) + 1);
+  spread_out(chosen, better_half(model, sample_posterior(model, options)), static_cast<std::size_t>(count) + 1);
   chosen.erase(chosen.begin());
   return chosen;
 }
@@ -320,7 +320,7 @@ Inference infer(const Evidence& evidence, const UnitPoint& recommended, const In
   const std::vector<std::size_t>& fitted = model.fitted();
   if (fitted.empty()) throw std::logic_error("infer: no reading is fitted");
   const auto dimension = recommended.size();
-  const std::vector<UnitPoint> sample = sample_of(model, options);
+  const std::vector<UnitPoint> sample = sample_posterior(model, options);
   const Moments moments = moments_of(sample);
 
   Inference out;

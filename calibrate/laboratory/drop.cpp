@@ -8,16 +8,16 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/world/world.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double mm = 1000;                         // millimetres in a metre
 constexpr double degrees = 180 / std::numbers::pi;  // in a radian
 
-constexpr std::string_view lab_text =
+constexpr std::string_view drop_lab =
     R"(// What a laboratory measured in a drop test: a ball of the material falls on a plate. Lines like this one are comments;
 // the unit is in each key.
 {
@@ -50,7 +50,7 @@ constexpr std::string_view lab_text =
 }
 )";
 
-constexpr std::string_view study_text =
+constexpr std::string_view drop_study =
     R"(// Which contact parameters are fitted to a drop test, and how. Lines like this one are comments.
 {
   "format": "pastefit-study-1",
@@ -81,9 +81,9 @@ constexpr std::string_view study_text =
 )";
 
 template <class Fields, class Test>
-void describe_test(Fields& fields, Test& test) {
-  fields.number("drop_height_m", test.drop_height_m, Range{}, Need::required);
-  fields.number("plate_tilt_rad", test.plate_tilt_rad, Range{}, Need::required);
+void describe_drop(Fields& fields, Test& test) {
+  fields.number("drop_height_m", test.drop_height_m, any_number, required);
+  fields.number("plate_tilt_rad", test.plate_tilt_rad, any_number, required);
   describe_specimen(fields, test);
 }
 
@@ -123,7 +123,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 nlohmann::json to_json(const DropTest& test) {
   nlohmann::json document;
   ObjectWriter writer(document);
-  describe_test(writer, test);
+  describe_drop(writer, test);
   return document;
 }
 
@@ -134,11 +134,11 @@ DropTest usual_test(const DropTest&) {
 }
 
 void read_test(ObjectReader& reader, DropTest& test) {
-  describe_test(reader, test);
+  describe_drop(reader, test);
 }
 
 Templates templates_of(const DropTest&) {
-  return {lab_text, study_text};
+  return {drop_lab, drop_study};
 }
 
 std::optional<double> grain_density_of(const DropTest& test, const Observables&) {

@@ -58,7 +58,7 @@ double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
   return low;
 }
 
-std::string words_of(const SlumpTest& test, const Heap& heap) {
+std::string in_words(const SlumpTest& test, const Heap& heap) {
   const double psi = psi_of(test, heap), deviation = deviation_of_psi(test, heap);
   const std::string size =
       format("%.4g mm high and %.4g mm wide (psi %.2f +- %.2f)", heap.height.value, heap.width.value, psi, deviation);
@@ -102,7 +102,7 @@ Doubts doubts_about(const SlumpTest& test, std::span<const Measurement> measurem
     if (psi_of(test, heap) < pancake - sure * deviation_of_psi(test, heap))
       doubts.faults.push_back(missing_volume(test, heap));
     else
-      doubts.notes.push_back((step == "step2." ? "after the drop, " : "") + words_of(test, heap));
+      doubts.notes.push_back((step == "step2." ? "after the drop, " : "") + in_words(test, heap));
   }
   return doubts;
 }

@@ -6,16 +6,13 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double mm = 1000;  // millimetres in a metre
-constexpr Range any;         // the test's own `validate` knows the ranges
-constexpr Need required = Need::required;
-
-constexpr std::string_view lab_text =
+constexpr std::string_view pellet_lab =
     R"(// What a laboratory measured in a pellet crush: wet granules are pressed in a die, and the pellet is crushed between two
 // plates. Lines like this one are comments; the unit is in each key.
 {
@@ -52,7 +49,7 @@ constexpr std::string_view lab_text =
 }
 )";
 
-constexpr std::string_view study_text =
+constexpr std::string_view pellet_study =
     R"(// Which contact parameters are fitted to a pellet crush, and how. Lines like this one are comments.
 {
   "format": "pastefit-study-1",
@@ -85,15 +82,15 @@ constexpr std::string_view study_text =
 )";
 
 template <class Fields, class Test>
-void describe_test(Fields& fields, Test& test) {
-  fields.number("die_diameter_m", test.die_diameter_m, any, required);
-  fields.number("fill_height_m", test.fill_height_m, any, required);
-  fields.number("pour_speed_m_s", test.pour_speed_m_s, any, required);
-  fields.number("pressed_height_m", test.pressed_height_m, any, required);
-  fields.number("punch_speed_m_s", test.punch_speed_m_s, any, required);
-  fields.number("press_speedup", test.press_speedup, any, required);
-  fields.number("platen_speed_m_s", test.platen_speed_m_s, any, required);
-  fields.number("final_strain", test.final_strain, any, required);
+void describe_pellet(Fields& fields, Test& test) {
+  fields.number("die_diameter_m", test.die_diameter_m, any_number, required);
+  fields.number("fill_height_m", test.fill_height_m, any_number, required);
+  fields.number("pour_speed_m_s", test.pour_speed_m_s, any_number, required);
+  fields.number("pressed_height_m", test.pressed_height_m, any_number, required);
+  fields.number("punch_speed_m_s", test.punch_speed_m_s, any_number, required);
+  fields.number("press_speedup", test.press_speedup, any_number, required);
+  fields.number("platen_speed_m_s", test.platen_speed_m_s, any_number, required);
+  fields.number("final_strain", test.final_strain, any_number, required);
   describe_specimen(fields, test);
   fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
 }
@@ -131,7 +128,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 nlohmann::json to_json(const PelletCrush& test) {
   nlohmann::json document;
   ObjectWriter writer(document);
-  describe_test(writer, test);
+  describe_pellet(writer, test);
   return document;
 }
 
@@ -140,11 +137,11 @@ PelletCrush usual_test(const PelletCrush&) {
 }
 
 void read_test(ObjectReader& reader, PelletCrush& test) {
-  describe_test(reader, test);
+  describe_pellet(reader, test);
 }
 
 Templates templates_of(const PelletCrush&) {
-  return {lab_text, study_text};
+  return {pellet_lab, pellet_study};
 }
 
 nlohmann::ordered_json conditions_of(const PelletCrush& test) {

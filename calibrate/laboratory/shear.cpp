@@ -6,16 +6,13 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double mm = 1000;  // millimetres in a metre
-constexpr Range any;         // the test's own `validate` knows the ranges
-constexpr Need required = Need::required;
-
-constexpr std::string_view lab_text =
+constexpr std::string_view shear_lab =
     R"(// What a laboratory measured in a shear cell: granules between a ribbed base that moves and a ribbed lid that is pressed on.
 // Lines like this one are comments; the unit is in each key.
 {
@@ -55,7 +52,7 @@ constexpr std::string_view lab_text =
 }
 )";
 
-constexpr std::string_view study_text =
+constexpr std::string_view shear_study =
     R"(// Which contact parameters are fitted to a shear cell, and how. Lines like this one are comments.
 {
   "format": "pastefit-study-1",
@@ -89,24 +86,24 @@ constexpr std::string_view study_text =
 
 template <class Fields, class Sizes>
 void describe_ribs(Fields& fields, Sizes& ribs) {
-  fields.number("height_m", ribs.height_m, any, required);
-  fields.number("thickness_m", ribs.thickness_m, any, required);
-  fields.number("pitch_m", ribs.pitch_m, any, required);
+  fields.number("height_m", ribs.height_m, any_number, required);
+  fields.number("thickness_m", ribs.thickness_m, any_number, required);
+  fields.number("pitch_m", ribs.pitch_m, any_number, required);
 }
 
 template <class Fields, class Test>
-void describe_test(Fields& fields, Test& test) {
-  fields.number("length_m", test.length_m, any, required);
-  fields.number("width_m", test.width_m, any, required);
-  fields.number("fill_height_m", test.fill_height_m, any, required);
-  fields.number("pour_speed_m_s", test.pour_speed_m_s, any, required);
+void describe_shear(Fields& fields, Test& test) {
+  fields.number("length_m", test.length_m, any_number, required);
+  fields.number("width_m", test.width_m, any_number, required);
+  fields.number("fill_height_m", test.fill_height_m, any_number, required);
+  fields.number("pour_speed_m_s", test.pour_speed_m_s, any_number, required);
   fields.object("lid_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.lid_ribs); });
   fields.object("base_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.base_ribs); });
-  fields.number("normal_stress_pa", test.normal_stress_pa, any, required);
-  fields.number("lid_speed_m_s", test.lid_speed_m_s, any, required);
-  fields.number("shear_speed_m_s", test.shear_speed_m_s, any, required);
-  fields.number("shear_speedup", test.shear_speedup, any, required);
-  fields.number("final_displacement_m", test.final_displacement_m, any, required);
+  fields.number("normal_stress_pa", test.normal_stress_pa, any_number, required);
+  fields.number("lid_speed_m_s", test.lid_speed_m_s, any_number, required);
+  fields.number("shear_speed_m_s", test.shear_speed_m_s, any_number, required);
+  fields.number("shear_speedup", test.shear_speedup, any_number, required);
+  fields.number("final_displacement_m", test.final_displacement_m, any_number, required);
   describe_specimen(fields, test);
   fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
 }
@@ -163,7 +160,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 nlohmann::json to_json(const ShearCell& test) {
   nlohmann::json document;
   ObjectWriter writer(document);
-  describe_test(writer, test);
+  describe_shear(writer, test);
   return document;
 }
 
@@ -172,11 +169,11 @@ ShearCell usual_test(const ShearCell&) {
 }
 
 void read_test(ObjectReader& reader, ShearCell& test) {
-  describe_test(reader, test);
+  describe_shear(reader, test);
 }
 
 Templates templates_of(const ShearCell&) {
-  return {lab_text, study_text};
+  return {shear_lab, shear_study};
 }
 
 nlohmann::ordered_json conditions_of(const ShearCell& test) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calibrate/base/rounded.h"
+#include "calibrate/base/units.h"
 
 namespace pastefit {
 
@@ -11,7 +12,6 @@ namespace {
 constexpr std::size_t kPoints = 50;
 constexpr double kInterval = 0.1;  // [s] of the run between two looks
 constexpr int kDigits = 3;
-constexpr double mm = 1000;
 
 /// From foot to foot.
 Sketch sketch_of(const Outline& heap) {

@@ -5,6 +5,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/rigs/slump/ruler.h"
@@ -13,36 +14,33 @@
 namespace pastefit {
 namespace {
 
-constexpr double mm = 1000;           // millimetres in a metre
 constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
 constexpr Range apparatus_length{0, 5000, true};
 constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
 constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
-constexpr Range any;  // the test's own `validate` knows the ranges
-constexpr Need required = Need::required;
 
 template <class Fields, class Test>
-void describe_test(Fields& fields, Test& test) {
+void describe_slump(Fields& fields, Test& test) {
   fields.object("mould", required, [&](auto& mould) {
-    mould.number("base_radius_m", test.mould.base_radius_m, any, required);
-    mould.number("top_radius_m", test.mould.top_radius_m, any, required);
-    mould.number("height_m", test.mould.height_m, any, required);
+    mould.number("base_radius_m", test.mould.base_radius_m, any_number, required);
+    mould.number("top_radius_m", test.mould.top_radius_m, any_number, required);
+    mould.number("height_m", test.mould.height_m, any_number, required);
   });
-  fields.number("lift_velocity_m_s", test.lift_velocity_m_s, any, required);
-  fields.number("table_length_m", test.table_length_m, any, required);
+  fields.number("lift_velocity_m_s", test.lift_velocity_m_s, any_number, required);
+  fields.number("table_length_m", test.table_length_m, any_number, required);
   fields.nullable_object("drop", test.drop, required, [](auto& drop, auto& plate) {
-    drop.number("length_m", plate.length_m, any, required);
-    drop.number("mass_kg", plate.mass_kg, any, required);
-    drop.number("lift_height_m", plate.lift_height_m, any, required);
-    drop.number("lift_duration_s", plate.lift_duration_s, any, required);
+    drop.number("length_m", plate.length_m, any_number, required);
+    drop.number("mass_kg", plate.mass_kg, any_number, required);
+    drop.number("lift_height_m", plate.lift_height_m, any_number, required);
+    drop.number("lift_duration_s", plate.lift_duration_s, any_number, required);
   });
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
-    reading.number("probe_diameter_m", test.reading.probe_diameter_m, any, required);
-    reading.number("sag_window_m", test.reading.sag_window_m, any, Need::optional);
-    reading.pairs("outline_step1_m", test.reading.outline_step1, any, any, Need::optional, 0);
-    reading.pairs("outline_step2_m", test.reading.outline_step2, any, any, Need::optional, 0);
+    reading.number("probe_diameter_m", test.reading.probe_diameter_m, any_number, required);
+    reading.number("sag_window_m", test.reading.sag_window_m, any_number, Need::optional);
+    reading.pairs("outline_step1_m", test.reading.outline_step1, any_number, any_number, Need::optional, 0);
+    reading.pairs("outline_step2_m", test.reading.outline_step2, any_number, any_number, Need::optional, 0);
   });
   describe_specimen(fields, test);
   fields.object("mould_wall", required, [&](auto& wall) { describe_wall(wall, test.mould_wall); });
@@ -131,7 +129,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 nlohmann::json to_json(const SlumpTest& test) {
   nlohmann::json document;
   ObjectWriter writer(document);
-  describe_test(writer, test);
+  describe_slump(writer, test);
   return document;
 }
 
@@ -142,7 +140,7 @@ SlumpTest usual_test(const SlumpTest&) {
 }
 
 void read_test(ObjectReader& reader, SlumpTest& test) {
-  describe_test(reader, test);
+  describe_slump(reader, test);
 }
 
 std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means) {

@@ -2,13 +2,13 @@
 #include <string>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr double mm = 1000;  // millimetres in a metre
 constexpr double kStep = 2;  // [mm] between two points of a drawn outline
 // [share of the mould's height] between the lines of the lengths below the table, and of those beside the heap.
 constexpr double kBelow = 0.09, kBeside = 0.12;

@@ -3,7 +3,7 @@
 namespace pastefit {
 namespace {
 
-constexpr std::string_view lab_text =
+constexpr std::string_view slump_lab =
     R"(// What a laboratory measured in a slump test. Lines like this one are comments; the unit is in each key.
 {
   "format": "pastefit-lab-1",
@@ -44,7 +44,7 @@ constexpr std::string_view lab_text =
 }
 )";
 
-constexpr std::string_view study_text =
+constexpr std::string_view slump_study =
     R"(// Which contact parameters are fitted to which measurements, and how. Lines like this one are comments.
 {
   "format": "pastefit-study-1",
@@ -102,7 +102,7 @@ constexpr std::string_view study_text =
 }  // namespace
 
 Templates templates_of(const SlumpTest&) {
-  return {lab_text, study_text};
+  return {slump_lab, slump_study};
 }
 
 }  // namespace pastefit

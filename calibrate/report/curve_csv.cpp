@@ -10,7 +10,7 @@ namespace pastefit {
 namespace {
 
 /// "_pa" of "stress_pa".
-std::string_view unit_of(std::string_view name) {
+std::string_view suffix_of(std::string_view name) {
   const auto last = name.rfind('_');
   return last == std::string_view::npos ? std::string_view{} : name.substr(last);
 }
@@ -26,7 +26,7 @@ std::optional<std::string> curve_csv(const CardTest& test, const TestView& view)
   std::string out = curve.x + "," + curve.y + "," + curve.y + "_lowest," + curve.y + "_highest";
   std::string of_laboratory;
   for (const CardObservable& one : test.observables) {
-    if (!one.measured || unit_of(one.name) != unit_of(curve.y)) continue;
+    if (!one.measured || suffix_of(one.name) != suffix_of(curve.y)) continue;
     out += "," + one.name + "," + one.name + "_deviation";
     of_laboratory += format(",%.6g,%.6g", *one.measured, one.standard_deviation);
   }

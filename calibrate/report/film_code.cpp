@@ -24,7 +24,7 @@ struct Box {
   double quantum = kQuantum;
 };
 
-std::array<double, 3> coordinates(const Vec3& point) {
+std::array<double, 3> places_of(const Vec3& point) {
   return {point.x, point.y, point.z};
 }
 
@@ -36,7 +36,7 @@ Box box_of(const Film& film) {
   for (const Reel& reel : film.reels)
     for (const FilmFrame& frame : reel.frames)
       for (const Vec3& centre : frame.centres_m) {
-        const auto place = coordinates(centre);
+        const auto place = places_of(centre);
         for (std::size_t c = 0; c < 3; ++c) {
           box.low[c] = first ? place[c] : std::min(box.low[c], place[c]);
           high[c] = first ? place[c] : std::max(high[c], place[c]);
@@ -62,8 +62,8 @@ void append(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
   for (const auto number : numbers) bytes += static_cast<char>(number >> 8);
 }
 
-/// What of a reel is coded as difference from the frame before.
-struct Columns {
+/// What of a reel is coded as change from the frame before.
+struct CodedColumns {
   std::array<std::vector<std::uint16_t>, 3> places;
   std::vector<std::uint8_t> speeds, touching, pulls;
 };
@@ -76,10 +76,10 @@ float most_pull_n(const Film& film) {
   return most;
 }
 
-Columns columns_of(const FilmFrame& frame, const Box& box, float most_pull) {
-  Columns out;
+CodedColumns columns_of(const FilmFrame& frame, const Box& box, float most_pull) {
+  CodedColumns out;
   for (const Vec3& centre : frame.centres_m) {
-    const auto place = coordinates(centre);
+    const auto place = places_of(centre);
     for (std::size_t c = 0; c < 3; ++c) out.places[c].push_back(steps(place[c] - box.low[c], box.quantum));
   }
   for (const float speed : frame.speeds_m_s) out.speeds.push_back(code_of_speed(speed));
@@ -90,18 +90,18 @@ Columns columns_of(const FilmFrame& frame, const Box& box, float most_pull) {
 }
 
 template <class Number>
-std::vector<Number> difference(const std::vector<Number>& now, const std::vector<Number>& before) {
+std::vector<Number> change(const std::vector<Number>& now, const std::vector<Number>& before) {
   std::vector<Number> out(now);
   for (std::size_t i = 0; i < before.size(); ++i) out[i] = static_cast<Number>(now[i] - before[i]);
   return out;
 }
 
-void append(std::string& bytes, const Columns& now, const Columns& before) {
-  for (std::size_t c = 0; c < 3; ++c) append(bytes, difference(now.places[c], before.places[c]));
+void append(std::string& bytes, const CodedColumns& now, const CodedColumns& before) {
+  for (std::size_t c = 0; c < 3; ++c) append(bytes, change(now.places[c], before.places[c]));
   for (const auto& [column, earlier] :
        {std::pair(&now.speeds, &before.speeds), std::pair(&now.touching, &before.touching),
         std::pair(&now.pulls, &before.pulls)})
-    for (const auto byte : difference(*column, *earlier)) bytes += static_cast<char>(byte);
+    for (const auto byte : change(*column, *earlier)) bytes += static_cast<char>(byte);
 }
 
 std::string deflated(const std::string& bytes) {
@@ -179,9 +179,9 @@ std::string film_bytes(const Film& film) {
     std::vector<std::uint16_t> radii;
     for (const double radius : reel.radii_m) radii.push_back(steps(radius, box.quantum));
     append(bytes, radii);
-    Columns before;
+    CodedColumns before;
     for (const FilmFrame& frame : reel.frames) {
-      Columns now = columns_of(frame, box, most_pull);
+      CodedColumns now = columns_of(frame, box, most_pull);
       append(bytes, now, before);
       before = std::move(now);
     }

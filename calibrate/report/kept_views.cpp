@@ -30,7 +30,7 @@ std::vector<std::string> simulations_of(const CardTest& test, std::span<const st
   return names;
 }
 
-json json_of(const SeenRun& run) {
+json json_of_run(const SeenRun& run) {
   json out{{"packing", run.packing}, {"readings", to_json(run.readings)}, {"outlines", json::object()}};
   for (const auto& [name, outline] : run.outlines)
     out["outlines"][name] = {
@@ -83,7 +83,7 @@ TestView view_in(const json& in, const std::string& program) {
 }
 
 /// Takes the checksum out of the document and compares it with that of the rest.
-bool is_whole(json& document) {
+bool take_checksum(json& document) {
   if (!document.is_object() || !document.contains("checksum")) return false;
   const json told = document.at("checksum");
   document.erase("checksum");
@@ -99,7 +99,7 @@ Faults write_views(const std::filesystem::path& file, const Card& card, std::spa
     const TestView& view = views[i];
     json test{{"simulations", simulations_of(card.tests.at(i), packings, view.program)}, {"failures", view.failures}};
     auto& runs = test["runs"] = json::array();
-    for (const SeenRun& run : view.runs) runs.push_back(json_of(run));
+    for (const SeenRun& run : view.runs) runs.push_back(json_of_run(run));
     if (!view.film.empty()) test["film"] = {{"index", json::parse(view.film.index)}, {"grains", view.film.grains}};
     document["tests"].push_back(std::move(test));
   }
@@ -113,7 +113,7 @@ Result<std::vector<TestView>> read_views(const std::filesystem::path& file, cons
   Faults faults;
   auto document = read_json(file, faults);
   if (!document) return faults;
-  if (!is_whole(*document)) return Fault{file.string(), "is damaged: it does not agree with its checksum", remedy};
+  if (!take_checksum(*document)) return Fault{file.string(), "is damaged: it does not agree with its checksum", remedy};
   try {
     if (document->at("format") != kFormat)
       return Fault{file.string(), "is of format " + text_of(document->at("format")), kFormat};

@@ -8,14 +8,14 @@ namespace pastefit {
 
 namespace {
 
-std::string name_of(const Test& test) {
+std::string key_of_test(const Test& test) {
   return evaluation_key("", test);
 }
 
 /// Of the test with this material, whatever the packing.
 std::string name_of_material(Test test) {
   specimen_of(test).packing_seed = 0;
-  return name_of(test);
+  return key_of_test(test);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void Look::end(const Outcome& outcome) {
 Onlooker::Watch Looks::begin(const Test& test) {
   constexpr std::size_t kMostFilms = 8;
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<Look>& look = looks_[name_of(test)];
+  std::unique_ptr<Look>& look = looks_[key_of_test(test)];
   look = std::make_unique<Look>();
   look->seen.packing = specimen_of(test).packing_seed;
   if (filmed_.size() < kMostFilms && filmed_.insert(name_of_material(test)).second) look->film.emplace();
@@ -46,12 +46,12 @@ Onlooker::Watch Looks::begin(const Test& test) {
 
 void Looks::end(const Test& test, const Outcome& outcome) {
   const std::lock_guard lock(mutex_);
-  looks_.at(name_of(test))->end(outcome);
+  looks_.at(key_of_test(test))->end(outcome);
 }
 
 std::optional<Look> Looks::take(const Test& test) {
   const std::lock_guard lock(mutex_);
-  const auto found = looks_.find(name_of(test));
+  const auto found = looks_.find(key_of_test(test));
   if (found == looks_.end() || !found->second->ended) return std::nullopt;
   const auto look = std::move(found->second);
   looks_.erase(found);

@@ -57,7 +57,7 @@ ordered_json parameters_of(const Study& study) {
   return out;
 }
 
-ordered_json readings_of(const CardTest& test, std::size_t packings) {
+ordered_json page_readings(const CardTest& test, std::size_t packings) {
   auto out = ordered_json::array();
   for (const CardObservable& one : test.observables) {
     ordered_json reading{{"name", one.name},
@@ -82,11 +82,11 @@ ordered_json rounded_point(const DrawnPoint& point) {
   return {rounded(point[0]), rounded(point[1])};
 }
 
-std::string word_of(DrawnBy by) {
+std::string drawn_by(DrawnBy by) {
   return by == DrawnBy::laboratory ? "laboratory" : by == DrawnBy::simulation ? "simulation" : "apparatus";
 }
 
-ordered_json json_of(const Drawing& drawing) {
+ordered_json json_of_drawing(const Drawing& drawing) {
   ordered_json out{{"name", drawing.name}, {"x", drawing.x}, {"y", drawing.y}, {"to_scale", drawing.to_scale}};
   for (const char* part : {"bands", "lines", "lengths"}) out[part] = ordered_json::array();
   for (const DrawnBand& band : drawing.bands) {
@@ -98,13 +98,13 @@ ordered_json json_of(const Drawing& drawing) {
     auto points = ordered_json::array();
     for (const DrawnPoint& point : line.points) points.push_back(rounded_point(point));
     out["lines"].push_back({{"name", line.name},
-                            {"by", word_of(line.by)},
+                            {"by", drawn_by(line.by)},
                             {"points", std::move(points)},
                             {"deviation", rounded(line.deviation)}});
   }
   for (const DrawnLength& length : drawing.lengths)
     out["lengths"].push_back({{"reading", length.reading},
-                              {"by", word_of(length.by)},
+                              {"by", drawn_by(length.by)},
                               {"from", rounded_point(length.from)},
                               {"to", rounded_point(length.to)},
                               {"first", rounded_point(length.first)},
@@ -148,7 +148,7 @@ ordered_json run_shown(const CardTest& test, const TestView& view) {
   return out;
 }
 
-ordered_json test_of(const Findings& findings, std::size_t index) {
+ordered_json page_test(const Findings& findings, std::size_t index) {
   const Card& card = *findings.card;
   const CardTest& test = card.tests[index];
   ordered_json out{{"name", test.name},
@@ -163,7 +163,7 @@ ordered_json test_of(const Findings& findings, std::size_t index) {
                    {"conditions", conditions_in_words(test.test)},
                    {"grain_radius_mm", 1e3 * specimen_of(test.test).grains.radius_m}};
   if (test.within_noise) out["within_noise"] = *test.within_noise;
-  out["readings"] = readings_of(test, card.confirmation.packings.size());
+  out["readings"] = page_readings(test, card.confirmation.packings.size());
   std::vector<Observables> runs;
   for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
   const std::string remarks = remarks_on(test.test, runs);
@@ -172,7 +172,7 @@ ordered_json test_of(const Findings& findings, std::size_t index) {
   if (index >= findings.views.size()) return out;
   const TestView& view = findings.views[index];
   for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), measurements_of(test)))
-    out["drawings"].push_back(json_of(drawing));
+    out["drawings"].push_back(json_of_drawing(drawing));
   out["packings_drawn"] = view.runs.size();
   if (!view.film.empty()) out["film"] = ordered_json::parse(view.film.index);
   out["run_shown"] = run_shown(test, view);
@@ -253,7 +253,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
     out["interval_level"] = card.inference.level;
     out["radius_mm"] = 1e3 * card.material.grains.radius_m;
     out["tests"] = ordered_json::array();
-    for (std::size_t i = 0; i < card.tests.size(); ++i) out["tests"].push_back(test_of(findings, i));
+    for (std::size_t i = 0; i < card.tests.size(); ++i) out["tests"].push_back(page_test(findings, i));
     out["law"] = law_curves(card, findings.inference);
     out["summary"] = summary_of(card);
     out["provenance"] = {{"study_file", card.provenance.study_file},

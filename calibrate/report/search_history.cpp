@@ -23,7 +23,8 @@ using nlohmann::ordered_json;
 constexpr int kMapPoints = 41;  // along either side
 
 /// The test of the study that an evaluation is of; nothing if it is of none, as those with coarse grains are.
-std::optional<std::size_t> test_of(const Study& study, const std::string& program, const StoredEvaluation& evaluation) {
+std::optional<std::size_t> asked_test(const Study& study, const std::string& program,
+                                      const StoredEvaluation& evaluation) {
   for (std::size_t i = 0; i < study.tests.size(); ++i) {
     const std::string key = key_of(study, i, evaluation.values, evaluation.packing, program);
     if (key == evaluation.key) return i;
@@ -67,7 +68,7 @@ ordered_json values_told(const Findings& findings, const StoredEvaluation& evalu
 /// The test that an evaluation is of, how far off it is, and whether it confirmed the card.
 void judge(const Findings& findings, const StoredEvaluation& evaluation, ordered_json& point) {
   const Study& study = *findings.study;
-  const auto index = test_of(study, findings.program, evaluation);
+  const auto index = asked_test(study, findings.program, evaluation);
   if (!index) {
     point["other_grains"] = true;
     return;

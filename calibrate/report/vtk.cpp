@@ -29,8 +29,8 @@ std::string data_array(const std::string& type, const std::string& name, int com
          "\" format=\"binary\">" + base64(bytes) + "</DataArray>\n";
 }
 
-/// Columns of a file, each a DataArray element.
-class Columns {
+/// DataArrays of a file, each a DataArray element.
+class DataArrays {
  public:
   void add(const std::string& name, std::span<const double> values) { text_ += data_array("Float64", name, 1, values); }
   void add(const std::string& name, std::span<const Vec3> values) { text_ += data_array("Float64", name, 3, values); }
@@ -73,7 +73,7 @@ std::vector<std::int64_t> in_order(std::size_t points) {
 }  // namespace
 
 std::string vtp_of(const GrainFrame& frame) {
-  Columns of_points;
+  DataArrays of_points;
   of_points.add("radius", std::span<const double>(frame.radii_m));
   of_points.add("velocity", std::span<const Vec3>(frame.velocities_m_s));
   of_points.add("spin", std::span<const Vec3>(frame.spins_rad_s));
@@ -82,7 +82,7 @@ std::string vtp_of(const GrainFrame& frame) {
 }
 
 std::string vtp_of(const LinkFrame& frame) {
-  Columns of_cells;
+  DataArrays of_cells;
   of_cells.add("touching", std::span<const std::int32_t>(frame.touching));
   of_cells.add("overlap", std::span<const double>(frame.overlaps_m));
   of_cells.add("force", std::span<const double>(frame.forces_n));
@@ -90,7 +90,7 @@ std::string vtp_of(const LinkFrame& frame) {
 }
 
 std::string vtp_of(const WallFrame& frame) {
-  Columns of_cells;
+  DataArrays of_cells;
   of_cells.add("wall", std::span<const std::int32_t>(frame.walls));
   std::vector<std::int64_t> connectivity;
   for (const auto& corners : frame.quadrangles) connectivity.insert(connectivity.end(), corners.begin(), corners.end());

@@ -13,7 +13,7 @@ namespace {
 constexpr int kSides = 72;  // of what is round
 
 /// How far from the axis grains lie: what is shown of an infinite plane.
-double reach_of(const Particles& grains) {
+double extent_of(const Particles& grains) {
   double reach = 0;
   for (std::int32_t i = 0; i < grains.count(); ++i) {
     const Motion& motion = grains.motion[i];
@@ -114,7 +114,7 @@ LinkFrame link_frame(const World& world) {
 }
 
 WallFrame wall_frame(const World& world) {
-  WallDraftsman draftsman(reach_of(world.particles));
+  WallDraftsman draftsman(extent_of(world.particles));
   for (const Wall& wall : world.walls) draftsman.draw(wall);
   return draftsman.take();
 }

@@ -18,9 +18,9 @@ constexpr double on_the_bound = 0.1;  // of a range: nearer than that a flat end
 constexpr double step_back = 0.2;     // of a range
 
 /// One reading of all simulations that ended well, turned so that the laboratory lies below.
-class Approach {
+class Nearing {
  public:
-  Approach(std::span<const Response> singles, std::size_t reading, double tolerance)
+  Nearing(std::span<const Response> singles, std::size_t reading, double tolerance)
       : reading_(static_cast<Eigen::Index>(reading)) {
     const Response* low = nullptr;
     const Response* high = nullptr;
@@ -121,11 +121,11 @@ std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint6
   return points;
 }
 
-std::optional<OutOfReach> examine(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
+std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
   const int parameters = archive.parameters();
   const double tolerance = archive.tolerance(reading) * std::sqrt(archive.readings());
   while (!archive.stop_requested()) {
-    const Approach approach(archive.singles(), reading, tolerance);
+    const Nearing approach(archive.singles(), reading, tolerance);
     if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
     // How far they would have gone is what matters here.
     if (const auto ended = ended_early(archive.singles(), options.packing); !ended.empty()) {
@@ -158,7 +158,7 @@ std::optional<OutOfReach> examine(Archive& archive, std::size_t reading, const R
   return std::nullopt;
 }
 
-std::string name_of(std::span<const std::string> names, std::size_t index, const char* kind) {
+std::string name_at(std::span<const std::string> names, std::size_t index, const char* kind) {
   return index < names.size() ? names[index] : kind + std::to_string(index + 1);
 }
 
@@ -167,14 +167,14 @@ std::string name_of(std::span<const std::string> names, std::size_t index, const
 std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options) {
   int probes = options.probes;
   for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k)
-    if (auto found = examine(archive, k, options, probes)) return found;
+    if (auto found = probe(archive, k, options, probes)) return found;
   return std::nullopt;
 }
 
 std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
                      std::span<const std::string> parameters) {
   std::string out =
-      name_of(readings, found.reading, "reading ") + " is out of reach: the model stays " +
+      name_at(readings, found.reading, "reading ") + " is out of reach: the model stays " +
       format("%s the laboratory's %.3g. The %s it is likely to give within these bounds is %.3g",
              found.above ? "above" : "below", found.measured, found.above ? "least" : "most", found.likely) +
       format(", %s %.3g with all doubt and noise", found.above ? "no less than" : "no more than", found.at_best);
@@ -183,7 +183,7 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
   out += found.bounds.size() == 1 ? "stands" : "stand";
   for (std::size_t i = 0; i < found.bounds.size(); ++i)
     out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
-           name_of(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
+           name_at(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
   return out + ".";
 }
 
@@ -199,7 +199,7 @@ std::string words_of_screening(std::span<const Response> singles, std::span<cons
       const auto i = static_cast<Eigen::Index>(k);
       return single.ended_early && single.residuals[i] < 0 && single.observables[i] == one.lowest;
     });
-    out += (out.empty() ? "" : " ") + name_of(readings, k, "reading ") +
+    out += (out.empty() ? "" : " ") + name_at(readings, k, "reading ") +
            format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);
     if (one.all_above || one.all_below)
       out += std::string("always ") + (one.all_above ? "above" : "below") +

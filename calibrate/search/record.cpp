@@ -34,7 +34,7 @@ std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std:
 }
 
 /// The point of these values in the study's cube; nothing if a fixed one differs or a free one lies beyond its bounds.
-std::optional<std::vector<double>> point_of(const Study& study, std::span<const double> values) {
+std::optional<std::vector<double>> point_at(const Study& study, std::span<const double> values) {
   if (values.size() != study.parameters.size()) return std::nullopt;
   std::vector<double> point;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<StoredEvaluation> held(const Study& study, const Store& store, int b
   std::set<std::pair<std::vector<double>, std::uint64_t>> known;
   for (const StoredEvaluation& evaluation : store.all()) {
     if (evaluation.epoch >= before) continue;
-    const auto point = point_of(study, evaluation.values);
+    const auto point = point_at(study, evaluation.values);
     if (!point) continue;
     std::optional<StoredEvaluation> found;
     for (const bool tried : ways)

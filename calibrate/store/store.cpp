@@ -19,7 +19,7 @@ constexpr int kSchemaVersion = 4;
 const std::string kCountSetAside = "SELECT count(*) FROM set_aside";
 constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
 
-std::string text_of(const std::vector<double>& numbers) {
+std::string numbers_text(const std::vector<double>& numbers) {
   auto json = nlohmann::ordered_json::array();
   for (const double number : numbers) json.push_back(number_to_json(number));
   return json.dump();
@@ -44,7 +44,7 @@ Row with_checksum(Row row) {
   return row;
 }
 
-bool is_whole(const Row& row) {
+bool agrees(const Row& row) {
   return row.back() == checksum_of(row);
 }
 
@@ -175,7 +175,7 @@ struct Store::State {
   /// Takes what the file holds and is as it was written; answers its last inputs.
   std::string load() {
     for (const auto& row : database.run("SELECT * FROM evaluations ORDER BY sequence")) {
-      if (!is_whole(row)) {
+      if (!agrees(row)) {
         damaged.push_back(row.at(0));
         continue;
       }
@@ -195,7 +195,7 @@ struct Store::State {
     if (!damaged.empty())
       remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + numbers);
     const auto last = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
-    if (!is_whole(last)) throw std::runtime_error("its record of the study is damaged");
+    if (!agrees(last)) throw std::runtime_error("its record of the study is damaged");
     epoch = std::stoi(last.at(0));
     return last.at(1);
   }
@@ -290,7 +290,7 @@ Faults Store::add(const StoredEvaluation& evaluation) {
     state_->database.run(
         "INSERT INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
-                       text_of(evaluation.point), parameters_to_json(evaluation.values).dump(),
+                       numbers_text(evaluation.point), parameters_to_json(evaluation.values).dump(),
                        std::to_string(evaluation.packing), to_json(evaluation.observables).dump(),
                        to_json(evaluation.failure).dump(), text_of_run(evaluation)}));
     state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",

@@ -89,7 +89,7 @@ void read_bridge(ObjectReader& reader, Bridge& bridge) {
   reader.number("contact_angle_rad", bridge.contact_angle_rad, {0, std::numbers::pi / 2}, liquid);
 }
 
-void read_contact(ObjectReader& reader, ContactModel& contact) {
+void read_impact_contact(ObjectReader& reader, ContactModel& contact) {
   reader.number("youngs_modulus_pa", contact.youngs_modulus_pa, kModulus, Need::required);
   reader.number("poissons_ratio", contact.poissons_ratio, {0, 0.5}, Need::required);
   reader.number("restitution", contact.restitution, kRestitution, Need::optional);
@@ -204,7 +204,7 @@ void read_impact(ObjectReader& reader, const json& object, Impact& test) {
   test.contact.restitution = 1;
   test.contact.friction = test.contact.rolling_friction = 0;
   test.contact.rolling = RollingModel::none;
-  reader.object("contact", Need::required, [&](ObjectReader& contact) { read_contact(contact, test.contact); });
+  reader.object("contact", Need::required, [&](ObjectReader& contact) { read_impact_contact(contact, test.contact); });
   reader.number("density_kg_m3", test.density_kg_m3, {0, 1e12, true}, Need::required);
   read_list(reader, object, "grains",
             [&](ObjectReader& inner, const json& element) { read_grain(inner, element, test.grains.emplace_back()); });

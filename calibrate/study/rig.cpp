@@ -8,6 +8,7 @@
 #include "calibrate/base/data_folders.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 
@@ -17,7 +18,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double mm = 1000;  // millimetres in a metre
 constexpr Range grain_length{0, 500, true};
 
 std::optional<Rig> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {

@@ -150,7 +150,7 @@ double forming_gap(const Impact& scene) {
   return std::min(constants(scene).formation_gap * size_scale(scene), living_gap(scene));
 }
 
-Result<double> bridge_force(const Impact& scene, const Arguments& arguments) {
+Result<double> force_of_bridge(const Impact& scene, const Arguments& arguments) {
   return attraction(scene, arguments.gap_m);
 }
 
@@ -316,7 +316,7 @@ constexpr Formula kFormulas[] = {
     {"initial_velocity", initial_velocity, "as at the start", FormulaNeeds::grain},
     {"initial_spin", initial_spin, "as at the start", FormulaNeeds::grain},
     {"cohesive_overlap", cohesive_overlap, "at rest: (3 F_coh/(4 E* sqrt(R*)))^(2/3)"},
-    {"bridge_force", bridge_force, "F(d) at a gap, zero beyond the rupture"},
+    {"bridge_force", force_of_bridge, "F(d) at a gap, zero beyond the rupture"},
     {"bridge_work", bridge_work, "integral of F from touch to rupture"},
     {"bridge_loop_area", bridge_loop_area, "integral of F from the formation gap to rupture"},
     {"speed_after_rupture", speed_after_rupture, "sqrt(v^2 - 2 W/m*), from touch"},

@@ -13,14 +13,14 @@ const Vec3 kBoost{0.3, -0.7, 0.45};    // [m/s]
 constexpr double kTurn = 0.7;          // [rad]
 constexpr double kLonger = 3;
 
-Vec3 turned(const Vec3& v) {
+Vec3 turn(const Vec3& v) {
   const double c = std::cos(kTurn), s = std::sin(kTurn);
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
 /// What the transformation does to a vector that has a direction but no place.
 Vec3 arrow(const Vec3& v, Transform transform) {
-  if (transform == Transform::turn) return turned(v);
+  if (transform == Transform::turn) return turn(v);
   if (transform == Transform::mirror) return {v.x, -v.y, v.z};
   return v;
 }

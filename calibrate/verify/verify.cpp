@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPublishedDigits = 1e-3;  // figures are printed with four digits or more; constants in them differ
 
-std::string_view name_of(Transform transform) {
+std::string_view word_for(Transform transform) {
   switch (transform) {
     case Transform::shift:
       return "ends alike when shifted";
@@ -68,14 +68,14 @@ CheckRow without_answer(CheckRow row, const Check& check, std::string why) {
 CheckRow compare_views(const Check& check, const Impact& scene, const Outcome& outcome, CheckRow row) {
   const Transform transform = *check.unchanged_under;
   const Outcome seen = simulate(transformed(scene, transform));
-  row.reading = name_of(transform);
+  row.reading = word_for(transform);
   if (seen.failure) return without_answer(std::move(row), check, seen.failure->message);
   row.got = difference(scene, outcome, transform, seen);
   judge(check, row);
   return row;
 }
 
-Result<CheckRow> row_of(const Check& check, const Point& point, const Impact& scene, const Outcome& outcome) {
+Result<CheckRow> compared(const Check& check, const Point& point, const Impact& scene, const Outcome& outcome) {
   CheckRow row;
   row.point = point.label;
   row.reading = check.reading;
@@ -110,7 +110,7 @@ Result<std::vector<CheckRow>> verify(const Case& test) {
     }
     const Outcome outcome = simulate(scene.value());
     for (std::size_t c = 0; c < test.checks.size(); ++c) {
-      auto row = row_of(test.checks[c], point, scene.value(), outcome);
+      auto row = compared(test.checks[c], point, scene.value(), outcome);
       if (row) {
         rows.push_back(std::move(row).value());
         rows.back().check = c;

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t kBatchLength = 4, kFewestBlocks = 8;
 
-double mean_of(std::span<const double> values) {
+double average(std::span<const double> values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
 double squares_about_mean(std::span<const double> values) {
-  const double mean = mean_of(values);
+  const double mean = average(values);
   double sum = 0;
   for (const double value : values) sum += (value - mean) * (value - mean);
   return sum;
@@ -27,7 +27,7 @@ double squares_about_mean(std::span<const double> values) {
 std::vector<double> block_means(std::span<const double> values, std::size_t length) {
   std::vector<double> means;
   const std::size_t blocks = values.size() / length, left_over = values.size() - blocks * length;
-  for (std::size_t b = 0; b < blocks; ++b) means.push_back(mean_of(values.subspan(left_over + b * length, length)));
+  for (std::size_t b = 0; b < blocks; ++b) means.push_back(average(values.subspan(left_over + b * length, length)));
   return means;
 }
 
@@ -60,7 +60,7 @@ SteadyState steady_state(std::span<const double> values) {
   steady.first = cut == 0 ? 0 : left_over + cut * kBatchLength;
   steady.reached = 2 * steady.first <= values.size();
   const std::span<const double> rest = values.subspan(steady.first);
-  steady.mean = mean_of(rest);
+  steady.mean = average(rest);
   for (std::size_t length = 1; rest.size() / length >= kFewestBlocks; length *= 2)
     steady.standard_error = std::max(steady.standard_error, error_of_mean(block_means(rest, length)));
   return steady;

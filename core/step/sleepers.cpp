@@ -15,7 +15,7 @@ constexpr std::uint8_t kLooks = 12;             // in a row that find a grain ca
 constexpr std::int64_t kStepsPerChoice = 16;    // after which pairs are chosen anew for grains that woke
 constexpr std::int64_t kStepsPerBedtime = 128;  // after which they are for grains that are calm
 
-double square(double value) {
+double squared(double value) {
   return value * value;
 }
 
@@ -24,7 +24,7 @@ bool is_balanced(const World& world, std::int32_t i, double share) {
   const Load& load = world.particles.load[i];
   const double weight = world.particles.mass(i) * world.gravity, radius = world.particles.motion[i].radius;
   const Vec3 left = load.force - Vec3{0, 0, weight};
-  return dot(left, left) < square(share * weight) && dot(load.torque, load.torque) < square(share * weight * radius);
+  return dot(left, left) < squared(share * weight) && dot(load.torque, load.torque) < squared(share * weight * radius);
 }
 
 void add(Load& load, const Load& other) {
@@ -59,7 +59,7 @@ void Sleepers::fall_asleep(World& world, std::size_t block) {
     Spin& spin = particles.spin[i];
     const double mass = particles.mass(i);
     heat_[block] += 0.5 * mass * dot(motion.velocity, motion.velocity) +
-                    0.2 * mass * square(motion.radius) * dot(spin.velocity, spin.velocity);
+                    0.2 * mass * squared(motion.radius) * dot(spin.velocity, spin.velocity);
     motion.velocity = spin.velocity = {};
   }
 }
@@ -119,8 +119,8 @@ bool Sleepers::balance(World& world, std::size_t block) {
 bool Sleepers::is_calm(const World& world, std::int32_t i) const {
   const Motion& motion = world.particles.motion[i];
   const Vec3& spin = world.particles.spin[i].velocity;
-  const double slow = square(kSlow) * world.gravity * world.reference_radius;
-  return dot(motion.velocity, motion.velocity) < slow && square(motion.radius) * dot(spin, spin) < slow &&
+  const double slow = squared(kSlow) * world.gravity * world.reference_radius;
+  return dot(motion.velocity, motion.velocity) < slow && squared(motion.radius) * dot(spin, spin) < slow &&
          is_balanced(world, i, kFallAsleepLoad);
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int32_t kGrainsPerBlock =
     2000;  // at least; enough work to be handed to a thread, small enough for a cache
 
-double largest_radius(const Particles& particles) {
+double largest_of(const Particles& particles) {
   double largest = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) largest = std::max(largest, particles.motion[i].radius);
   return largest;
@@ -177,7 +177,7 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
   const std::int32_t n = particles.count();
   if (domain.repeats())
     for (std::int32_t i = 0; i < n; ++i) particles.motion[i].position = domain.put_back(particles.motion[i].position);
-  const double largest = largest_radius(particles);
+  const double largest = largest_of(particles);
   const double farthest = std::max({reach.formation_gap, reach.rupture_gap, reach.tear_gap}) / reach.reference_radius;
   const Cells cells(particles, domain, 2 * largest + farthest * largest + skin);
   const Sorted sorted = sort_by_cell(particles, cells);

@@ -11,7 +11,7 @@ namespace pastefit {
 namespace {
 
 constexpr int kStepsPerLook = 64;           // at what has fallen off, and at what the punch has left behind
-constexpr double kRestCap = 1;              // [s] simulated time granules are allowed for coming to rest
+constexpr double kPelletRestCap = 1;        // [s] simulated time granules are allowed for coming to rest
 constexpr double kBeyond = 1.25;            // of the die's radius: what lies farther out has fallen off
 constexpr double kMostFallen = 0.25;        // of the mass; beyond it there is no pellet any more
 constexpr double kStrainInterval = 0.0025;  // over which the force on the platen is averaged, as a load cell does
@@ -65,7 +65,7 @@ class Pressing {
     punch().velocity = {0, 0, -speed};
     if (auto problem = runner_.run({"press"}, (height_of_punch() - test_.pressed_height_m) / speed)) return problem;
     punch().velocity = {};
-    return runner_.settle({"press"}, kRestCap);
+    return runner_.settle({"press"}, kPelletRestCap);
   }
 
   /// Until nothing follows it any more.
@@ -79,14 +79,14 @@ class Pressing {
       return apart("withdraw", highest_point(world_.particles), height_of_punch(),
                    "granules stick to the punch and leave the die with it; give the tools a smaller cohesion_factor");
     punch().velocity = {};
-    return runner_.settle({"withdraw"}, kRestCap);
+    return runner_.settle({"withdraw"}, kPelletRestCap);
   }
 
   std::optional<Failure> take_away_die() {
     world_.walls.pop_back();
     runner_.changed();
     const auto fallen = [this](const World& world) { return world.step % kStepsPerLook == 0 && fell_apart(); };
-    if (auto problem = runner_.settle({"release", {}, fallen}, kRestCap)) return problem;
+    if (auto problem = runner_.settle({"release", {}, fallen}, kPelletRestCap)) return problem;
     pellet_height_ = highest_point(world_.particles);
     if (!fell_apart()) return {};
     return apart("release", fallen_share(), kMostFallen,

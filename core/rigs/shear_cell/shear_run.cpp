@@ -13,7 +13,7 @@ namespace pastefit {
 namespace {
 
 constexpr double kEmptiest = 0.25;  // solid share of a cell that is full
-constexpr double kRestCap = 1;      // [s] simulated time granules are allowed for coming to rest under the lid
+constexpr double kCellRestCap = 1;  // [s] simulated time granules are allowed for coming to rest under the lid
 constexpr int kIntervals = 256;     // of displacement, over each of which stress and height are averaged; with a step
                                     // so long that most of them have none there is nothing to read
 
@@ -111,7 +111,7 @@ class Shearing {
   std::optional<Failure> press_lid_on() {
     const auto drive = [this](World&, double dt) { press_lid(dt); };
     const double way = lid_height() - test_.fill_height_m + test_.lid_ribs.height_m;
-    if (auto problem = runner_.settle({"press", drive}, kRestCap, way / test_.lid_speed_m_s)) return problem;
+    if (auto problem = runner_.settle({"press", drive}, kCellRestCap, way / test_.lid_speed_m_s)) return problem;
     pressed_height_ = lid_height();
     return {};
   }

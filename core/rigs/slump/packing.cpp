@@ -41,7 +41,7 @@ double inner_radius(const Mould& mould, double z) {
 }
 
 /// Loose grains in mould and hopper, until enough is poured.
-void pour(const SlumpTest& test, Packing& packing) {
+void pour_into(const SlumpTest& test, Packing& packing) {
   LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), test.mould.base_radius_m,
                             [&](double z) { return inner_radius(test.mould, z); });
   packing.centres = std::move(poured.centres);
@@ -99,13 +99,13 @@ World filling_world(const SlumpTest& test, const RunOptions& options, const Pack
   return world;
 }
 
-double top_of(const Packing& packing) {
+double highest(const Packing& packing) {
   double top = 0;
   for (std::size_t i = 0; i < packing.centres.size(); ++i) top = std::max(top, packing.centres[i].z + packing.radii[i]);
   return top;
 }
 
-void add_work(Packing& packing, const RunSummary& run) {
+void take_work(Packing& packing, const RunSummary& run) {
   packing.run.particles = run.particles;
   packing.run.settled = run.settled;
   packing.run.steps += run.steps;
@@ -125,13 +125,13 @@ double pouring_speed(const World& world) {
 /// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
 /// 0.59: a weak paste then stands 20 mm lower (core/README.md).
 void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
-  const double top = top_of(packing);
+  const double top = highest(packing);
   World world = filling_world(test, options, packing, top);
   const double speed = pouring_speed(world);
   world.drag = kGravity / speed;
   Runner runner(world, options, posture_of_heap);
   packing.failure = runner.settle({"fill.pour"}, kFillCap, top / speed);
-  add_work(packing, runner.summary());
+  take_work(packing, runner.summary());
   take_grains(world, packing);
 }
 
@@ -147,7 +147,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   packing.centres.resize(kept);
   packing.radii.resize(kept);
 
-  const double top = std::max(top_of(packing), rim);
+  const double top = std::max(highest(packing), rim);
   World world = filling_world(test, options, packing, top);
   world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
   Runner runner(world, options, posture_of_heap);
@@ -158,7 +158,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
     std::get<Plane>(world.walls.back().shape).point.z = rim;
     packing.failure = runner.settle({"fill.rest"}, kFillCap);
   }
-  add_work(packing, runner.summary());
+  take_work(packing, runner.summary());
   take_grains(world, packing);
 }
 
@@ -197,7 +197,7 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
   SlumpTest poured = test;
   poured.grains = enlarged(test.grains, 1 / swelling);
   auto packing = std::make_shared<Packing>();
-  pour(poured, *packing);
+  pour_into(poured, *packing);
   let_fall(poured, options, *packing);
   if (!packing->failure) strike_off(poured, options, *packing);
   const double fraction = packing->solid_volume_m3 / volume_m3(test.mould);

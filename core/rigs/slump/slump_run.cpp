@@ -90,7 +90,7 @@ class MouldLift {
   double lost_below_ = 0;  ///< highest point [m]
 };
 
-void add_work(RunSummary& sum, const RunSummary& part) {
+void add_up(RunSummary& sum, const RunSummary& part) {
   sum.steps += part.steps;
   sum.particle_steps += part.particle_steps;
 }
@@ -105,7 +105,7 @@ RunSummary together(RunSummary lift, const RunSummary& drops) {
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);
   lift.settled = lift.settled && drops.settled;
   lift.energy_error = drops.energy_error;
-  add_work(lift, drops);
+  add_up(lift, drops);
   return lift;
 }
 
@@ -140,8 +140,8 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
   }
   outcome.run.ended_early = ended_early;
   if (options.fixed_wait_s) outcome.run.settled = false;  // nobody looked
-  if (!options.packing) add_work(outcome.run, packing->run);
-  add_work(outcome.run, filled.run);
+  if (!options.packing) add_up(outcome.run, packing->run);
+  add_up(outcome.run, filled.run);
   return outcome;
 }
 
