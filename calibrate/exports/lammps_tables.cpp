@@ -158,6 +158,11 @@ std::vector<std::string> losses_of_sticking(const ContactModel& contact, double 
         format("The card's friction is of the elastic part of the normal force, LAMMPS's of that force and twice the "
                "largest pull. Two grains that only stick hold %.3g N in the deck, %.3g N on the card.",
                contact.friction * 2 * pull_off, contact.friction * (jkr ? 4 : 1) * pull_off));
+  if (contact.friction_basis == FrictionBasis::net)
+    notes.push_back(format(
+        "The card's friction is of the normal force alone, LAMMPS's of that force and twice the largest pull. Two "
+        "grains that only stick hold %.3g N in the deck, nothing on the card.",
+        contact.friction * 2 * pull_off));
   return notes;
 }
 
@@ -178,7 +183,7 @@ std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
                1e3 * gaps.formation_m, 1e3 * gaps.rupture_m, early, 100 * early / whole, whole));
   }
   const double pull = attraction_n(contact, pair, 1e-12);
-  if (contact.friction_basis == FrictionBasis::total && pull > 0)
+  if (contact.friction_basis != FrictionBasis::elastic && pull > 0)
     notes.push_back(
         format("The card's friction is of the total normal force; LAMMPS's granular style, which does not "
                "see the table, takes that of the elastic force. Under the weight of ten grains its limit "

@@ -26,7 +26,7 @@ Models models_of(const ContactModel& contact, bool attracts) {
                               : constant ? " rolling_friction cdt"
                                          : " rolling_friction epsd";
   const std::string base = "model hertz tangential history";
-  const std::string reduce = contact.friction_basis == FrictionBasis::total ? " tangential_reduce on" : "";
+  const std::string reduce = contact.friction_basis != FrictionBasis::elastic ? " tangential_reduce on" : "";
   if (contact.normal == NormalLaw::sjkr) {
     const std::string both = base + " cohesion sjkr2" + rolling + reduce;
     return {both, both};

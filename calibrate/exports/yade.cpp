@@ -275,7 +275,7 @@ Result<Export> export_yade(const ExportScene& scene) {
   const double radius = test.grains.radius_m;
   const double sticking = 2 * std::numbers::pi * contact.surface_energy_j_m2 * radius;  // 4 pi gamma R*
   const double pull = sticking + attraction_n(contact, {radius, radius, radius}, 1e-12);
-  if (contact.friction_basis == FrictionBasis::total && pull > 0)
+  if (contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
         format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "
                "attraction (%.3g N) presses together holds %.3g N in Yade, nothing on the card.",

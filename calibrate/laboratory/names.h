@@ -27,8 +27,8 @@ inline constexpr auto rolling_models = words_of(RollingLaws{});
 inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
     {{"film", BridgeFormation::film}, {"touch", BridgeFormation::touch}}};
 
-inline constexpr std::array<Named<FrictionBasis>, 2> friction_bases{
-    {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}}};
+inline constexpr std::array<Named<FrictionBasis>, 3> friction_bases{
+    {{"elastic", FrictionBasis::elastic}, {"total", FrictionBasis::total}, {"net", FrictionBasis::net}}};
 
 /// The word for a choice of a test.
 template <class T, std::size_t N>

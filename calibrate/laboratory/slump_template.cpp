@@ -58,7 +58,7 @@ constexpr std::string_view slump_study =
   // capillary or none. A law has parameters of its own: what no chosen law has is refused.
   // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (there is no formation_ratio).
   // rolling_model: spring_dashpot, constant_torque or none.
-  // friction_basis: elastic (cohesion strengthens friction) or total (of the whole normal force).
+  // friction_basis: elastic (cohesion strengthens friction) total or net (of the whole normal force).
   "contact": {"normal": "hertz", "attraction": "polynomial", "formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
 
   // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.

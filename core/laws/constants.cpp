@@ -29,7 +29,8 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
 
 void set_friction(PairConstants& pair, double friction, FrictionBasis basis) {
   pair.friction = friction;
-  pair.friction_of_total = basis == FrictionBasis::total;
+  pair.friction_of_total = basis != FrictionBasis::elastic;
+  pair.friction_reserve = basis == FrictionBasis::net ? 0 : 1;
   // Of a force T the spring's own push is T^2/(4 S_t d): share x of the repulsion where T is mu times the repulsion.
   // T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two rounds, as in `act`.
   const double x = std::min(friction * friction / (6 * pair.tangential_ratio), 0.25);

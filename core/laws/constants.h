@@ -21,6 +21,7 @@ struct PairConstants {
   double friction = 0;               ///< Coulomb coefficient
   double slip_limit = 0;             ///< force of a sliding tangential spring over the repulsion
   bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
+  double friction_reserve = 1;       ///< share of the law's reserve (`Press::reserve`) that counts as normal force then
   double rolling_friction = 0;       ///< mu_r
   double roll_stiffness_share = 0;   ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
   double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2

@@ -110,7 +110,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
     if (counted) action.heat_bridge = action.heat_bridge + select(touching, joined, zero);
   }
 
-  const Real pressed = k.friction_of_total ? larger(action.push + press.reserve, zero) : press.load;
+  const Real pressed =
+      k.friction_of_total ? larger(fused(Real(k.friction_reserve), press.reserve, action.push), zero) : press.load;
 
   const BasicVec3<Real> velocity_t = fused(-approach, m.normal, m.velocity);
   const Real slip_factor = detail::restored(slip_turned, inverse_squares * roll_turned.square);

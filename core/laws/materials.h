@@ -76,7 +76,8 @@ struct Bridge {
 /// What the friction limit mu N is taken of.
 enum class FrictionBasis {
   elastic,  ///< the elastic repulsion (cohesion strengthens friction)
-  total     ///< the whole normal force, with a reserve where the law of the overlap attracts; never below zero
+  total,    ///< the whole normal force, with a reserve where the law of the overlap attracts; never below zero
+  net       ///< the whole normal force alone; never below zero
 };
 
 /// Grain against grain.

@@ -83,6 +83,7 @@ class Pipe(Desk):
                 for target in LAWS[:1] if sticks else LAWS:
                     self.done("export", card, "--to", target, "--out", out / target)
                     self.assertTrue((out / target / "parameters.csv").read_text().startswith("name,value,meaning"))
+                self.check_deck(kind, out)
                 self.assertEqual((out / LAWS[0] / "grains.csv").exists(), is_slump(kind))
                 self.assertEqual((out / "film/curve.csv").exists(), kind in ("pellet", "shear"))
                 self.assertEqual((out / "curve.csv").exists(), kind in ("pellet", "shear"))
@@ -108,22 +109,19 @@ class Pipe(Desk):
                 self.assertAlmostEqual(value, one["measured"], delta=1e-5 * abs(value))
         self.assertTrue(any(float(row[2]) < float(row[3]) for row in rows))
 
-    def test_a_deck_is_written_of_a_slump_test_and_refused_with_a_reason_of_others(self):
-        for kind in kinds():
-            with self.subTest(kind):
-                out = self.folder / kind
-                self.calibrated(self.write(kind), "--out", out, "--budget", "12")
-                result = run("export", out / "card.json", "--to", "lammps", "--out", out / "deck")
-                if is_slump(kind):
-                    self.assertEqual(result.returncode, 0, result.stderr)
-                    continue
-                self.assertEqual(result.returncode, 2)
-                self.assertIn(f"is a {kind} test", result.stderr)
-                self.assertFalse((out / "deck").exists())
-                named = re.search(r"its law alone: ([\w, -]+)", result.stderr)[1].split(", ")
-                self.assertIn("edem-notes", named)
-                for target in named:
-                    self.done("export", out / "card.json", "--to", target, "--out", out / target)
+    def check_deck(self, kind, out):
+        """A deck is written of a slump test, and refused of others with a reason and with targets that take the law."""
+        result = run("export", out / "card.json", "--to", "lammps", "--out", out / "deck")
+        if is_slump(kind):
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(f"is a {kind} test", result.stderr)
+        self.assertFalse((out / "deck").exists())
+        named = re.search(r"its law alone: ([\w, -]+)", result.stderr)[1].split(", ")
+        self.assertIn("edem-notes", named)
+        for target in named:
+            self.done("export", out / "card.json", "--to", target, "--out", out / "named" / target)
 
     def test_readings_of_another_kind_are_refused_in_one_message(self):
         of_kind = {}
