@@ -1,72 +1,24 @@
-#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <thread>
 
-#include "calibrate/laboratory/slump.h"
 #include "calibrate/store/outcome_json.h"
-#include "calibrate/store/store.h"
-#include "calibrate/study/parameters.h"
 #include "tests/calibrate/folder.h"
+#include "tests/calibrate/store/stored.h"
 
 using namespace pastefit;
-using test::Folder;
+using namespace pastefit::test;
 
 namespace {
-
-const StoreIdentity kIdentity{"pastefit 0.1.0 engine abc",
-                              R"({"study": {"parameters": {"friction": {"free": [0, 1]}}, "search": {"seed": 1}},
-                                  "laboratories": [{"laboratory": {"measurements": {"step1.height_mm": {"value": 1}}}}]})"};
-
-StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
-  StoredEvaluation out;
-  out.point = {value, 0.1 + 0.2};
-  out.values = usual_values();
-  out.values[0] = value * 3000;
-  out.values[5] = 1.0 / 3;
-  out.packing = packing;
-  SlumpTest test;
-  test.contact.friction = value;
-  test.packing_seed = packing;
-  out.key = evaluation_key(kIdentity.program, test);
-  out.observables.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
-  out.observables.set("fill.mass_kg", 9.9999999999999982);
-  out.run = {.particles = 1250,
-             .steps = 60000,
-             .particle_steps = 75000000,
-             .time_step_s = 4.1e-5,
-             .simulated_s = 2.46,
-             .settled = true,
-             .energy_error = 1e-4};
-  out.wall_s = 1.9;
-  return out;
-}
-
-Store opened(const std::filesystem::path& file, const StoreIdentity& identity = kIdentity) {
-  auto store = Store::open(file, identity);
-  INFO((store.ok() ? "" : store.faults()[0].where + ": " + store.faults()[0].what));
-  REQUIRE(store.ok());
-  return std::move(store).value();
-}
-
-void execute(const std::filesystem::path& file, const char* sql) {
-  sqlite3* database = nullptr;
-  REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
-  REQUIRE(sqlite3_exec(database, sql, nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(database);
-}
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -270,133 +222,6 @@ TEST_CASE("changed inputs are named, and begin an epoch that keeps what is known
   CHECK(again.changes().empty());
   CHECK(again.epoch() == 2);
   CHECK(again.all().at(1).epoch == 2);
-}
-
-TEST_CASE("a file that is not a store is refused and left as it was") {
-  const Folder folder;
-  const auto file = folder.path() / "evaluations.sqlite";
-  SECTION("text") {
-    std::ofstream(file) << std::string(5000, 'x');
-  }
-  SECTION("another database") {
-    execute(file, "CREATE TABLE people (name TEXT)");
-  }
-  SECTION("another schema version") {
-    CHECK(opened(file).add(evaluation(0.5)).empty());
-    execute(file, "PRAGMA user_version = 99");
-  }
-  SECTION("a damaged record of the study") {
-    CHECK(opened(file).add(evaluation(0.5)).empty());
-    execute(file, "UPDATE inputs SET content = replace(content, '1', '2')");
-  }
-  SECTION("cut short") {
-    {
-      auto store = opened(file);
-      for (int i = 0; i < 50; ++i) CHECK(store.add(evaluation(0.01 * i)).empty());
-    }
-    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-  }
-  const auto before = test::content(file);
-  const auto store = Store::open(file, kIdentity);
-  REQUIRE_FALSE(store.ok());
-  CHECK_THAT(store.faults()[0].where, Catch::Contains("evaluations.sqlite"));
-  CHECK_FALSE(store.faults()[0].remedy.empty());
-  CHECK(test::content(file) == before);
-}
-
-TEST_CASE("a damaged evaluation is named, set aside, and kept anew") {
-  const Folder folder;
-  const auto file = folder.path() / "evaluations.sqlite";
-  {
-    auto store = opened(file);
-    for (int i = 0; i < 3; ++i) CHECK(store.add(evaluation(0.1 * i)).empty());
-    CHECK(store.remarks().empty());
-  }
-  SECTION("a reading") {
-    execute(file, "UPDATE evaluations SET observables = replace(observables, '9', '8') WHERE sequence = 2");
-  }
-  SECTION("the parameters") {
-    execute(file, "UPDATE evaluations SET parameter_values = '{}' WHERE sequence = 2");
-  }
-  SECTION("the name") {
-    execute(file, "UPDATE evaluations SET key = (SELECT key FROM evaluations WHERE sequence = 1) WHERE sequence = 2");
-  }
-  SECTION("the order") {
-    execute(file, "UPDATE evaluations SET sequence = 7 WHERE sequence = 2");
-  }
-  SECTION("what is no JSON") {
-    execute(file, "UPDATE evaluations SET failure = '{\"reason\": \"moonlight' WHERE sequence = 2");
-  }
-  {
-    auto store = opened(file);
-    REQUIRE(store.remarks().size() == 1);
-    CHECK_THAT(store.remarks()[0], Catch::Contains("evaluation 2") || Catch::Contains("evaluation 7"));
-    CHECK(store.size() == 2);
-    CHECK(store.find(evaluation(0).key));
-    CHECK_FALSE(store.find(evaluation(0.1).key));
-    CHECK(store.add(evaluation(0.1)).empty());
-  }
-  const auto again = opened(file);
-  CHECK(again.remarks().empty());
-  CHECK(again.size() == 3);
-  CHECK(again.find(evaluation(0.1).key));
-}
-
-TEST_CASE("evaluations that are missing are said") {
-  const Folder folder;
-  const auto file = folder.path() / "evaluations.sqlite";
-  {
-    auto store = opened(file);
-    for (int i = 0; i < 3; ++i) CHECK(store.add(evaluation(0.1 * i)).empty());
-  }
-  SECTION("the last one") {
-    execute(file, "DELETE FROM evaluations WHERE sequence = 3");
-    REQUIRE(opened(file).remarks().size() == 1);
-    CHECK_THAT(opened(file).remarks()[0], Catch::Contains("of 3") && Catch::Contains("2 are there"));
-  }
-  SECTION("all of them and the file's content") {
-    std::filesystem::resize_file(file, 0);
-    const auto store = opened(file);
-    REQUIRE(store.remarks().size() == 1);
-    CHECK_THAT(store.remarks()[0], Catch::Contains("empty"));
-  }
-}
-
-TEST_CASE("whichever bit of a store is flipped, no evaluation is another one in silence") {
-  const Folder folder;
-  const auto file = folder.path() / "evaluations.sqlite", broken = folder.path() / "broken.sqlite";
-  std::vector<StoredEvaluation> kept;
-  {
-    auto store = opened(file);
-    for (int i = 0; i < 3; ++i) CHECK(store.add(evaluation(0.1 * i)).empty());
-    kept = store.all();
-  }
-  const auto text_of = [](const StoredEvaluation& one) {
-    return one.key + nlohmann::json(one.point).dump() + nlohmann::json(one.values).dump() +
-           std::to_string(one.packing) + to_json(one.observables).dump() + to_json(one.run, one.wall_s).dump() +
-           std::to_string(one.epoch);
-  };
-  const std::string whole = test::content(file);
-  int set_aside = 0, refused = 0;
-  for (std::size_t byte = 0; byte < whole.size(); byte += 11) {
-    std::string flipped = whole;
-    flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << byte % 8));
-    std::ofstream(broken, std::ios::binary) << flipped;
-    for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(broken.string() + suffix);
-    const auto store = Store::open(broken, kIdentity);
-    if (!store.ok()) {
-      ++refused;
-      continue;
-    }
-    const auto found = store.value().all();
-    set_aside += found.size() < kept.size();
-    INFO("byte " << byte);
-    if (found.size() < kept.size()) CHECK_FALSE(store.value().remarks().empty());
-    for (const auto& one : found)
-      CHECK(std::ranges::any_of(kept, [&](const auto& other) { return text_of(one) == text_of(other); }));
-  }
-  CHECK(set_aside > 20);
-  CHECK(refused > 0);
 }
 
 TEST_CASE("a store whose folder does not exist is a fault, not an exception") {
