@@ -1,6 +1,8 @@
 """A user at the command line: the program, shipped files and a folder of his own. Reads PROGRAM and SOURCE_DIR from the
 command line of the test."""
 
+import atexit
+import functools
 import json
 import os
 import pathlib
@@ -21,6 +23,17 @@ COARSE = ["--set", "grains.radius_mm=12"]
 
 def run(*arguments, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+@functools.cache
+def coarse_card():
+    """The shipped card with large grains, which are quick to export; without a baseline."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="pastefit-cli-"))
+    atexit.register(shutil.rmtree, folder)
+    card = folder / "coarse.json"
+    result = run("rescale", CARD, "--radius", "12", "--packings", "0", "--out", card)
+    assert result.returncode == 0, result.stderr
+    return card
 
 
 class Desk(unittest.TestCase):

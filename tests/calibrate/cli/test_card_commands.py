@@ -8,7 +8,7 @@ import sys
 import unittest
 import xml.etree.ElementTree as xml
 
-from desk import SOURCE, Desk, run
+from desk import coarse_card, SOURCE, Desk, run
 
 CARD = SOURCE / "tests/calibrate/card/versions/card-5.json"
 SEVERAL = CARD.with_name("card-3-several.json")
@@ -68,10 +68,10 @@ class CardCommands(Desk):
     def test_export_writes_every_target_whole_and_replaces_nothing(self):
         for target in TARGETS:
             out = self.folder / target
-            result = run("export", CARD, "--to", target, "--out", out)
+            result = run("export", coarse_card(), "--to", target, "--out", out)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("NOTES.txt", result.stdout)
-            self.fails(run("export", CARD, "--to", target, "--out", out), 2, "earlier result")
+            self.fails(run("export", coarse_card(), "--to", target, "--out", out), 2, "earlier result")
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
         self.assertFalse((self.folder / "x").exists())
 

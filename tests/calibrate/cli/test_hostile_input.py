@@ -17,7 +17,7 @@ import time
 import unittest
 import xml.etree.ElementTree as xml
 
-from desk import CARD, LAB, PROGRAM, RIG, SOURCE, STUDY, Desk, run
+from desk import CARD, coarse_card, LAB, PROGRAM, RIG, SOURCE, STUDY, Desk, run
 
 # A line break, commands of the decks, quotation marks, an encoding of Python, and controls of a terminal.
 TITLE = ('paste\nshell touch pwned\r\nprint("""x""")\n"""\nimport os; os.mkdir("pwned")\n# coding: utf-7\n'
@@ -45,7 +45,7 @@ class HostileInput(Desk):
     # titles
 
     def test_a_title_in_a_deck_is_a_comment_of_one_line(self):
-        plain, titled = CARD, self.titled(CARD)
+        plain, titled = coarse_card(), self.titled(coarse_card())
         for target, decks in (("lammps", ("in.slump", "in.two_grains")), ("lammps-tables", ("in.slump", "in.two_grains")),
                               ("liggghts", ("in.slump", "in.two_grains")), ("yade", ("pastefit_material.py",))):
             with self.subTest(target):
@@ -64,7 +64,7 @@ class HostileInput(Desk):
                     self.assert_harmless_in_terminal(comment)
 
     def test_a_title_in_a_module_of_python_runs_nothing(self):
-        result = run("export", self.titled(CARD), "--to", "yade", "--out", self.out)
+        result = run("export", self.titled(coarse_card()), "--to", "yade", "--out", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
         module = (self.out / "pastefit_material.py").read_bytes()
         self.assertNotIn(b"coding", b"\n".join(module.split(b"\n")[:2]))

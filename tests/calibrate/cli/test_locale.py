@@ -11,7 +11,7 @@ import sys
 import tempfile
 import unittest
 
-from desk import CARD, LAB, STUDY, Desk, run
+from desk import CARD, coarse_card, LAB, STUDY, Desk, run
 
 LOCALES = ("de_DE", "tr_TR")
 
@@ -48,7 +48,7 @@ class Locale(Desk):
                     ["calibrate", small, "--out", out / "calibration", "--threads", "1"],
                     ["show", CARD], ["verify", "free-fall", "chung-ooi-1"],
                     ["rescale", CARD, "--radius", "9.5", "--packings", "0", "--out", out / "rescaled.json"],
-                    *(["export", CARD, "--to", target, "--out", out / target]
+                    *(["export", coarse_card(), "--to", target, "--out", out / target]
                       for target in ("lammps", "liggghts", "yade", "csv")))]
         for answer in answers:
             self.assertIn(answer.returncode, (0, 1), answer.stderr)

@@ -157,16 +157,15 @@ TEST_CASE("a lag of one costs simulations, and saves time", "[campaign]") {
   std::vector<std::vector<Cost>> costs;  // by lag and cores
   for (const int lag : {0, 1}) {
     costs.emplace_back();
-    for (const int cores : {2, 4, 8}) {
+    for (const int cores : {2, 8}) {
       const Cost cost = costs.back().emplace_back(cost_of(lag, cores, seeds));
       UNSCOPED_INFO("lag " << lag << ", " << cores << " cores: " << cost.simulations << " simulations, " << cost.time
                            << " units of time");
       CHECK(cost.confirmed >= 0.95 * seeds);
     }
   }
-  CHECK(costs[1][0].simulations == costs[1][2].simulations);  // cores change the time alone
+  CHECK(costs[1][0].simulations == costs[1][1].simulations);  // cores change the time alone
   CHECK(costs[1][0].simulations < 1.4 * costs[0][0].simulations);
   CHECK(costs[1][0].time < costs[0][0].time);
   CHECK(costs[1][1].time < costs[0][1].time);
-  CHECK(costs[1][2].time < costs[0][2].time);
 }
