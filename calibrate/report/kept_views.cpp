@@ -54,7 +54,10 @@ Outline outline_of(const json& in) {
 }
 
 SeenRun run_of(const json& in) {
-  SeenRun out{in.at("packing").get<std::uint64_t>(), observables_from_json(in.at("readings")), {}, {}};
+  SeenRun out{static_cast<std::uint64_t>(whole_number_from_json(in.at("packing"))),
+              observables_from_json(in.at("readings")),
+              {},
+              {}};
   for (const auto& [name, outline] : in.at("outlines").items()) out.outlines[name] = outline_of(outline);
   if (!in.contains("curve")) return out;
   const json& curve = in.at("curve");

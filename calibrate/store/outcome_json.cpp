@@ -87,6 +87,11 @@ Observables observables_from_json(const ordered_json& in) {
   return out;
 }
 
+std::int64_t whole_number_from_json(const json& in) {
+  if (!in.is_number_integer()) throw std::invalid_argument(in.dump() + " is no whole number");
+  return in.get<std::int64_t>();
+}
+
 std::optional<Failure> failure_from_json(const json& in) {
   if (in.is_null()) return std::nullopt;
   Failure out;
@@ -99,9 +104,9 @@ std::optional<Failure> failure_from_json(const json& in) {
   }
   out.reason = static_cast<FailureReason>(index);
   out.phase = in.at("phase").get<std::string>();
-  out.step = in.at("step").get<std::int64_t>();
+  out.step = whole_number_from_json(in.at("step"));
   out.time_s = number_from_json(in.at("time_s"));
-  out.grain = in.at("grain").get<std::int64_t>();
+  out.grain = whole_number_from_json(in.at("grain"));
   out.value = number_from_json(in.at("value"));
   out.limit = number_from_json(in.at("limit"));
   out.message = in.at("message").get<std::string>();
@@ -110,9 +115,9 @@ std::optional<Failure> failure_from_json(const json& in) {
 
 RunSummary run_from_json(const json& in) {
   RunSummary out;
-  out.particles = in.at("particles").get<std::int64_t>();
-  out.steps = in.at("steps").get<std::int64_t>();
-  out.particle_steps = in.at("particle_steps").get<std::int64_t>();
+  out.particles = whole_number_from_json(in.at("particles"));
+  out.steps = whole_number_from_json(in.at("steps"));
+  out.particle_steps = whole_number_from_json(in.at("particle_steps"));
   out.time_step_s = number_from_json(in.at("time_step_s"));
   out.simulated_s = number_from_json(in.at("simulated_s"));
   out.settled = in.at("settled").get<bool>();

@@ -35,6 +35,7 @@ nlohmann::ordered_json to_json(const Sketch& sketch);
 /// The inverses. Errors: throw nlohmann::json::exception or std::invalid_argument when the text is not what the
 /// functions above write; a caller that reads a file turns them into a fault.
 Observables observables_from_json(const nlohmann::ordered_json& in);
+std::int64_t whole_number_from_json(const nlohmann::json& in);
 std::optional<Failure> failure_from_json(const nlohmann::json& in);
 RunSummary run_from_json(const nlohmann::json& in);
 Sketch sketch_from_json(const nlohmann::json& in);

@@ -80,6 +80,14 @@ TEST_CASE("a damaged evaluation is named, set aside, and kept anew") {
   CHECK(again.find(evaluation(0.1).key));
 }
 
+TEST_CASE("what is stored as a number of steps or grains is a whole number or refused, whatever its size") {
+  using nlohmann::json;
+  CHECK(whole_number_from_json(json(-1)) == -1);
+  CHECK(whole_number_from_json(json(std::int64_t{1} << 62)) == std::int64_t{1} << 62);
+  for (const json& other : {json(1.5), json(1.8446744073709552e19), json("7"), json(nullptr)})
+    CHECK_THROWS_AS(whole_number_from_json(other), std::invalid_argument);
+}
+
 TEST_CASE("evaluations that are missing are said") {
   const Folder folder;
   const auto file = folder.path() / "evaluations.sqlite";
