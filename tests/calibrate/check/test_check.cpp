@@ -167,9 +167,8 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   CHECK(measured.value().confirmation.misfit == Approx(1));
 }
 
-// With sanitizers, whose simulations take minutes, the rest of the tests has to do.
-#ifndef __SANITIZE_ADDRESS__
-TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction dropped, and a plate dropped twice") {
+TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction dropped, and a plate dropped twice",
+          "[campaign]") {
   const Card card = with_baseline(coarse_card(), 24);
   const auto engine = engine_of(card);
   const CheckOptions options;
@@ -195,7 +194,6 @@ TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction droppe
   REQUIRE_FALSE(caught.empty());
   for (const auto& name : caught) CHECK_THAT(name, Catch::StartsWith("step2."));
 }
-#endif
 
 TEST_CASE("any change at all is a change of bits, and the same program gives the same bits", "[campaign]") {
   const Card card = with_baseline(coarse_card(), 2);
