@@ -147,7 +147,7 @@ int least_of(int count) {
 
 }  // namespace
 
-TEST_CASE("intervals of 95 % hold the truth as often as they say, a height alone fitted", "[coverage]") {
+TEST_CASE("intervals of 95 % hold the truth as often as they say, a height alone fitted", "[coverage][campaign]") {
   const auto [strength, friction] = tally_of(false);
   INFO(strength.held << " of " << strength.told << ", mean width " << strength.width / strength.told);
   CHECK(strength.told >= 95);
@@ -155,7 +155,7 @@ TEST_CASE("intervals of 95 % hold the truth as often as they say, a height alone
   CHECK(strength.width / strength.told < 0.26);
 }
 
-TEST_CASE("intervals of 95 % hold the truth as often as they say, height and spread fitted", "[coverage]") {
+TEST_CASE("intervals of 95 % hold the truth as often as they say, height and spread fitted", "[coverage][campaign]") {
   const auto [strength, friction] = tally_of(true);
   INFO("strength: " << strength.held << " of " << strength.told << ", mean width " << strength.width / strength.told);
   INFO("friction: " << friction.held << " of " << friction.told << ", mean width " << friction.width / friction.told);
