@@ -42,6 +42,13 @@ class Desk(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.out = self.folder / "out"
 
+    def terminal(self):
+        """Both ends of a terminal. A system without devices, as in a bare chroot, has none."""
+        try:
+            return os.openpty()
+        except OSError as error:
+            raise unittest.SkipTest(f"no terminal can be made here: {error}")
+
     def study(self, budget=4, screening=2, radius_mm=12, **changes):
         """A study of coarse grains with few simulations, beside its laboratory file."""
         lab = json.loads(LAB.read_text())

@@ -330,7 +330,7 @@ class CommandLine(Desk):
         for width, budget in ((30, 8), (80, 24)):
             with self.subTest(width):
                 study = self.study(budget=budget, screening=6, radius_mm=14)
-                ours, theirs = os.openpty()
+                ours, theirs = self.terminal()
                 fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
                 process = subprocess.Popen([PROGRAM, "calibrate", str(study), "--out", str(self.out), "--force"],
                                            stdout=subprocess.DEVNULL, stderr=theirs,
@@ -352,7 +352,7 @@ class CommandLine(Desk):
                     self.assertTrue(any(re.search(r"\d+( s| min)? to \d+ (s|min) left", line) for line in rewritten))
 
     def test_a_terminal_that_cannot_rewrite_a_line_gets_plain_ones(self):
-        ours, theirs = os.openpty()
+        ours, theirs = self.terminal()
         process = subprocess.Popen([PROGRAM, "calibrate", str(self.study(radius_mm=14)), "--out", str(self.out)],
                                    stdout=subprocess.DEVNULL, stderr=theirs, env={**os.environ, "TERM": "dumb"})
         os.close(theirs)
