@@ -70,7 +70,8 @@ json object_in(const json& object, const char* key) {
 
 /// A test with a reader of its own, which knows its fields; whether it could be read. What it does not say is the
 /// material's, and so are the faults of that.
-bool read_card_test(json document, const json& material, const std::string& place, Test& target, Faults& faults) {
+bool read_test_of_material(json document, const json& material, const std::string& place, Test& target,
+                           Faults& faults) {
   std::set<std::string> taken;
   for (const std::string key : of_material)
     if (document.is_object() && !document.contains(key)) {
@@ -127,7 +128,7 @@ void read_card_test(ObjectReader& reader, const json& document, const json& mate
   reader.known("conditions");
   reader.known("test");
   const bool has_test =
-      read_card_test(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());
+      read_test_of_material(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());
   const Test* ranges = has_test ? &test.test : nullptr;
   read_observables(reader, document, ranges, test.observables);
   if (bool within = false; reader.flag("within_noise", within, kOptional)) test.within_noise = within;

@@ -60,11 +60,12 @@ std::string bridge_words(const Bridge& bridge) {
 std::string pair_style(const SlumpTest& test) {
   const auto& contact = test.contact;
   const double radius = test.grains.radius_m;
+  const bool elastic = contact.friction_basis == FrictionBasis::elastic;
   return "pair_style   pastefit" + number("reference_radius_m", radius) +
          number("youngs_modulus_pa", contact.youngs_modulus_pa) + number("poissons_ratio", contact.poissons_ratio) +
          number("restitution", contact.restitution) + number("friction", contact.friction) +
          // Laws of the overlap that this style has know no reserve: of them net and total are the same.
-         word("friction_basis", std::min(contact.friction_basis, FrictionBasis::total), friction_bases) +
+         word("friction_basis", elastic ? FrictionBasis::elastic : FrictionBasis::total, friction_bases) +
          number("rolling_friction", contact.rolling_friction) + word("rolling", contact.rolling, rolling_models) +
          number("cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12)) + bridge_words(contact.bridge) +
          "\npair_coeff   * *\n";

@@ -8,12 +8,12 @@
 #include "calibrate/base/format.h"
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr double kFall = 9.81;
 constexpr double kRelaxDrag = 40;  // [1/s], as in our own relaxation of the fill
 constexpr double kRelaxTime = 0.25;
 constexpr double kRestTime = 4.0;
@@ -95,7 +95,7 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   out += "processors   * * 1\nread_data    grains.data\n" + laws.pairs;
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
-  out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kFall);
+  out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
   const bool falls = test.drop && laws.hinge;
   if (falls) out += "variable     tilt equal 0\n";
