@@ -30,7 +30,7 @@ FilmFrame frame_of(const World& world) {
     const auto identity = static_cast<std::size_t>(world.particles.identity[i]);
     const Motion& motion = world.particles.motion[i];
     frame.centres_m[identity] = motion.position;
-    frame.speeds_m_s[identity] = static_cast<float>(norm(motion.velocity));
+    frame.speeds_m_s[identity] = static_cast<float>(norm(world.particles.velocity[i].linear));
     frame.coordination[identity] = touching[i];
     frame.pulls_n[identity] = pulls[i];
   }

@@ -94,8 +94,8 @@ GrainFrame grain_frame(const World& world) {
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     const Motion& motion = world.particles.motion[i];
     frame.positions_m.push_back(motion.position);
-    frame.velocities_m_s.push_back(motion.velocity);
-    frame.spins_rad_s.push_back(world.particles.spin[i].velocity);
+    frame.velocities_m_s.push_back(world.particles.velocity[i].linear);
+    frame.spins_rad_s.push_back(world.particles.velocity[i].angular);
     frame.radii_m.push_back(motion.radius);
   }
   return frame;

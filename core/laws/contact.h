@@ -69,11 +69,9 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   detail::Turned<Real> roll_turned{};
   roll_turned.square = one;
   if constexpr (Rolling::turns) roll_turned = detail::turned(memory.roll, m.normal, twist_angle);
-  const Real brakes = brake_n * brake_t, squares = slip_turned.square * roll_turned.square;
-  const Real wide = larger(contact_radius, floor);
-  const Real inverse = one / (brakes * squares * wide);
-  const Real inverse_brakes = inverse * squares * wide, inverse_squares = inverse * brakes * wide;
-  const Real inverse_contact_radius = inverse * brakes * squares;
+  const Real brakes = brake_n * brake_t, wide = larger(contact_radius, Real(detail::kNoWidth));
+  const Real inverse = one / (brakes * wide);
+  const Real inverse_brakes = inverse * wide, inverse_contact_radius = inverse * brakes;
   const Real old_contact_radius = memory.root_contact_radius * memory.root_contact_radius;
   const Real damper_n = damping_n * brake_t * inverse_brakes;
   const Real damper_t = damping_t * brake_n * inverse_brakes;
@@ -114,7 +112,7 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
       k.friction_of_total ? larger(fused(Real(k.friction_reserve), press.reserve, action.push), zero) : press.load;
 
   const BasicVec3<Real> velocity_t = fused(-approach, m.normal, m.velocity);
-  const Real slip_factor = detail::restored(slip_turned, inverse_squares * roll_turned.square);
+  const Real slip_factor = detail::restored(slip_turned);
   const BasicVec3<Real> stretched = fused(slip_factor, slip_turned.vector, dt * velocity_t);
   const Real stretch_square = larger(dot(stretched, stretched), floor);
   const Real held = detail::cap(stretch_square * stiffness_t * stiffness_t, Real(k.slip_limit) * press.load);
@@ -133,7 +131,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   if (counted) {
     const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
     const Real old_slip_energy = half * old_stiffness_t * (slip_turned.square + slip_turned.lost);
-    const Real old_slip_push = Normal::widening(k, radius, old_slip_energy, one / larger(old_contact_radius, floor));
+    const Real old_slip_push =
+        Normal::widening(k, radius, old_slip_energy, one / larger(old_contact_radius, Real(detail::kNoWidth)));
     // Work along the mean of the velocities before and after each step, summed by parts: the damper of this step counts
     // for three quarters, that of the last for one; not for more where a contact that held is suddenly torn away.
     const Real drag = kept * damper_t;
@@ -151,7 +150,7 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   rolling.touching = touching;
   rolling.spin = fused(-dot(m.spin, m.normal), m.normal, m.spin);
   rolling.turned = roll_turned;
-  rolling.restored = detail::restored(roll_turned, inverse_squares * slip_turned.square);
+  rolling.restored = detail::restored(roll_turned);
   rolling.radius = radius;
   rolling.smaller_radius = m.smaller_radius;
   rolling.root_mass = m.root_mass;

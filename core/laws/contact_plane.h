@@ -9,7 +9,8 @@ namespace pastefit::detail {
 
 /// Squared lengths and denominators are kept above this before they are divided by; far below anything in a scene, far
 /// above the smallest number, so that a product of four of them is still a number.
-inline constexpr double kFloor = 1e-60;
+inline constexpr double kFloor = 1e-30;
+inline constexpr double kNoWidth = 1e-15;
 
 /// A vector of the contact plane on its way to the plane as it is now: projected, turned with the twist; the length it
 /// lost by the projection is given back by `restored`.
@@ -29,8 +30,8 @@ PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Re
 
 /// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step.
 template <class Real>
-PASTEFIT_INLINE Real restored(const Turned<Real>& t, Real inverse_square) {
-  return fused(Real(0.5) * t.lost, inverse_square, Real(1.0));
+PASTEFIT_INLINE Real restored(const Turned<Real>& t) {
+  return Real(1.0) + Real(0.5) * t.lost / t.square;
 }
 
 /// The factor that brings a vector down to `limit`; 1 if it is not longer. Where all contacts of a batch hold, as in a

@@ -13,80 +13,106 @@ namespace pastefit::PASTEFIT_ISA {
 
 namespace {
 
-constexpr int kWidth = PASTEFIT_WIDTH;
-using Real = Pack<kWidth>;
+constexpr int kWidth = PASTEFIT_WIDTH, kHalf = kWidth / 2;
+using Real = Singles<kWidth>;
 using Vector = BasicVec3<Real>;
 
-/// One grain per lane.
-struct Grains {
-  Vector position, velocity, spin;
-  Real radius, damping_rate, inverse_mass;
+/// Rows of the lanes' grains. The lists of grains are read once: a compiler cannot know that no load is written there.
+class Lanes {
+ public:
+  PASTEFIT_INLINE explicit Lanes(const std::int32_t* grain) {
+    for (int lane = 0; lane < kWidth; ++lane) offset_[lane] = std::int64_t{grain[lane]} * kRow;
+  }
+  PASTEFIT_INLINE const Motion& motion(const KernelTask& task, int lane) const {
+    return *reinterpret_cast<const Motion*>(reinterpret_cast<const char*>(task.motion) + offset_[lane]);
+  }
+  PASTEFIT_INLINE Load& load(const KernelTask& task, int lane) const {
+    return *reinterpret_cast<Load*>(reinterpret_cast<char*>(task.load) + offset_[lane]);
+  }
+
+ private:
+  static constexpr std::int64_t kRow = sizeof(Motion);
+  static_assert(sizeof(Load) == kRow);
+  std::int64_t offset_[kWidth];
 };
 
-/// Rows of the lanes' grains, turned into packs.
-PASTEFIT_INLINE Grains gather(const KernelTask& task, const std::int32_t* index) {
-  Real columns[8];
-  read_rows<kWidth, 8>([&](int lane) { return &task.motion[index[lane]].position.x; }, columns);
-  Grains g;
-  g.position = {columns[0], columns[1], columns[2]};
-  g.radius = columns[3];
-  g.velocity = {columns[4], columns[5], columns[6]};
-  g.damping_rate = columns[7];
-  read_quads([&](int lane) { return &task.spin[index[lane]].velocity.x; }, g.spin.x, g.spin.y, g.spin.z,
-             g.inverse_mass);
-  return g;
-}
-
-/// Where the lanes' grains are.
-struct Place {
-  Vector position;
-  Real radius;
+/// Where the lanes' pairs are to each other. Places are doubles and so are their differences, which are rounded then;
+/// d = r - s, small beside both, is (r^2 - s^2)/(r + s) of the exact squares.
+struct Pairing {
+  Vector between;  ///< from centre to centre
+  Real distance, overlap;
+  Real reach;  ///< sum of the radii
 };
 
-PASTEFIT_INLINE Place locate(const KernelTask& task, const std::int32_t* index) {
-  Place p;
-  read_quads([&](int lane) { return &task.motion[index[lane]].position.x; }, p.position.x, p.position.y, p.position.z,
-             p.radius);
+PASTEFIT_INLINE Pairing pairing(const KernelTask& task, const Lanes& i, const Lanes& j) {
+  using Half = Doubles<kHalf>;
+  BasicVec3<Half> between[2];
+  Half reach[2], square[2], beyond[2];
+  for (int half = 0; half < 2; ++half) {
+    const auto row_of = [&](const Lanes& lanes) {
+      return [&](int lane) { return &lanes.motion(task, half * kHalf + lane).position.x; };
+    };
+    Half columns[4];
+    read_differences(row_of(i), row_of(j), columns);
+    between[half] = task.domain.shortest(BasicVec3<Half>{columns[0], columns[1], columns[2]});
+    reach[half] = columns[3];
+    square[half] = dot(between[half], between[half]);
+    beyond[half] = reach[half] * reach[half] - square[half];  // exactly 0 where they just touch
+  }
+  Pairing p;
+  p.between = {narrow(between[0].x, between[1].x), narrow(between[0].y, between[1].y),
+               narrow(between[0].z, between[1].z)};
+  p.reach = narrow(reach[0], reach[1]);
+  p.distance = square_root(larger(narrow(square[0], square[1]), Real(1e-30)));
+  p.overlap = narrow(beyond[0], beyond[1]) / (p.reach + p.distance);
   return p;
 }
 
-PASTEFIT_INLINE Vector load(const double (&rows)[3][kBatch], int lane) {
+/// A vector and the number beside it.
+struct Quad {
+  Vector vector;
+  Real beside;
+};
+
+PASTEFIT_INLINE Quad velocities(const KernelTask& task, const Lanes& grains) {
+  Real columns[4];
+  read_quads<kWidth>([&](int lane) { return grains.motion(task, lane).velocity; }, columns);
+  return {{columns[0], columns[1], columns[2]}, columns[3]};
+}
+PASTEFIT_INLINE Quad spins(const KernelTask& task, const Lanes& grains) {
+  Real columns[4];
+  read_quads<kWidth>([&](int lane) { return grains.motion(task, lane).spin; }, columns);
+  return {{columns[0], columns[1], columns[2]}, columns[3]};
+}
+
+PASTEFIT_INLINE Vector load(const float (&rows)[3][kBatch], int lane) {
   return {Real::load(rows[0] + lane), Real::load(rows[1] + lane), Real::load(rows[2] + lane)};
 }
 
-PASTEFIT_INLINE void store(double (&rows)[3][kBatch], int lane, const Vector& v) {
+PASTEFIT_INLINE void store(float (&rows)[3][kBatch], int lane, const Vector& v) {
   v.x.store(rows[0] + lane);
   v.y.store(rows[1] + lane);
   v.z.store(rows[2] + lane);
 }
 
-/// Adds column l of the eight packs to the loads of the l-th pair, one pair after the other: two lanes may name the
-/// same grain, and the order of the sums is part of the contract of determinism.
-PASTEFIT_INLINE void add_rows(Load* load, const std::int32_t* i, const std::int32_t* j, const Real (&on_i)[8],
-                              const Real (&on_j)[8]) {
-  for (int block = 0; block < 8; block += kWidth) {
-    Real part_i[kWidth], part_j[kWidth];
-    for (int k = 0; k < kWidth; ++k) {
-      part_i[k] = on_i[block + k];
-      part_j[k] = on_j[block + k];
-    }
-    square(part_i);
-    square(part_j);
-    for (int lane = 0; lane < kWidth; ++lane) {
-      double* row_i = &load[i[lane]].force.x + block;
-      (Real::load(row_i) + part_i[lane]).store(row_i);
-      double* row_j = &load[j[lane]].force.x + block;
-      (Real::load(row_j) + part_j[lane]).store(row_j);
-    }
-  }
+/// Adds to the loads of the pairs, one pair after the other: two lanes may name the same grain, and the order of the
+/// sums is part of the contract of determinism.
+PASTEFIT_INLINE void add_loads(const KernelTask& task, const Lanes& grains, const Vector& force, Real damping) {
+  Real columns[4] = {force.x, force.y, force.z, damping};
+  add_quads([&](int lane) { return &grains.load(task, lane).force.x; }, columns);
+}
+PASTEFIT_INLINE void add_torques(const KernelTask& task, const Lanes& grains, const Vector& torque, Real stiffness) {
+  Real columns[4] = {torque.x, torque.y, torque.z, stiffness};
+  add_quads([&](int lane) { return &grains.load(task, lane).torque.x; }, columns);
 }
 
 /// The energies of a kernel's contacts, in the lanes of `EnergySums`, kept in registers until all are counted.
 class Tally {
  public:
   PASTEFIT_INLINE void count(EnergySums::Kind kind, int lane, Real value) {
-    Real& lanes = sum_[kind][lane / kWidth];
-    lanes = lanes + value;
+    Doubles<kHalf>* const lanes = sum_[kind] + lane / kHalf;
+    lanes[0] = lanes[0] + widened<0>(value);
+    lanes[1] = lanes[1] + widened<1>(value);
   }
   PASTEFIT_INLINE void count(Energies energies, int lane, const Action<Real>& action) {
     if (energies == Energies::none) return;
@@ -98,14 +124,14 @@ class Tally {
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
-      for (int part = 0; part < 8 / kWidth; ++part) {
-        double* lanes = energy.lane[kind] + part * kWidth;
-        (Real::load(lanes) + sum_[kind][part]).store(lanes);
+      for (int part = 0; part < 8 / kHalf; ++part) {
+        double* lanes = energy.lane[kind] + part * kHalf;
+        (Doubles<kHalf>::load(lanes) + sum_[kind][part]).store(lanes);
       }
   }
 
  private:
-  Real sum_[EnergySums::kinds][8 / kWidth];
+  Doubles<kHalf> sum_[EnergySums::kinds][8 / kHalf];
 };
 
 /// What a batch remembers, in and out; roll only where the rolling law has memory.
@@ -132,26 +158,26 @@ PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const Memory<Real>& mem
 }
 
 template <class Normal, class Attraction, class Rolling>
-PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, ContactBatch& c, int lane,
-                                  Tally& tally) {
-  const Grains a = gather(task, c.i + lane), b = gather(task, c.j + lane);
-  const Vector between = task.domain.way(a.position, b.position);
-  const Real square = larger(dot(between, between), Real(1e-200));
-  const Real distance = square_root(square);
+PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, const Lanes& i,
+                                  const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
+  const Quad velocity_a = velocities(task, i), velocity_b = velocities(task, j);
+  const Quad spin_a = spins(task, i), spin_b = spins(task, j);
+  const Real radius_a = Real::load(c.radius + lane), radius_b = p.reach - radius_a;
 
   Meeting<Real> meeting;
-  meeting.normal = (Real(1.0) / distance) * between;
-  meeting.overlap = a.radius + b.radius - distance;
+  meeting.normal = (Real(1.0) / p.distance) * p.between;
+  meeting.overlap = p.overlap;
   const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
-  const Real lever_a = a.radius - half_depth, lever_b = b.radius - half_depth;
-  meeting.velocity = a.velocity - b.velocity + cross(fused(lever_a, a.spin, lever_b * b.spin), meeting.normal);
-  meeting.spin = a.spin - b.spin;
-  meeting.twist = Real(0.5) * dot(a.spin + b.spin, meeting.normal);
-  meeting.smaller_radius = smaller(a.radius, b.radius);
+  const Real lever_a = radius_a - half_depth, lever_b = radius_b - half_depth;
+  meeting.velocity = velocity_a.vector - velocity_b.vector +
+                     cross(fused(lever_a, spin_a.vector, lever_b * spin_b.vector), meeting.normal);
+  meeting.spin = spin_a.vector - spin_b.vector;
+  meeting.twist = Real(0.5) * dot(spin_a.vector + spin_b.vector, meeting.normal);
+  meeting.smaller_radius = smaller(radius_a, radius_b);
   meeting.root_radius = Real::load(c.root_radius + lane);
   meeting.root_mass = Real::load(c.root_mass + lane);
-  meeting.inverse_mass = a.inverse_mass + b.inverse_mass;
-  meeting.neighbour_damping = a.damping_rate + b.damping_rate;
+  meeting.inverse_mass = spin_a.beside + spin_b.beside;
+  meeting.neighbour_damping = velocity_a.beside + velocity_b.beside;
 
   Memory<Real> memory = recall<Rolling>(c, lane);
   const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
@@ -162,22 +188,18 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
   const Vector turning = cross(meeting.normal, action.traction);
   const Vector torque_a = fused(lever_a, turning, action.moment);
   const Vector torque_b = fused(lever_b, turning, -action.moment);
-  const Real on_a[8] = {force.x,    force.y,    force.z,    action.damping,
-                        torque_a.x, torque_a.y, torque_a.z, action.stiffness};
-  const Real on_b[8] = {-force.x,   -force.y,   -force.z,   action.damping,
-                        torque_b.x, torque_b.y, torque_b.z, action.stiffness};
-  add_rows(task.load, c.i + lane, c.j + lane, on_a, on_b);
+  add_loads(task, i, force, action.damping);
+  add_loads(task, j, -force, action.damping);
+  add_torques(task, i, torque_a, action.stiffness);
+  add_torques(task, j, torque_b, action.stiffness);
 }
 
 /// Pairs that do not touch: attraction along the line of centres.
 template <class Attraction, class Batch>
-PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& pair, Real scale, Batch& c, int lane,
-                                   Tally& tally) {
+PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& pair, Real scale, const Lanes& i,
+                                   const Lanes& j, const Pairing& p, Batch& c, int lane, Tally& tally) {
   const Real zero(0.0);
-  const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
-  const Vector between = task.domain.way(a.position, b.position);
-  const Real distance = square_root(larger(dot(between, between), Real(1e-200)));
-  const Real overlap = a.radius + b.radius - distance;
+  const Real overlap = p.overlap;
   Real alive = Real::load(c.bridge + lane);
   Real spent;
   const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
@@ -185,23 +207,17 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& 
   tally.count(EnergySums::bridges, lane, spent);
   if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
-  const Vector force = (pull.force / distance) * between;
-  const Real on_a[8] = {force.x, force.y, force.z, zero, zero, zero, zero, pull.slope};
-  const Real on_b[8] = {-force.x, -force.y, -force.z, zero, zero, zero, zero, pull.slope};
-  add_rows(task.load, c.i + lane, c.j + lane, on_a, on_b);
+  const Vector force = (pull.force / p.distance) * p.between, none{zero, zero, zero};
+  add_loads(task, i, force, zero);
+  add_loads(task, j, -force, zero);
+  add_torques(task, i, none, pull.slope);
+  add_torques(task, j, none, pull.slope);
 }
 
-/// Whether a pair of the batch touches, or did so at the last step and has yet to forget it. Where none does, a contact
-/// exerts nothing and has nothing to remember.
-PASTEFIT_INLINE bool some_touch(const KernelTask& task, const ContactBatch& c) {
-  bool touch = false;
-  for (int lane = 0; lane < kBatch; lane += kWidth) {
-    const Place a = locate(task, c.i + lane), b = locate(task, c.j + lane);
-    const Vector between = task.domain.way(a.position, b.position);
-    const Real reach = a.radius + b.radius;
-    touch |= any(dot(between, between) < reach * reach) || any(Real::load(c.root_contact_radius + lane) > Real(0.0));
-  }
-  return touch;
+/// Whether a pair touches, or did so at the last step and has yet to forget it. Where none does, a contact exerts
+/// nothing and has nothing to remember.
+PASTEFIT_INLINE bool some_touch(const Pairing& p, const ContactBatch& c, int lane) {
+  return any(p.overlap > Real(0.0)) || any(Real::load(c.root_contact_radius + lane) > Real(0.0));
 }
 
 constexpr int kAhead = 2;        // batches; 5 to 10 % in a bed too large for the caches
@@ -217,9 +233,7 @@ PASTEFIT_INLINE void fetch(const ContactBatch* batch) {
 PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& batch, bool whole) {
   for (const std::int32_t j : batch.j) {
     __builtin_prefetch(task.motion + j);
-    if (!whole) continue;
-    __builtin_prefetch(task.spin + j);
-    __builtin_prefetch(task.load + j, 1);
+    if (whole) __builtin_prefetch(task.load + j, 1);
   }
 }
 
@@ -233,14 +247,15 @@ void pair_kernel(const KernelTask& task) {
     fetch(task.contacts + k + kAhead);
     const std::int32_t soon = k + kGrainsAhead;
     if (soon < task.stretch.end) fetch_grains(task, task.contacts[soon], soon < task.stretch.near);
-    if (k < task.stretch.near || some_touch(task, batch)) {
-      for (int lane = 0; lane < kBatch; lane += kWidth)
-        act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, batch, lane, tally);
-    } else if constexpr (Attraction::present) {
-      for (int lane = 0; lane < kBatch; lane += kWidth) {
+    for (int lane = 0; lane < kBatch; lane += kWidth) {
+      const Lanes i(batch.i + lane), j(batch.j + lane);
+      const Pairing p = pairing(task, i, j);
+      if (k < task.stretch.near || some_touch(p, batch, lane)) {
+        act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, i, j, p, batch, lane, tally);
+      } else if constexpr (Attraction::present) {
         const Real root_radius = Real::load(batch.root_radius + lane);
-        attract_pairs<Attraction>(task, pair, Real(pair.size_per_radius) * root_radius * root_radius, batch, lane,
-                                  tally);
+        attract_pairs<Attraction>(task, pair, Real(pair.size_per_radius) * root_radius * root_radius, i, j, p, batch,
+                                  lane, tally);
       }
     }
   }
@@ -252,9 +267,12 @@ void bridge_kernel(const KernelTask& task) {
   const PairConstants pair = task.pair;
   Tally tally;
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k)
-    for (int lane = 0; lane < kBatch; lane += kWidth)
-      attract_pairs<Attraction>(task, pair, Real::load(task.bridges[k].size_scale + lane), task.bridges[k], lane,
+    for (int lane = 0; lane < kBatch; lane += kWidth) {
+      BridgeBatch& batch = task.bridges[k];
+      const Lanes i(batch.i + lane), j(batch.j + lane);
+      attract_pairs<Attraction>(task, pair, Real::load(batch.size_scale + lane), i, j, pairing(task, i, j), batch, lane,
                                 tally);
+    }
   tally.add_to(*task.energy);
 }
 
@@ -267,19 +285,21 @@ void wall_kernel(const KernelTask& task) {
     for (int lane = 0; lane < kBatch; lane += kWidth) {
       ContactBatch& c = task.contacts[k];
       WallBatch& w = task.wall[k];
-      const Grains a = gather(task, c.i + lane);
+      const Lanes i(c.i + lane);
+      const Quad velocity = velocities(task, i), spin = spins(task, i);
+      const Real radius = Real::load(c.radius + lane);
       Meeting<Real> meeting;
       meeting.normal = load(w.normal, lane);
       meeting.overlap = Real::load(w.overlap + lane);
-      const Real lever = a.radius - larger(meeting.overlap, Real(0.0));
-      meeting.velocity = a.velocity - load(w.wall_velocity, lane) + cross(lever * a.spin, meeting.normal);
-      meeting.spin = a.spin;
-      meeting.twist = Real(0.5) * dot(a.spin, meeting.normal);
-      meeting.smaller_radius = a.radius;
+      const Real lever = radius - larger(meeting.overlap, Real(0.0));
+      meeting.velocity = velocity.vector - load(w.wall_velocity, lane) + cross(lever * spin.vector, meeting.normal);
+      meeting.spin = spin.vector;
+      meeting.twist = Real(0.5) * dot(spin.vector, meeting.normal);
+      meeting.smaller_radius = radius;
       meeting.root_radius = Real::load(c.root_radius + lane);
       meeting.root_mass = Real::load(c.root_mass + lane);
-      meeting.inverse_mass = a.inverse_mass;
-      meeting.neighbour_damping = a.damping_rate;
+      meeting.inverse_mass = spin.beside;
+      meeting.neighbour_damping = velocity.beside;
 
       Memory<Real> memory = recall<Rolling>(c, lane);
       const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);

@@ -32,7 +32,6 @@ double total(std::span<const EnergySums> shares, EnergySums::Kind kind);
 
 struct KernelTask {
   const Motion* motion;
-  const Spin* spin;
   Load* load;  ///< pair kernels add to it; wall kernels write their columns instead
   ContactBatch* contacts;
   BridgeBatch* bridges;
@@ -50,7 +49,7 @@ constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test co
 /// The grains of a block, to be moved by a step.
 struct MoveTask {
   Motion* motion;
-  Spin* spin;
+  Velocity* velocity;
   Load* load;         ///< used up: zero afterwards
   const Room* rooms;  ///< where the lists allow them to be
   std::int32_t grains, grains_end;
@@ -95,7 +94,7 @@ namespace avx512 {
 extern const KernelTable kernels;
 }
 
-/// The widest kernels this processor runs. All tables give the same bits.
+/// The widest kernels this processor runs.
 const KernelTable& kernels_of_this_processor();
 
 }  // namespace pastefit

@@ -86,7 +86,7 @@ bool Lists::give_leeway(double duration) {
   team_.each(blocks, [&](int b, int) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      leeway_.own[i] = sleeps(i) ? 0 : std::clamp(norm(motion[i].velocity) * duration, least, most);
+      leeway_.own[i] = sleeps(i) ? 0 : std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
       leeway_.rooms[i] = {motion[i].position, std::max(leeway_.own[i], least)};
     }
   });

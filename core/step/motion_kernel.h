@@ -11,7 +11,7 @@ namespace pastefit::PASTEFIT_ISA {
 namespace {
 
 /// A quarter or half of a grain's line as it lies in memory: a vector of three and a number beside it.
-using Row = Pack<4>;
+using Row = Doubles<4>;
 
 PASTEFIT_INLINE Row row(double xyz, double beside) {
   return Row(Row::Lanes{xyz, xyz, xyz, beside});
@@ -22,9 +22,34 @@ PASTEFIT_INLINE Row vector_of(Row row) {
   return select(Row::Mask{-1, -1, -1, 0}, row, Row(0.0));
 }
 
+PASTEFIT_INLINE Row with_beside(Row row, double beside) {
+  return select(Row::Mask{-1, -1, -1, 0}, row, Row(beside));
+}
+
+PASTEFIT_INLINE void round(Row row, float* quad) {
+  Singles<4>(__builtin_convertvector(row.v, Singles<4>::Lanes)).store(quad);
+}
+
 PASTEFIT_INLINE double dot_of_vectors(Row a, Row b) {
   const Row product = a * b;
   return product.v[2] + (product.v[1] + product.v[0]);
+}
+
+/// The squared lengths of two rows' vectors, side by side.
+PASTEFIT_INLINE Doubles<2> squares(Row a, Row b) {
+  const Row x = a * a, y = b * b;
+  const Doubles<2> first(__builtin_shufflevector(x.v, y.v, 0, 4)), second(__builtin_shufflevector(x.v, y.v, 1, 5));
+  return first + second + Doubles<2>(__builtin_shufflevector(x.v, y.v, 2, 6));
+}
+
+/// The last grain that is faster than anything in a laboratory, or whose speed is not a number; -1 if none is.
+std::int32_t find_runaway(const MoveTask& task) {
+  std::int32_t found = -1;
+  for (std::int32_t i = task.grains; i < task.grains_end; ++i) {
+    const Vec3& v = task.velocity[i].linear;
+    if (!(dot(v, v) <= kRunawaySpeed * kRunawaySpeed)) found = i;
+  }
+  return found;
 }
 
 /// Of the stability of a step, what the springs of a grain take: half of (w dt)^2/2 for a pair of grains alike, with
@@ -37,48 +62,58 @@ constexpr double kLeastRoom = 0.5;
 Moved move_grains(const MoveTask& task) {
   const Row fall(Row::Lanes{0, 0, task.kick * task.gravity, 0});
   const double kept = 1 / (1 + task.kick * task.drag);
-  const Row kept_row = row(kept, 1), dt(task.dt);
+  const Row kept_row = row(kept, 1), dt(task.dt), kick = row(task.kick, 1), kick_alone = row(task.kick, 0);
+  const Row springs = row(0, kSpringShare * task.dt * task.dt), least = row(1, kLeastRoom);
+  Doubles<2> largest(0.0);  // square of the way since the lists were made (not looked at), of the speed
+  Doubles<2>::Mask within = largest <= Doubles<2>(0.0);
+  Row stiffest(0.0);
   Moved moved;
   for (std::int32_t i = task.grains; i < task.grains_end; ++i) {
-    double* const position = &task.motion[i].position.x;
-    double* const velocity = &task.motion[i].velocity.x;
-    double* const spin = &task.spin[i].velocity.x;
+    Motion& motion = task.motion[i];
+    double* const linear = &task.velocity[i].linear.x;
+    double* const angular = &task.velocity[i].angular.x;
     double* const force = &task.load[i].force.x;
     double* const torque = &task.load[i].torque.x;
-    const double lightness = task.spin[i].inverse_mass, radius = task.motion[i].radius;
-    const double inverse_inertia = 2.5 * lightness / (radius * radius);
+    const double inverse_mass = task.velocity[i].inverse_mass, inverse_inertia = task.velocity[i].inverse_inertia;
+    const Row lightness(inverse_mass), load = Row::load(torque);
 
-    // Beside the velocity its damping rate, the sum of c over the mass and over the room that the springs leave.
-    const Row load = Row::load(torque);
-    const double room = std::max(1 - kSpringShare * task.dt * task.dt * lightness * load.v[3], kLeastRoom);
-    const Row velocity_before = vector_of(Row::load(velocity));
-    const Row kicked = velocity_before + row(task.kick * lightness, lightness / room) * Row::load(force);
+    // Beside the torque the stiffness, and beside the velocity its damping rate, the sum of c over the mass and over
+    // the room that the springs leave.
+    const Row stiffness = lightness * load;
+    stiffest = larger(stiffness, stiffest);
+    const Row room = larger(Row(1.0) - springs * stiffness, least);
+    const Row velocity_before = vector_of(Row::load(linear));
+    const Row kicked = velocity_before + kick * lightness / room * Row::load(force);
     const Row velocity_after = kept_row * (kicked - fall);
-    velocity_after.store(velocity);
     const Row v = vector_of(velocity_after);
-    const Row place = Row::load(position) + dt * v;
-    place.store(position);
+    with_beside(v, inverse_mass).store(linear);
+    round(velocity_after, motion.velocity);
+    const Row place = Row::load(&motion.position.x) + dt * v;
+    place.store(&motion.position.x);
 
-    const Row spin_before = Row::load(spin);
-    const Row spin_after = kept_row * (spin_before + row(task.kick * inverse_inertia, 0) * vector_of(load));
-    spin_after.store(spin);
+    const Row spin_before = vector_of(Row::load(angular));
+    const Row w = kept_row * (spin_before + kick_alone * Row(inverse_inertia) * load);
+    with_beside(w, inverse_inertia).store(angular);
+    round(with_beside(w, inverse_mass), motion.spin);
 
     Row(0.0).store(force);
     Row(0.0).store(torque);
 
-    const Row way = place - Row::load(&task.rooms[i].from.x);
-    const double distance = task.rooms[i].distance;
-    moved.strayed |= !(dot_of_vectors(way, way) <= distance * distance);
-    const double square = dot_of_vectors(v, v);
-    if (!(square < kRunawaySpeed * kRunawaySpeed)) moved.runaway = i;
-    moved.fastest_square = std::max(moved.fastest_square, square);
-    moved.stiffest = std::max(moved.stiffest, load.v[3] * lightness);
+    const Room& allowed = task.rooms[i];
+    const Doubles<2> square = squares(place - Row::load(&allowed.from.x), v);
+    const Doubles<2>::Lanes limits{allowed.distance * allowed.distance, kRunawaySpeed * kRunawaySpeed};
+    within &= square <= Doubles<2>(limits);
+    largest = larger(square, largest);
     if (task.drag > 0) {
       const double rate = 0.5 * task.kick * task.drag;
-      moved.heat_drag += rate / lightness * dot_of_vectors(v, velocity_before + v) +
-                         rate / inverse_inertia * dot_of_vectors(spin_after, spin_before + spin_after);
+      moved.heat_drag += rate / inverse_mass * dot_of_vectors(v, velocity_before + v) +
+                         rate / inverse_inertia * dot_of_vectors(w, spin_before + w);
     }
   }
+  moved.strayed = within[0] == 0;
+  if (within[1] == 0) moved.runaway = find_runaway(task);
+  moved.fastest_square = largest.v[1];
+  moved.stiffest = stiffest.v[3];
   return moved;
 }
 

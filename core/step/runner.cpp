@@ -11,7 +11,7 @@ namespace {
 double mean_speed(const Particles& particles) {
   double squares = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i)
-    squares += dot(particles.motion[i].velocity, particles.motion[i].velocity);
+    squares += dot(particles.velocity[i].linear, particles.velocity[i].linear);
   return std::sqrt(squares / std::max(particles.count(), 1));
 }
 

@@ -88,7 +88,7 @@ class Runner {
   /// What a rig sees of the world, and changes of it.
   template <class Archive>
   void seen(Archive& archive) {
-    archive(world_.time, world_.step, world_.particles.motion, world_.particles.spin, world_.particles.load,
+    archive(world_.time, world_.step, world_.particles.motion, world_.particles.velocity, world_.particles.load,
             world_.particles.identity);
     for (Wall& wall : world_.walls)
       archive(wall.shape, wall.velocity, wall.angular_velocity, wall.pivot, wall.velocity_before,

@@ -55,12 +55,10 @@ void Sleepers::fall_asleep(World& world, std::size_t block) {
     std::uint8_t& calm = calm_[particles.identity[i]];
     if (calm < kLooks || calm == kAsleep) continue;
     calm = kAsleep;
-    Motion& motion = particles.motion[i];
-    Spin& spin = particles.spin[i];
-    const double mass = particles.mass(i);
-    heat_[block] += 0.5 * mass * dot(motion.velocity, motion.velocity) +
-                    0.2 * mass * squared(motion.radius) * dot(spin.velocity, spin.velocity);
-    motion.velocity = spin.velocity = {};
+    const Velocity& velocity = particles.velocity[i];
+    heat_[block] += 0.5 / velocity.inverse_mass * dot(velocity.linear, velocity.linear) +
+                    0.5 / velocity.inverse_inertia * dot(velocity.angular, velocity.angular);
+    set_velocity(particles, i, {}, {});
   }
 }
 
@@ -106,7 +104,7 @@ bool Sleepers::balance(World& world, std::size_t block) {
       // Held up by just its weight it stays where it is, but for the last bit of the speed it is given in a step.
       load.force = {0, 0, particles.mass(i) * world.gravity};
       load.torque = {};
-      particles.motion[i].velocity = particles.spin[i].velocity = {};
+      set_velocity(particles, i, {}, {});
       ++asleep_[block];
     } else if (look) {
       calm = is_calm(world, i) ? std::min<std::uint8_t>(calm + 1, kLooks) : 0;
@@ -117,10 +115,10 @@ bool Sleepers::balance(World& world, std::size_t block) {
 }
 
 bool Sleepers::is_calm(const World& world, std::int32_t i) const {
-  const Motion& motion = world.particles.motion[i];
-  const Vec3& spin = world.particles.spin[i].velocity;
+  const Velocity& velocity = world.particles.velocity[i];
   const double slow = squared(kSlow) * world.gravity * world.reference_radius;
-  return dot(motion.velocity, motion.velocity) < slow && squared(motion.radius) * dot(spin, spin) < slow &&
+  return dot(velocity.linear, velocity.linear) < slow &&
+         squared(world.particles.motion[i].radius) * dot(velocity.angular, velocity.angular) < slow &&
          is_balanced(world, i, kFallAsleepLoad);
 }
 

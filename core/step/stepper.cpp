@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
 
-void put(const Vec3& v, double (&rows)[3][kBatch], int lane) {
-  rows[0][lane] = v.x;
-  rows[1][lane] = v.y;
-  rows[2][lane] = v.z;
+void put(const Vec3& v, float (&rows)[3][kBatch], int lane) {
+  rows[0][lane] = static_cast<float>(v.x);
+  rows[1][lane] = static_cast<float>(v.y);
+  rows[2][lane] = static_cast<float>(v.z);
 }
 
-Vec3 taken(const double (&rows)[3][kBatch], int lane) {
+Vec3 taken(const float (&rows)[3][kBatch], int lane) {
   return {rows[0][lane], rows[1][lane], rows[2][lane]};
 }
 
@@ -33,7 +33,7 @@ double speed_of(const Wall& wall) {
 double stiffest_grain(const Particles& particles) {
   double stiffest = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i)
-    stiffest = std::max(stiffest, particles.load[i].stiffness * particles.spin[i].inverse_mass);
+    stiffest = std::max(stiffest, particles.load[i].stiffness * particles.velocity[i].inverse_mass);
   return stiffest;
 }
 
@@ -80,7 +80,7 @@ Stepper::Stepper(World& world, const StepOptions& options)
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
     smallest_mass_ = std::min(smallest_mass_, world.particles.mass(i));
-    fastest_ = std::max(fastest_, norm(world.particles.motion[i].velocity));
+    fastest_ = std::max(fastest_, norm(world.particles.velocity[i].linear));
   }
 }
 
@@ -121,7 +121,7 @@ std::optional<Failure> Stepper::maintain_lists() {
   double fastest_wall = 0;
   for (const Wall& wall : world_.walls) fastest_wall = std::max(fastest_wall, speed_of(wall));
   if (runaway_ >= 0) {
-    const double speed = norm(world_.particles.motion[runaway_].velocity);
+    const double speed = norm(world_.particles.velocity[runaway_].linear);
     const bool finite = std::isfinite(speed);
     return failure(finite ? FailureReason::runaway_speed : FailureReason::non_finite,
                    world_.particles.identity[runaway_], finite ? speed : 0, kRunawaySpeed,
@@ -165,7 +165,6 @@ void Stepper::compute_forces(std::optional<double> dt) {
 KernelTask Stepper::task(const PairConstants& pair, int block) {
   KernelTask task{};
   task.motion = world_.particles.motion.data();
-  task.spin = world_.particles.spin.data();
   task.load = world_.particles.load.data();
   task.domain = world_.domain;
   task.pair = pair;
@@ -227,7 +226,7 @@ std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, 
   batches.resize(std::max<std::size_t>(batches.size(), touching.contacts.batch_count()));
   WallBatch& padded = batches[touching.contacts.batch_count() - 1];
   padded = {};
-  for (double& overlap : padded.overlap) overlap = -1;
+  for (float& overlap : padded.overlap) overlap = -1;
   std::int32_t pierced = -1;
   const auto find = [&](const auto& shape) {
     for (std::int32_t k = 0; k < touching.count; ++k) {
@@ -240,7 +239,7 @@ std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, 
       const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
       put(point.direction, batch.normal, lane);
       put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
-      batch.overlap[lane] = overlap;
+      batch.overlap[lane] = static_cast<float>(overlap);
     }
   };
   std::visit(find, wall.shape);
@@ -287,11 +286,11 @@ void Stepper::look_at_energy(double dt) {
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Motion& motion = particles.motion[i];
     const Load& load = particles.load[i];
-    const double lightness = particles.spin[i].inverse_mass, m = 1 / lightness;
-    const double inertia = 0.4 * m * motion.radius * motion.radius;
-    Vec3 v = motion.velocity + (half_kick * lightness) * load.force;
+    const Velocity& velocity = particles.velocity[i];
+    const double m = 1 / velocity.inverse_mass, inertia = 1 / velocity.inverse_inertia;
+    Vec3 v = velocity.linear + (half_kick / m) * load.force;
     v.z -= half_kick * world_.gravity;
-    const Vec3 w = particles.spin[i].velocity + (half_kick / inertia) * load.torque;
+    const Vec3 w = velocity.angular + (half_kick / inertia) * load.torque;
     ledger_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
     ledger_.height += m * world_.gravity * motion.position.z;
   }
@@ -318,7 +317,7 @@ void Stepper::follow(const Ledger& before) {
 void Stepper::move_block(int b, double dt) {
   Particles& particles = world_.particles;
   const Block& block = world_.pairs.blocks[b];
-  moved_[b] = kernels_.move({particles.motion.data(), particles.spin.data(), particles.load.data(), lists_.rooms(),
+  moved_[b] = kernels_.move({particles.motion.data(), particles.velocity.data(), particles.load.data(), lists_.rooms(),
                              block.grains, block.grains_end, dt, 0.5 * (dt_ + dt), world_.gravity, world_.drag});
   if (moved_[b].strayed) lists_.note_strayed(b);
 }

@@ -8,28 +8,29 @@ namespace pastefit {
 /// stream of memory, and whole lines of it. Lists end with pairs of the dummy grain with itself.
 inline constexpr int kBatch = 8;
 
-/// Pairs that touch or may touch before the next selection, 104 bytes a pair. What they remember from step to step is
+/// Pairs that touch or may touch before the next selection, 64 bytes a pair. What they remember from step to step is
 /// explained with `Memory` in core/laws/meeting.h.
 struct alignas(64) ContactBatch {
-  std::int32_t i[kBatch], j[kBatch];              ///< j unused with a wall
-  double root_radius[kBatch], root_mass[kBatch];  ///< of the effective radius and mass
-  double slip[3][kBatch], roll[3][kBatch];
-  double root_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];
+  std::int32_t i[kBatch], j[kBatch];             ///< j unused with a wall
+  float radius[kBatch];                          ///< of grain i
+  float root_radius[kBatch], root_mass[kBatch];  ///< of the effective radius and mass
+  float slip[3][kBatch], roll[3][kBatch];
+  float root_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];
 };
 
 /// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need
 /// is the distance.
 struct alignas(64) BridgeBatch {
   std::int32_t i[kBatch], j[kBatch];
-  double size_scale[kBatch], bridge[kBatch];
+  float size_scale[kBatch], bridge[kBatch];
 };
 
 /// What belongs to a batch of contacts with a wall besides.
 struct alignas(64) WallBatch {
-  double normal[3][kBatch], wall_velocity[3][kBatch];  ///< where the grain is nearest to it
-  double overlap[kBatch];
-  double force[3][kBatch], moment[3][kBatch];  ///< of the wall on the grain, written by the kernel
-  double damping[kBatch], stiffness[kBatch];
+  float normal[3][kBatch], wall_velocity[3][kBatch];  ///< where the grain is nearest to it
+  float overlap[kBatch];
+  float force[3][kBatch], moment[3][kBatch];  ///< of the wall on the grain, written by the kernel
+  float damping[kBatch], stiffness[kBatch];
 };
 
 }  // namespace pastefit

@@ -7,7 +7,7 @@ namespace pastefit {
 namespace {
 
 /// Size of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
-constexpr double kNoSize = 1e-30;
+constexpr float kNoSize = 1e-12F;
 
 }  // namespace
 
@@ -22,10 +22,11 @@ Contact Contact::turned() const {
 
 Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j) {
   const double ra = particles.motion[i].radius, rb = particles.motion[j].radius;
-  const double lightness_a = particles.spin[i].inverse_mass, lightness_b = particles.spin[j].inverse_mass;
+  const double lightness_a = particles.velocity[i].inverse_mass, lightness_b = particles.velocity[j].inverse_mass;
   Contact contact;
-  contact.root_radius = std::sqrt(i == j ? ra : ra * rb / (ra + rb));
-  contact.root_mass = std::sqrt(1 / (i == j ? lightness_a : lightness_a + lightness_b));
+  contact.radius = static_cast<float>(ra);
+  contact.root_radius = static_cast<float>(std::sqrt(i == j ? ra : ra * rb / (ra + rb)));
+  contact.root_mass = static_cast<float>(std::sqrt(1 / (i == j ? lightness_a : lightness_a + lightness_b)));
   return contact;
 }
 
@@ -36,7 +37,7 @@ void ContactList::pad(std::int32_t dummy) {
 }
 
 void BridgeList::pad(std::int32_t dummy) {
-  while (count % kBatch != 0) add(dummy, dummy, kNoSize, 0.0);
+  while (count % kBatch != 0) add(dummy, dummy, kNoSize, 0);
 }
 
 }  // namespace pastefit

@@ -12,9 +12,9 @@ namespace pastefit {
 
 /// A contact taken out of its batch; what it remembers is zero for a pair that has met only now.
 struct Contact {
-  double root_radius = 0, root_mass = 1;
-  double slip[3] = {}, roll[3] = {};
-  double root_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
+  float radius = 0, root_radius = 0, root_mass = 1;
+  float slip[3] = {}, roll[3] = {};
+  float root_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
 
   /// The same seen from the other grain: vectors change their sign.
   Contact turned() const;
@@ -80,16 +80,16 @@ class ContactList : public BatchList<ContactBatch> {
   Contact contact(std::int32_t k) const;
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
-  double root_radius(std::int32_t k) const { return batches[k / kBatch].root_radius[k % kBatch]; }
-  double bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
+  float root_radius(std::int32_t k) const { return batches[k / kBatch].root_radius[k % kBatch]; }
+  float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
   bool touched(std::int32_t k) const { return batches[k / kBatch].root_contact_radius[k % kBatch] > 0; }
 };
 
 class BridgeList : public BatchList<BridgeBatch> {
  public:
-  void add(std::int32_t i, std::int32_t j, double size_scale, double alive);
+  void add(std::int32_t i, std::int32_t j, float size_scale, float alive);
   void pad(std::int32_t dummy);
-  double bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
+  float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
 };
 
 // Inlined: every choice of pairs takes each contact out of its list and puts it into another.
@@ -99,6 +99,7 @@ inline void ContactList::add(std::int32_t i, std::int32_t j, const Contact& cont
   ContactBatch& batch = next();
   batch.i[lane] = i;
   batch.j[lane] = j;
+  batch.radius[lane] = contact.radius;
   batch.root_radius[lane] = contact.root_radius;
   batch.root_mass[lane] = contact.root_mass;
   for (int c = 0; c < 3; ++c) {
@@ -115,6 +116,7 @@ inline Contact ContactList::contact(std::int32_t k) const {
   const ContactBatch& batch = batches[k / kBatch];
   const int lane = k % kBatch;
   Contact contact;
+  contact.radius = batch.radius[lane];
   contact.root_radius = batch.root_radius[lane];
   contact.root_mass = batch.root_mass[lane];
   for (int c = 0; c < 3; ++c) {
@@ -128,7 +130,7 @@ inline Contact ContactList::contact(std::int32_t k) const {
   return contact;
 }
 
-inline void BridgeList::add(std::int32_t i, std::int32_t j, double size_scale, double alive) {
+inline void BridgeList::add(std::int32_t i, std::int32_t j, float size_scale, float alive) {
   const int lane = count % kBatch;
   BridgeBatch& batch = next();
   batch.i[lane] = i;

@@ -21,7 +21,10 @@ struct Domain {
   /// The way from one place to the nearest image of another, of places less than one and a half periods apart [m].
   template <class Real>
   PASTEFIT_INLINE BasicVec3<Real> way(const BasicVec3<Real>& from, const BasicVec3<Real>& to) const {
-    BasicVec3<Real> between = to - from;
+    return shortest(to - from);
+  }
+  template <class Real>
+  PASTEFIT_INLINE BasicVec3<Real> shortest(BasicVec3<Real> between) const {
     if (period > 0) {
       const Real whole(period), half(0.5 * period), zero(0.0);
       between.x = between.x - select(between.x > half, whole, select(between.x < -half, -whole, zero));

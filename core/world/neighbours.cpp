@@ -251,9 +251,9 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
     const Vec3 between = domain.way(a.position, b.position);
     const double square = dot(between, between), touch = a.radius + b.radius;
     const bool contact = place >= 0;
-    const double alive = contact                     ? block.contacts.bridge(place)
-                         : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
-                                                     : 0.0;
+    const float alive = contact                     ? block.contacts.bridge(place)
+                        : place < Candidates::kNone ? block.bridges.bridge(Candidates::bridge_at(place))
+                                                    : 0;
     double near = touch + leeway.rooms[i].distance + leeway.rooms[j].distance;
     if (reach.tear_gap > 0 && contact && block.contacts.touched(place))
       near += longest_hold(reach.tear_gap, size_scale(a.radius, b.radius, reach.reference_radius));
@@ -266,11 +266,11 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
       if (dormant) {
         chosen.dormant_candidates.push_back(c);
         candidates.set_place(c, Candidates::place_of_bridge(chosen.dormant_bridges.count));
-        chosen.dormant_bridges.add(i, j, scale, alive);
+        chosen.dormant_bridges.add(i, j, static_cast<float>(scale), alive);
         return;
       }
       candidates.set_place(c, Candidates::place_of_bridge(chosen.bridges.count));
-      chosen.bridges.add(i, j, scale, alive);
+      chosen.bridges.add(i, j, static_cast<float>(scale), alive);
       return;
     }
     Contact pair = contact ? block.contacts.contact(place) : new_contact(particles, i, j);

@@ -9,6 +9,12 @@ namespace {
 
 constexpr double kFarAway = 1e6;  // [m]; the dummy never comes near a grain
 
+void put(const Vec3& v, float (&rounded)[3]) {
+  rounded[0] = static_cast<float>(v.x);
+  rounded[1] = static_cast<float>(v.y);
+  rounded[2] = static_cast<float>(v.z);
+}
+
 template <class T>
 void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
   const std::vector<T> before(values);
@@ -23,17 +29,28 @@ Particles make_particles(const std::vector<Vec3>& centres, const std::vector<dou
   particles.density_kg_m3 = density_kg_m3;
   const std::size_t n = centres.size();
   particles.motion.resize(n + 1);
-  particles.spin.resize(n + 1);
+  particles.velocity.resize(n + 1);
   particles.load.resize(n + 1);
   particles.identity.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double r = radii[i];
-    particles.motion[i] = {centres[i], r, {}, 0};
-    particles.spin[i] = {{}, 1 / (4.0 / 3.0 * std::numbers::pi * r * r * r * density_kg_m3)};
+    const double lightness = 1 / (4.0 / 3.0 * std::numbers::pi * r * r * r * density_kg_m3);
+    particles.motion[i].position = centres[i];
+    particles.motion[i].radius = r;
+    particles.motion[i].inverse_mass = static_cast<float>(lightness);
+    particles.velocity[i] = {{}, lightness, {}, 2.5 * lightness / (r * r)};
     particles.identity[i] = static_cast<std::int32_t>(i);
   }
   particles.motion[n].position = {kFarAway, kFarAway, kFarAway};
   return particles;
+}
+
+void set_velocity(Particles& particles, std::int32_t i, const Vec3& linear, const Vec3& angular) {
+  Motion& motion = particles.motion[i];
+  particles.velocity[i].linear = linear;
+  particles.velocity[i].angular = angular;
+  put(linear, motion.velocity);
+  put(angular, motion.spin);
 }
 
 void provide_dummies(Particles& particles, std::size_t count) {
@@ -41,13 +58,13 @@ void provide_dummies(Particles& particles, std::size_t count) {
   Motion dummy;
   dummy.position = {kFarAway, kFarAway, kFarAway};
   particles.motion.resize(n + count, dummy);
-  particles.spin.resize(n + count);
+  particles.velocity.resize(n + count);
   particles.load.resize(n + count);
 }
 
 void reorder(Particles& particles, const std::vector<std::int32_t>& order) {
   permute(particles.motion, order);
-  permute(particles.spin, order);
+  permute(particles.velocity, order);
   permute(particles.load, order);
   permute(particles.identity, order);
 }

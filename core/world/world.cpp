@@ -11,16 +11,18 @@ void set_contact_model(World& world, const ContactModel& model, double reference
 }
 
 void turn_half_round(World& world) {
-  const auto turn = [](double& x, double& y) {
+  const auto turn = [](auto& x, auto& y) {
     x = -x;
     y = -y;
   };
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     Motion& motion = world.particles.motion[i];
-    Spin& spin = world.particles.spin[i];
+    Velocity& velocity = world.particles.velocity[i];
     turn(motion.position.x, motion.position.y);
-    turn(motion.velocity.x, motion.velocity.y);
-    turn(spin.velocity.x, spin.velocity.y);
+    turn(motion.velocity[0], motion.velocity[1]);
+    turn(motion.spin[0], motion.spin[1]);
+    turn(velocity.linear.x, velocity.linear.y);
+    turn(velocity.angular.x, velocity.angular.y);
   }
   const auto turn_memory = [&](ContactList& list) {
     for (std::int32_t b = 0; b < list.batch_count(); ++b)

@@ -64,13 +64,14 @@ class Scene {
 
   /// Grain by the order in which it was added.
   const Motion& motion(int identity) const { return world.particles.motion[place(identity)]; }
-  const Vec3& spin(int identity) const { return world.particles.spin[place(identity)].velocity; }
+  const Vec3& velocity(int identity) const { return world.particles.velocity[place(identity)].linear; }
+  const Vec3& spin(int identity) const { return world.particles.velocity[place(identity)].angular; }
   double mass(int identity) const { return world.particles.mass(place(identity)); }
 
   Vec3 momentum() const {
     Vec3 sum;
     for (int i = 0; i < world.particles.count(); ++i)
-      sum += world.particles.mass(i) * world.particles.motion[i].velocity;
+      sum += world.particles.mass(i) * world.particles.velocity[i].linear;
     return sum;
   }
 
@@ -78,7 +79,7 @@ class Scene {
     double sum = 0;
     for (int i = 0; i < world.particles.count(); ++i) {
       const double m = world.particles.mass(i), r = world.particles.motion[i].radius;
-      const Vec3 &v = world.particles.motion[i].velocity, &w = world.particles.spin[i].velocity;
+      const Vec3 &v = world.particles.velocity[i].linear, &w = world.particles.velocity[i].angular;
       sum += 0.5 * m * dot(v, v) + 0.2 * m * r * r * dot(w, w);
     }
     return sum;
@@ -90,10 +91,8 @@ class Scene {
   void ready() {
     if (world.particles.count() > 0) return;
     world.particles = make_particles(centres_, radii_, density_);
-    for (std::size_t i = 0; i < centres_.size(); ++i) {
-      world.particles.motion[i].velocity = velocities_[i];
-      world.particles.spin[i].velocity = spins_[i];
-    }
+    for (std::int32_t i = 0; i < world.particles.count(); ++i)
+      set_velocity(world.particles, i, velocities_[i], spins_[i]);
   }
   int place(int identity) const {
     for (int i = 0; i < world.particles.count(); ++i)

@@ -39,13 +39,14 @@ double constant_step(const Impact& test) {
 }
 
 /// Where a held grain is at a time, and how fast.
-Motion path(const ImpactGrain& grain, double time) {
-  Motion motion;
+struct Course {
+  Vec3 position, velocity;
+};
+Course path(const ImpactGrain& grain, double time) {
   const double turn = grain.turns_at_s.value_or(1e300);
   const bool back = time > turn;
-  motion.velocity = back ? -grain.velocity_m_s : grain.velocity_m_s;
-  motion.position = grain.centre_m + (back ? 2 * turn - time : time) * grain.velocity_m_s;
-  return motion;
+  return {grain.centre_m + (back ? 2 * turn - time : time) * grain.velocity_m_s,
+          back ? -grain.velocity_m_s : grain.velocity_m_s};
 }
 
 /// The experiment in progress. Everything by the grains' places in the test, not in the world, which sorts them.
@@ -122,8 +123,8 @@ class ImpactRun {
     }
     world.particles = make_particles(centres, radii, test.density_kg_m3);
     for (std::size_t i = 0; i < test.grains.size(); ++i) {
-      world.particles.motion[i].velocity = test.grains[i].velocity_m_s;
-      world.particles.spin[i].velocity = test.grains[i].spin_rad_s;
+      set_velocity(world.particles, static_cast<std::int32_t>(i), test.grains[i].velocity_m_s,
+                   test.grains[i].spin_rad_s);
     }
     set_contact_model(world, test.contact, test.reference_radius_m);
     world.gravity = test.gravity_m_s2;
@@ -175,7 +176,7 @@ class ImpactRun {
     const Particles& particles = world_.particles;
     for (std::int32_t i = 0; i < particles.count(); ++i)
       states[particles.identity[i]] = {
-          particles.motion[i].position, particles.motion[i].velocity, particles.spin[i].velocity, {}};
+          particles.motion[i].position, particles.velocity[i].linear, particles.velocity[i].angular, {}};
     return states;
   }
 
@@ -199,10 +200,9 @@ class ImpactRun {
     for (std::int32_t i = 0; i < particles.count(); ++i) {
       const ImpactGrain& grain = test_.grains[particles.identity[i]];
       if (!grain.held) continue;
-      const Motion at = path(grain, world_.time);
-      particles.motion[i].position = at.position;
-      particles.motion[i].velocity = at.velocity;
-      particles.spin[i].velocity = {};
+      const auto [position, velocity] = path(grain, world_.time);
+      particles.motion[i].position = position;
+      set_velocity(particles, i, velocity, {});
     }
   }
 

@@ -67,12 +67,12 @@ Particles on_table(const Particles& grains) {
   for (std::int32_t i = 0; i < grains.count(); ++i) {
     if (grains.motion[i].position.z < 0) continue;
     result.motion[kept] = grains.motion[i];
-    result.spin[kept] = grains.spin[i];
+    result.velocity[kept] = grains.velocity[i];
     result.identity[kept++] = grains.identity[i];
   }
   result.identity.resize(kept);
   result.motion.resize(kept);
-  result.spin.resize(kept);
+  result.velocity.resize(kept);
   result.load.resize(kept);
   provide_dummies(result, 1);
   return result;

@@ -61,9 +61,10 @@ void count_geometry() {
   const Vector p{}, v{}, w{};
   const Counted r(1.0);
   const Vector between = p - p;
-  const Counted distance = square_root(larger(dot(between, between), r));
+  const Counted square = dot(between, between), reach = r + r;
+  const Counted distance = square_root(larger(square, r));
   const Vector normal = (Counted(1.0) / distance) * between;
-  const Counted overlap = r + r - distance;
+  const Counted overlap = (reach * reach - square) / (reach + distance);
   const Counted half_depth = Counted(0.5) * larger(overlap, Counted(0.0));
   const Counted lever_a = r - half_depth, lever_b = r - half_depth;
   const Vector velocity = v - v + cross(lever_a * w + lever_b * w, normal);
@@ -82,34 +83,29 @@ void count_geometry() {
 #define PASTEFIT_PEAKS(name, options, type, set, add, mul, root, div, store)   \
   __attribute__((target(options))) double name##_simple(std::int64_t rounds) { \
     type x[16];                                                                \
-    for (type & chain : x) chain = set(1.0);                                   \
-    const type factor = set(0.999999), term = set(1e-6);                       \
+    for (type & chain : x) chain = set(1.0F);                                  \
+    const type factor = set(0.999999F), term = set(1e-6F);                     \
     for (std::int64_t n = 0; n < rounds; ++n)                                  \
       for (type & chain : x) chain = add(mul(chain, factor), term);            \
     for (int k = 1; k < 16; ++k) x[0] = add(x[0], x[k]);                       \
-    double out[8];                                                             \
+    float out[8];                                                              \
     store(out, x[0]);                                                          \
     return out[0];                                                             \
   }                                                                            \
   __attribute__((target(options))) double name##_roots(std::int64_t rounds) {  \
     type x[8];                                                                 \
-    for (type & chain : x) chain = set(2.0);                                   \
-    const type top = set(3.0);                                                 \
+    for (type & chain : x) chain = set(2.0F);                                  \
+    const type top = set(3.0F);                                                \
     for (std::int64_t n = 0; n < rounds; ++n)                                  \
       for (int k = 0; k < 8; ++k) x[k] = k < 5 ? root(x[k]) : div(top, x[k]);  \
     for (int k = 1; k < 8; ++k) x[0] = add(x[0], x[k]);                        \
-    double out[8];                                                             \
+    float out[8];                                                              \
     store(out, x[0]);                                                          \
     return out[0];                                                             \
   }
-// The masked root, because GCC 12 warns of the plain one's undefined operand.
-#define PASTEFIT_ROOT(x) _mm512_maskz_sqrt_pd(0xff, x)
-PASTEFIT_PEAKS(avx512, "avx512f", __m512d, _mm512_set1_pd, _mm512_add_pd, _mm512_mul_pd, PASTEFIT_ROOT, _mm512_div_pd,
-               _mm512_storeu_pd)
-#undef PASTEFIT_ROOT
-PASTEFIT_PEAKS(avx2, "avx2", __m256d, _mm256_set1_pd, _mm256_add_pd, _mm256_mul_pd, _mm256_sqrt_pd, _mm256_div_pd,
-               _mm256_storeu_pd)
-PASTEFIT_PEAKS(sse2, "sse2", __m128d, _mm_set1_pd, _mm_add_pd, _mm_mul_pd, _mm_sqrt_pd, _mm_div_pd, _mm_storeu_pd)
+PASTEFIT_PEAKS(avx2, "avx2", __m256, _mm256_set1_ps, _mm256_add_ps, _mm256_mul_ps, _mm256_sqrt_ps, _mm256_div_ps,
+               _mm256_storeu_ps)
+PASTEFIT_PEAKS(sse2, "sse2", __m128, _mm_set1_ps, _mm_add_ps, _mm_mul_ps, _mm_sqrt_ps, _mm_div_ps, _mm_storeu_ps)
 #undef PASTEFIT_PEAKS
 
 /// Operations per second of a loop, the best of a few runs.
@@ -141,9 +137,9 @@ double triad_bytes_per_second() {
 MachineLimits measure_machine() {
   MachineLimits m;
   const KernelTable& kernels = kernels_of_this_processor();
-  m.lanes = &kernels == &avx512::kernels ? 8 : &kernels == &avx2::kernels ? 4 : 2;
-  const auto simple = m.lanes == 8 ? avx512_simple : m.lanes == 4 ? avx2_simple : sse2_simple;
-  const auto roots = m.lanes == 8 ? avx512_roots : m.lanes == 4 ? avx2_roots : sse2_roots;
+  m.lanes = &kernels == &sse2::kernels ? 4 : 8;
+  const auto simple = m.lanes == 8 ? avx2_simple : sse2_simple;
+  const auto roots = m.lanes == 8 ? avx2_roots : sse2_roots;
   m.instruction_set = kernels.instruction_set;
   m.gflop_s = 1e-9 * rate(simple, 10'000'000, 32.0 * m.lanes);
   m.roots_gop_s = 1e-9 * rate(roots, 1'000'000, 8.0 * m.lanes);
@@ -164,9 +160,9 @@ ContactCost cost_of_contact(bool cohesive) {
   ContactCost cost;
   cost.additions_multiplications = Counted::simple;
   cost.roots_divisions = Counted::roots + Counted::divisions;
-  // Columns of Contacts: two indices, four constants, and the memory, which goes back too.
-  cost.bytes_streamed = 2 * sizeof(std::int32_t) + 4 * sizeof(double) + 2 * sizeof(Memory<double>);
-  cost.bytes_gathered = 2 * (sizeof(Motion) + sizeof(Spin) + 2 * sizeof(Load));
+  // Columns of Contacts: two indices, three constants, and the memory, which goes back too.
+  cost.bytes_streamed = 2 * sizeof(std::int32_t) + 3 * sizeof(float) + 2 * sizeof(Memory<float>);
+  cost.bytes_gathered = 2 * (sizeof(Motion) + 2 * sizeof(Load));
   return cost;
 }
 

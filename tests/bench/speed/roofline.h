@@ -10,7 +10,7 @@ struct MachineLimits {
   double triad_gb_s = 0;        ///< a = b + s c over arrays far beyond any cache; three columns counted
   double gflop_s = 0;           ///< additions and multiplications, not fused: what our kernels may use
   double roots_gop_s = 0;       ///< square roots and divisions in the kernels' ratio of 5 to 3
-  int lanes = 0;                ///< doubles in a vector of the kernels of this processor
+  int lanes = 0;                ///< floats in a vector of the kernels of this processor
   std::string instruction_set;  ///< of these kernels
 };
 MachineLimits measure_machine();

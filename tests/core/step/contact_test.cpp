@@ -52,7 +52,7 @@ TEST_CASE("a Hertz collision of glass spheres lasts as long and presses as deep 
   }
   CHECK(deepest == Approx(0.27411e-3).epsilon(1e-3));
   CHECK(end == Approx(40.34e-6).epsilon(5e-3));
-  CHECK(scene.motion(1).velocity.x == Approx(10).epsilon(1e-5));
+  CHECK(scene.velocity(1).x == Approx(10).epsilon(1e-5));
 }
 
 TEST_CASE("the restitution that comes out is the one that was put in") {
@@ -63,7 +63,7 @@ TEST_CASE("the restitution that comes out is the one that was put in") {
     // The damping coefficient starts like d^(1/4), so the error falls only a little faster than the step.
     scene.run(3 * duration, duration / 1600);
     INFO("restitution " << e);
-    CHECK(scene.motion(1).velocity.x == Approx(e).epsilon(1e-3));
+    CHECK(scene.velocity(1).x == Approx(e).epsilon(1e-3));
   }
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a sliding impact turns the grain as Coulomb friction says") {
   scene.wall(Plane{}, {1e20, 0.33, 0.98, 0.092, 0, 0});
   scene.run(4e-5, 1e-8);
   const double change = 0.092 * 1.98;
-  CHECK(scene.motion(0).velocity.x / (v * std::sin(theta)) == Approx(1 - change / std::tan(theta)).epsilon(1e-2));
+  CHECK(scene.velocity(0).x / (v * std::sin(theta)) == Approx(1 - change / std::tan(theta)).epsilon(1e-2));
   CHECK(scene.spin(0).y == Approx(5 * change * v * std::cos(theta) / (2 * radius)).epsilon(1e-2));
 }
 
@@ -88,8 +88,9 @@ TEST_CASE("equal spheres with equal spins part without tangential velocity") {
   Scene scene(glass(0.5, 0.4), 0.1, 2699);
   scene.grain({-0.1 - 1e-9, 0, 0}, {0.2, 0, 0}, {0, 0, 3}).grain({0.1 + 1e-9, 0, 0}, {-0.2, 0, 0}, {0, 0, -3});
   scene.run(5e-3, 1e-6);
-  CHECK(std::fabs(scene.motion(0).velocity.y) < 1e-12);
-  CHECK(scene.spin(0).z == Approx(3).epsilon(1e-12));
+  constexpr double rounding = 1e-7;  // of forces
+  CHECK(std::fabs(scene.velocity(0).y) < rounding * 3 * 0.1);
+  CHECK(scene.spin(0).z == Approx(3).epsilon(rounding));
 }
 
 TEST_CASE("a bridge pulls with a d^2 + b d + c down to the rupture gap, and not beyond") {
@@ -100,13 +101,13 @@ TEST_CASE("a bridge pulls with a d^2 + b d + c down to the rupture gap, and not 
     scene.run(1e-6, 1e-6);
     scene.run(1e-6, 1e-6);
     INFO("gap " << gap);
-    const double force = scene.motion(0).velocity.x * scene.mass(0) / 1.5e-6;  // half kick, then a whole one
+    const double force = scene.velocity(0).x * scene.mass(0) / 1.5e-6;  // half kick, then a whole one
     CHECK(force == Approx(2e4 * gap * gap - 80 * gap + 0.1).epsilon(1e-6));
   }
   Scene apart(model);
   apart.grain({0, 0, 0}).grain({0.0221, 0, 0});
   apart.run(1e-5, 1e-6);
-  CHECK(apart.motion(0).velocity.x == 0);
+  CHECK(apart.velocity(0).x == 0);
 }
 
 TEST_CASE("a bridge forms at the formation gap and lives until rupture") {
@@ -116,9 +117,9 @@ TEST_CASE("a bridge forms at the formation gap and lives until rupture") {
     scene.grain({0, 0, 0}).grain({0.02 + first_gap, 0, 0});
     scene.run(1e-7, 1e-7);
     scene.world.particles.motion[1].position.x = scene.world.particles.motion[0].position.x + 0.0212;
-    const double before = scene.motion(0).velocity.x;
+    const double before = scene.velocity(0).x;
     scene.run(1e-6, 1e-7);
-    return scene.motion(0).velocity.x - before;
+    return scene.velocity(0).x - before;
   };
   CHECK(velocity_gained_at_1200_um(1.2e-3, BridgeFormation::film) == 0);
   CHECK(velocity_gained_at_1200_um(0.5e-3, BridgeFormation::film) > 0);
@@ -135,7 +136,7 @@ TEST_CASE("grains part for good above the escape speed of a bridge and stay toge
     scene.grain({0, 0, 0}).grain({0.02, 0, 0});
     scene.run(1e-9, 1e-9);
     const double escape = std::sqrt(2 * work / (0.5 * scene.mass(0)));
-    scene.world.particles.motion[1].velocity.x = share * escape;
+    set_velocity(scene.world.particles, 1, {share * escape, 0, 0}, {});
     scene.run(0.05, 1e-6);
     const double gap = norm(scene.motion(1).position - scene.motion(0).position) - 0.02;
     INFO("share of the escape speed " << share);
@@ -200,7 +201,7 @@ TEST_CASE("a grain that only sticks to a plane rolls along it, and slides where 
     scene.grain({0, 0, radius - overlap}, {speed, 0, 0});
     scene.run(0.05, 1e-6);
     INFO("basis " << static_cast<int>(basis));
-    CHECK(scene.motion(0).velocity.x == Approx(basis == FrictionBasis::net ? speed : 5.0 / 7 * speed).epsilon(2e-3));
+    CHECK(scene.velocity(0).x == Approx(basis == FrictionBasis::net ? speed : 5.0 / 7 * speed).epsilon(2e-3));
     CHECK(scene.spin(0).y * radius == Approx(basis == FrictionBasis::net ? 0 : 5.0 / 7 * speed).margin(2e-3 * speed));
   }
 }

@@ -23,8 +23,7 @@ Ledger after_collision(const ContactModel& model, double dt) {
   set_contact_model(world, model, 0.01);
   world.gravity = 0;
   world.particles = make_particles({{-0.0101, 0, 0}, {0.0101, 0.004, 0}}, {0.01, 0.01}, 2500);
-  world.particles.motion[0].velocity = {0.3, 0.2, 0.1};
-  world.particles.spin[0].velocity = {1, 20, -10};
+  set_velocity(world.particles, 0, {0.3, 0.2, 0.1}, {1, 20, -10});
   StepOptions options;
   options.fixed_step_s = dt;
   Stepper stepper(world, options);
@@ -92,7 +91,7 @@ TEST_CASE("DMT's and SJKR's attraction gives what it takes: elastic grains part 
     const double allowed = 1e-5 * scene.ledger().put_in() + jump * 0.2 * dt;
     INFO("law " << static_cast<int>(law));
     CHECK(scene.motion(1).position.x > 0.0101);
-    CHECK(std::fabs(std::pow(scene.motion(1).velocity.x / 0.1, 2) - 1) * scene.ledger().start_kinetic < allowed);
+    CHECK(std::fabs(std::pow(scene.velocity(1).x / 0.1, 2) - 1) * scene.ledger().start_kinetic < allowed);
     CHECK(std::fabs(scene.ledger().error()) < allowed);
   }
 }
@@ -179,7 +178,7 @@ TEST_CASE("a bridge that forms across a gap spends the work it takes to part it"
   set_contact_model(world, model, 0.01);
   world.gravity = 0;
   world.particles = make_particles({{0, 0, 0}, {0.0215, 0, 0}}, {0.01, 0.01}, 2500);
-  world.particles.motion[0].velocity = {0.2, 0, 0};
+  set_velocity(world.particles, 0, {0.2, 0, 0}, {});
   StepOptions options;
   options.fixed_step_s = 1e-6;
   Stepper stepper(world, options);
@@ -200,7 +199,7 @@ TEST_CASE("attraction across a gap does the work its law promises, for every sha
     set_contact_model(world, model, 0.01);
     world.gravity = 0;
     world.particles = make_particles({{0, 0, 0}, {0.01999, 0, 0}}, {0.01, 0.01}, 2500);
-    world.particles.motion[1].velocity = {0.3, 0, 0};
+    set_velocity(world.particles, 1, {0.3, 0, 0}, {});
     StepOptions options;
     options.fixed_step_s = 1e-6;
     Stepper stepper(world, options);

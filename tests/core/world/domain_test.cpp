@@ -66,7 +66,7 @@ TEST_CASE("a grain that leaves a slice on one side hits one on the other, as two
   Scene across = in_slice(model);
   across.grain({0.085, 0.03, 0}, {speed, 0, 0}).grain({0.012, 0.03, 0});
   across.run(0.05, step);
-  const double first = across.motion(0).velocity.x, second = across.motion(1).velocity.x;
+  const double first = across.velocity(0).x, second = across.velocity(1).x;
   CHECK(first == Approx(speed * (1 - 0.6) / 2).epsilon(0.01));
   CHECK(second == Approx(speed * (1 + 0.6) / 2).epsilon(0.01));
   CHECK(across.momentum().x == Approx(across.mass(0) * speed).epsilon(1e-12));
@@ -74,8 +74,8 @@ TEST_CASE("a grain that leaves a slice on one side hits one on the other, as two
   Scene anywhere(model);
   anywhere.grain({0.085, 0.03, 0}, {speed, 0, 0}).grain({0.112, 0.03, 0});
   anywhere.run(0.05, step);
-  CHECK(first == Approx(anywhere.motion(0).velocity.x).epsilon(1e-9));
-  CHECK(second == Approx(anywhere.motion(1).velocity.x).epsilon(1e-9));
+  CHECK(first == Approx(anywhere.velocity(0).x).epsilon(1e-9));
+  CHECK(second == Approx(anywhere.velocity(1).x).epsilon(1e-9));
 }
 
 TEST_CASE("every pair of a slice is listed once, however few cells it is wide") {
@@ -116,18 +116,21 @@ TEST_CASE("a contact remembers its slip when it is carried through the seam agai
     scene.grain({0.03, 0, 0}, {speed, 0.002, 0}, {0, 0, 0.6}).grain({0.0499, 0, 0}, {speed, -0.002, 0}, {0, 0.3, 0.4});
     scene.run(duration, step);
     const Vec3 way = scene.world.domain.way(scene.motion(0).position, scene.motion(1).position);
-    const Vec3 slower = scene.motion(1).velocity - scene.motion(0).velocity;
+    const Vec3 slower = scene.velocity(1) - scene.velocity(0);
     const Contact kept = scene.world.pairs.blocks[0].contacts.contact(0);
     const bool turned = scene.world.particles.identity[scene.world.pairs.blocks[0].contacts.first(0)] != 0;
     const Contact contact = turned ? kept.turned() : kept;
-    return std::vector{way.x,    way.y,           way.z,           slower.x,        slower.y,
-                       slower.z, contact.slip[0], contact.slip[1], contact.slip[2], contact.root_contact_radius};
+    return std::vector<double>{
+        way.x,    way.y,           way.z,           slower.x,        slower.y,
+        slower.z, contact.slip[0], contact.slip[1], contact.slip[2], contact.root_contact_radius};
   };
   const std::vector<double> round = pair_of(in_slice(model)), straight = pair_of(Scene(model));
   REQUIRE(std::fabs(straight[6]) + std::fabs(straight[7]) > 1e-10);
+  // Forces have 24 bits: a millionth of the distance, the speed, and the slip of a contact that slides.
+  const double rounding[] = {1e-6 * 0.02, 1e-6 * speed, 1e-4 * std::fabs(straight[7]), 0};
   for (std::size_t k = 0; k < round.size(); ++k) {
     INFO(k);
-    CHECK(round[k] == Approx(straight[k]).epsilon(1e-6).margin(1e-13));
+    CHECK(round[k] == Approx(straight[k]).epsilon(1e-6).margin(rounding[k / 3]));
   }
 }
 
@@ -150,7 +153,7 @@ TEST_CASE("where a slice begins changes nothing but the last bits") {
           std::max(farthest, apart_in_slice(still.world.domain.put_back(back), still.motion(i).position, kSlice));
     }
     INFO(shift);
-    CHECK(farthest < 1e-9 * 0.01);
+    CHECK(farthest / 0.01 < 1e-7);
     CHECK(norm(moved.momentum() - still.momentum()) < 1e-12);
   }
 }
@@ -169,7 +172,7 @@ TEST_CASE("the bits of a slice do not depend on the number of threads") {
     const Scene shared = run(threads);
     for (int i = 0; i < alone.world.particles.count(); i += 7) {
       CHECK(shared.motion(i).position.x == alone.motion(i).position.x);
-      CHECK(shared.motion(i).velocity.z == alone.motion(i).velocity.z);
+      CHECK(shared.velocity(i).z == alone.velocity(i).z);
     }
   }
 }

@@ -90,7 +90,7 @@ TEST_CASE("a sliding sphere ends up rolling at five sevenths of its speed") {
   const double overlap = 3e-6;
   scene.grain({0, 0, 0.01 - overlap}, {0.1, 0, 0});
   scene.run_by_itself(0.5);
-  CHECK(scene.motion(0).velocity.x == Approx(0.1 * 5 / 7).epsilon(2e-3));
+  CHECK(scene.velocity(0).x == Approx(0.1 * 5 / 7).epsilon(2e-3));
 }
 
 TEST_CASE("the nearest point of ribs is on the nearest bar: beside it, above it and at its edge") {

@@ -45,7 +45,7 @@ TEST_CASE("what platen and floor push a pellet with is its weight and its change
     const World& world = *moment.world;
     Seen now{moment.time_s, 0, 0, 0, world.walls.back().force.z};
     for (std::int32_t i = 0; i < world.particles.count(); ++i) {
-      now.momentum += world.particles.mass(i) * world.particles.motion[i].velocity.z;
+      now.momentum += world.particles.mass(i) * world.particles.velocity[i].linear.z;
       now.weight += world.particles.mass(i) * kGravity;
     }
     for (const Wall& wall : world.walls) now.push_n -= wall.force.z;
