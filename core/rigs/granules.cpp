@@ -26,6 +26,13 @@ void take_grains(const World& world, LooseGrains& grains) {
   }
 }
 
+double height_energy(const World& world) {
+  double sum = 0;
+  for (std::int32_t i = 0; i < world.particles.count(); ++i)
+    sum += world.particles.mass(i) * world.gravity * world.particles.motion[i].position.z;
+  return sum;
+}
+
 LooseGrains struck_off(const LooseGrains& grains, double height) {
   LooseGrains kept;
   for (std::size_t i = 0; i < grains.centres.size(); ++i) {
@@ -47,7 +54,9 @@ FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const
   FilledVessel filled;
   const auto settle = [&](World world, std::string_view phase, double moved_s) {
     Runner runner(world, options, posture);
+    filled.fall.start_height += height_energy(world);
     filled.failure = runner.settle({phase}, kFillCap, moved_s);
+    filled.fall.start = filled.fall.height += height_energy(world);
     add_work(filled.run, runner.summary());
     take_grains(world, filled.grains);
   };

@@ -16,6 +16,7 @@ struct FilledVessel {
   LooseGrains grains;
   RunSummary run;
   std::optional<Failure> failure;
+  Ledger fall;  ///< of the granules, by which alone the filling was driven; what it turned into is not counted
 };
 
 /// An empty vessel: makes the world that these granules are put into.

@@ -24,6 +24,7 @@ class Pressing {
  public:
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
       : test_(test), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
+    runner_.follow(filled.fall);
     runner_.remember(sum_, summed_, curve_);
   }
 

@@ -68,6 +68,7 @@ class Shearing {
       : test_(test),
         world_(world_under_lid(test, filled)),
         runner_(world_, options, [this](const Particles&) { return heights(); }) {
+    runner_.follow(filled.fall);
     double mass = 0;
     for (std::int32_t i = 0; i < world_.particles.count(); ++i) mass += world_.particles.mass(i);
     runner_.remember(stress_sum_, height_sum_, summed_, curve_, heights_);

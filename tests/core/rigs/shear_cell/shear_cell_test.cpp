@@ -84,6 +84,17 @@ TEST_CASE("granules that do not stick resist shear in proportion to the load, an
   CHECK(value_of(sticky, "shear.stress_pa") > 1.2 * value_of(once, "shear.stress_pa"));
 }
 
+// Right after the filling next to nothing has been put in by the lid: the audit has to know what the fall put in.
+TEST_CASE("a cell can be sheared whatever its packing") {
+  ShearCell test = small_cell(0);
+  test.final_displacement_m = 0.0005;
+  for (test.packing_seed = 1; test.packing_seed <= 20; ++test.packing_seed) {
+    INFO(test.packing_seed);
+    const Outcome outcome = simulate(test, {});
+    CHECK((outcome.failure ? outcome.failure->message : "").empty());
+  }
+}
+
 TEST_CASE("the bits of a shear cell do not depend on the number of threads, but on the packing") {
   ShearCell test = small_cell(0.5);
   test.final_displacement_m = 0.001;
