@@ -7,14 +7,14 @@ namespace pastefit {
 /// Between the rows in which a grain lies in memory, four doubles each, and packs with a lane for each contact.
 
 /// Transposes W packs of W lanes in place: what was lane b of pack a becomes lane a of pack b.
-PASTEFIT_INLINE void square(Doubles<2> (&p)[2]) {
+PASTEFIT_INLINE void transpose(Doubles<2> (&p)[2]) {
   const __m128d a = p[0].v, b = p[1].v;
   p[0].v = _mm_unpacklo_pd(a, b);
   p[1].v = _mm_unpackhi_pd(a, b);
 }
 
 #ifdef __AVX__
-PASTEFIT_INLINE void square(Doubles<4> (&p)[4]) {
+PASTEFIT_INLINE void transpose(Doubles<4> (&p)[4]) {
   const __m256d low01 = _mm256_unpacklo_pd(p[0].v, p[1].v), high01 = _mm256_unpackhi_pd(p[0].v, p[1].v);
   const __m256d low23 = _mm256_unpacklo_pd(p[2].v, p[3].v), high23 = _mm256_unpackhi_pd(p[2].v, p[3].v);
   p[0].v = _mm256_permute2f128_pd(low01, low23, 0x20);
@@ -25,7 +25,7 @@ PASTEFIT_INLINE void square(Doubles<4> (&p)[4]) {
 #endif
 
 /// Adds four numbers to four doubles.
-PASTEFIT_INLINE void add(double* row, __m128 quad) {
+PASTEFIT_INLINE void add_to_row(double* row, __m128 quad) {
 #ifdef __AVX__
   _mm256_store_pd(row, _mm256_add_pd(_mm256_load_pd(row), _mm256_cvtps_pd(quad)));
 #else
@@ -35,7 +35,7 @@ PASTEFIT_INLINE void add(double* row, __m128 quad) {
 }
 
 /// Quads of W rows to packs of their columns, and back.
-PASTEFIT_INLINE void turn(Singles<4> (&p)[4]) {
+PASTEFIT_INLINE void transpose(Singles<4> (&p)[4]) {
   const __m128 low01 = _mm_unpacklo_ps(p[0].v, p[1].v), high01 = _mm_unpackhi_ps(p[0].v, p[1].v);
   const __m128 low23 = _mm_unpacklo_ps(p[2].v, p[3].v), high23 = _mm_unpackhi_ps(p[2].v, p[3].v);
   p[0].v = _mm_movelh_ps(low01, low23);
@@ -45,7 +45,7 @@ PASTEFIT_INLINE void turn(Singles<4> (&p)[4]) {
 }
 
 #ifdef __AVX__
-PASTEFIT_INLINE void turn(Singles<8> (&p)[4]) {
+PASTEFIT_INLINE void transpose(Singles<8> (&p)[4]) {
   const __m256d low01 = _mm256_castps_pd(_mm256_unpacklo_ps(p[0].v, p[1].v));
   const __m256d high01 = _mm256_castps_pd(_mm256_unpackhi_ps(p[0].v, p[1].v));
   const __m256d low23 = _mm256_castps_pd(_mm256_unpacklo_ps(p[2].v, p[3].v));
@@ -66,22 +66,22 @@ PASTEFIT_INLINE void read_quads(Row row, Singles<W> (&columns)[4]) {
     if constexpr (W == 8) columns[k].v = _mm256_set_m128(_mm_load_ps(row(k + 4)), _mm_load_ps(row(k)));
 #endif
   }
-  turn(columns);
+  transpose(columns);
 }
 
 /// Adds lane l of the four columns to the four doubles at `row(l)`, in the order of the lanes.
 template <int W, class Row>
 PASTEFIT_INLINE void add_quads(Row row, Singles<W> (&columns)[4]) {
-  turn(columns);
+  transpose(columns);
   for (int lane = 0; lane < 4; ++lane) {
-    if constexpr (W == 4) add(row(lane), columns[lane].v);
+    if constexpr (W == 4) add_to_row(row(lane), columns[lane].v);
 #ifdef __AVX__
-    if constexpr (W == 8) add(row(lane), _mm256_castps256_ps128(columns[lane].v));
+    if constexpr (W == 8) add_to_row(row(lane), _mm256_castps256_ps128(columns[lane].v));
 #endif
   }
 #ifdef __AVX__
   if constexpr (W == 8)
-    for (int lane = 0; lane < 4; ++lane) add(row(lane + 4), _mm256_extractf128_ps(columns[lane].v, 1));
+    for (int lane = 0; lane < 4; ++lane) add_to_row(row(lane + 4), _mm256_extractf128_ps(columns[lane].v, 1));
 #endif
 }
 
@@ -97,7 +97,7 @@ PASTEFIT_INLINE void read_differences(Row from, Row to, Doubles<W> (&columns)[4]
       const Mask turned = reinterpret_cast<Mask>(Doubles<W>::load(from(lane) + block).v) ^ sign;
       part[lane].v = reinterpret_cast<typename Doubles<W>::Lanes>(turned) + Doubles<W>::load(to(lane) + block).v;
     }
-    square(part);
+    transpose(part);
     for (int k = 0; k < W; ++k) columns[block + k] = part[k];
   }
 }

@@ -2,13 +2,19 @@
 
 namespace pastefit {
 
-const KernelTable& kernels_of_this_processor() {
+std::vector<const KernelTable*> kernels_this_processor_runs() {
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("fma"))
-    return avx512::kernels;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2::kernels;
-  return sse2::kernels;
+  std::vector<const KernelTable*> tables{&sse2::kernels};
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return tables;
+  tables.insert(tables.begin(), &avx2::kernels);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    tables.insert(tables.begin(), &avx512::kernels);
+  return tables;
+}
+
+const KernelTable& kernels_of_this_processor() {
+  static const KernelTable& widest = *kernels_this_processor_runs().front();
+  return widest;
 }
 
 double total(std::span<const EnergySums> shares, EnergySums::Kind kind) {

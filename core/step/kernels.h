@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/laws/contact.h"
 #include "core/laws/table.h"
@@ -94,7 +95,9 @@ namespace avx512 {
 extern const KernelTable kernels;
 }
 
-/// The widest kernels this processor runs.
+/// The kernels this processor runs, the widest first.
+std::vector<const KernelTable*> kernels_this_processor_runs();
+/// The widest of them.
 const KernelTable& kernels_of_this_processor();
 
 }  // namespace pastefit

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "calibrate/base/machine.h"
+#include "core/step/kernels.h"
 #include "tests/bench/speed/calibration.h"
 #include "tests/bench/speed/ours.h"
 #include "tests/bench/speed/peer_files.h"
@@ -172,6 +173,12 @@ Space space_of(const Scene& scene, const Bed& bed) {
   return {{-0.5, -0.5, -kSceneRadius}, {0.5, 0.5, scene_mould().height_m + lifted + 0.02}};
 }
 
+const KernelTable& kernels_called(const std::string& instruction_set) {
+  for (const KernelTable* table : kernels_this_processor_runs())
+    if (table->instruction_set == instruction_set) return *table;
+  return kernels_of_this_processor();
+}
+
 SceneResult measure_steps(Scene scene, const MeasureOptions& options, const ScratchFolder& folder) {
   if (options.steps > 0) scene.steps = options.steps;
   const bool box = scene.container == Container::box;
@@ -180,10 +187,11 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
 
   std::vector<Contender> contenders(1);
   contenders[0].result.name = options.ledger ? "ours with ledger" : "ours";
+  if (!options.kernels.empty()) contenders[0].result.name += ", " + options.kernels;
   contenders[0].result.time_step_s = kSceneStep;
   contenders[0].run = [&](TimedEngine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
-      const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger);
+      const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger, kernels_called(options.kernels));
       return {{"seconds", run.seconds},
               {"advised_step_s", run.advised_step_s},
               {"contacts_per_grain", run.contacts},

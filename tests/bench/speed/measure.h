@@ -16,6 +16,7 @@ struct MeasureOptions {
   double patience_s = 60;  ///< an engine whose run took longer is not run again
   int steps = 0;           ///< timed steps instead of the scene's own; 0: its own
   bool ledger = false;     ///< our engine keeps its ledger of energy; no peer keeps one
+  std::string kernels{};   ///< instruction set of our engine's kernels where steps are timed; empty: the widest
 };
 
 /// One engine's runs of a scene.

@@ -43,11 +43,12 @@ World world_of(const Scene& scene, Bed&& given) {
   return world;
 }
 
-OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger) {
+OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger, const KernelTable& kernels) {
   World world = world_of(scene, std::move(bed));
   StepOptions options;
   options.fixed_step_s = kSceneStep;
   options.ledger = ledger;
+  options.kernels = &kernels;
   Stepper stepper(world, options);
   take_steps(stepper, scene.warm_steps);
   if (scene.container == Container::mould) world.walls[1].velocity = {0, 0, kLiftSpeed};

@@ -6,8 +6,10 @@
 #include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "calibrate/base/atomic_file.h"
+#include "core/step/kernels.h"
 #include "tests/bench/speed/report.h"
 #include "tests/bench/speed/roofline.h"
 
@@ -114,6 +116,13 @@ int main(int argc, char** argv) {
   app.add_flag(
       "--ledger", asked.options.ledger,
       "our engine keeps its ledger of energy where steps are timed, as `pastefit simulate` does; no peer does");
+  std::vector<std::string> sets;
+  for (const KernelTable* table : kernels_this_processor_runs()) sets.emplace_back(table->instruction_set);
+  app.add_option("--kernels", asked.options.kernels, "instruction set of our engine's kernels where steps are timed")
+      ->transform(CLI::IsMember(sets, CLI::ignore_case, [](std::string name) {
+        std::erase(name, '-');
+        return name;
+      }));
   app.add_flag("--scaling", asked.scaling, "boxes of 1,000 to 1,000,000 grains: cost of a grain's step");
   app.add_flag("--roofline", asked.roofline, "bytes and operations of a contact against what the machine can do");
   app.add_option("--json", asked.json, "file for the results; -: standard output");
