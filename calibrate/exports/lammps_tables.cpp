@@ -10,6 +10,7 @@
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 #include "core/laws/table.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
@@ -209,7 +210,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   if (auto faults = lacking(test); !faults.empty()) return faults;
   const auto& sizes = scene.sizes.radii_m;
   const double radius = test.grains.radius_m, density = scene.grain_density_kg_m3;
-  const double load = 10 * mass_of(radius, density) * 9.81;
+  const double load = 10 * mass_of(radius, density) * kGravity;
   const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
   const GrainPair mean{radius, radius, radius};
   const bool attracts = attraction_n(test.contact, mean, 1e-12) > 0 || attraction_n(test.contact, mean, 0) > 0;

@@ -278,8 +278,9 @@ Result<Export> export_yade(const ExportScene& scene) {
   if (contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
         format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "
-               "attraction (%.3g N) presses together holds %.3g N in Yade, nothing on the card.",
-               pull, contact.friction * pull));
+               "attraction (%.3g N) presses together holds %.3g N in Yade, %.3g N on the card.",
+               pull, contact.friction * pull,
+               contact.friction_basis == FrictionBasis::total ? 2 * contact.friction * sticking : 0.0));
   if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
     out.notes.push_back(
         "Rolling: the spring and the largest moment are those of two mean grains, on walls too; there is "

@@ -48,8 +48,7 @@ void describe_slump(Fields& fields, Test& test) {
 }
 
 double largest_pressure_pa(const SlumpTest& test) {
-  constexpr double gravity = 9.81;
-  return test.bulk_density_kg_m3 * gravity * test.mould.height_m;
+  return test.bulk_density_kg_m3 * kGravity * test.mould.height_m;
 }
 
 }  // namespace

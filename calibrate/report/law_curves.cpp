@@ -8,6 +8,7 @@
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 #include "core/laws/table.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
@@ -55,7 +56,7 @@ double deepest(const Card& card, const ContactModel& contact) {
   const double radius = card.material.grains.radius_m;
   const PairConstants pair = grain_pair(contact, radius);
   const double density = card.material.grain_density_kg_m3.value_or(card.material.bulk_density_kg_m3);
-  const double weight = 9.81 * density * 4.19 * std::pow(radius, 3);
+  const double weight = kGravity * density * 4.19 * std::pow(radius, 3);
   const double load = pair.cohesion > 0 ? 1.5 * pair.cohesion : 20 * weight;
   return std::pow(load / (pair.hertz * std::sqrt(radius / 2)), 2.0 / 3);
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "calibrate/exports/export.h"
@@ -232,6 +234,26 @@ TEST_CASE("what LAMMPS's JKR has otherwise is said with numbers") {
   // 3 pi gamma R* with gamma 8 J/m^2 and R* 4 mm
   CHECK_THAT(text_of(written.value()),
              Catch::Contains("(0.302 N), at 0.481 of the gap") && Catch::Contains("Two grains that only stick hold"));
+}
+
+TEST_CASE("what Yade's friction of grains that stick has otherwise is said with numbers") {
+  for (const auto basis : {FrictionBasis::total, FrictionBasis::net}) {
+    SlumpTest material = paste();
+    material.contact.normal = NormalLaw::dmt;
+    material.contact.bridge.shape = BridgeShape::none;
+    material.contact.friction_basis = basis;
+    material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+    const auto written = export_yade(scene(material));
+    REQUIRE(written.ok());
+    // 4 pi gamma R* of two reference grains, each of radius 2 R*; of the total force friction feels twice the pull
+    // more.
+    const double pull = 2 * std::numbers::pi * material.contact.surface_energy_j_m2 * material.grains.radius_m;
+    const double held = basis == FrictionBasis::total ? 2 * material.contact.friction * pull : 0;
+    char text[80];
+    std::snprintf(text, sizeof text, "holds %.3g N in Yade, %.3g N on the card", material.contact.friction * pull,
+                  held);
+    CHECK_THAT(text_of(written.value()), Catch::Contains(text));
+  }
 }
 
 TEST_CASE("an attraction of every law is written by every exporter, and its curve is the card's") {
