@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "core/observe/closing.h"
 
@@ -133,8 +136,38 @@ double slope_along_x(const Particles& particles, double mean_radius, const Disc&
   return variance > 0 ? covariance / variance : 0;
 }
 
+namespace {
+
+Widths widths_of(const Particles& particles, const std::vector<std::int32_t>& body) {
+  Widths result;
+  if (body.empty()) return result;
+  std::array<double, kDirections> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const std::int32_t i : body) {
+    const Motion& grain = particles.motion[i];
+    double cosine = 1, sine = 0;
+    for (int d = 0; d < kDirections; ++d) {
+      const double along = grain.position.x * cosine + grain.position.y * sine;
+      low[d] = std::min(low[d], along - grain.radius);
+      high[d] = std::max(high[d], along + grain.radius);
+      const double turned = cosine * kCosine - sine * kSine;
+      sine = sine * kCosine + cosine * kSine;
+      cosine = turned;
+    }
+  }
+  for (int d = 0; d < kDirections; ++d) {
+    const double width = high[d] - low[d];
+    result.mean += width / kDirections;
+    if (d % (kDirections / 2) == 0) result.orthogonal += 0.5 * width;
+  }
+  return result;
+}
+
+}  // namespace
+
 Widths widths(const Particles& particles, double mean_radius) {
-  // Grains as discs in plan, widened by half the gap that may separate grains of one body; flood from the axis.
+  // Grains as discs in plan, widened by half the gap that may separate grains of one body.
   const double widening = 0.5 * mean_radius, spacing = 0.5 * mean_radius;
   double farthest = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
@@ -145,60 +178,50 @@ Widths widths(const Particles& particles, double mean_radius) {
   const int n = 2 * half + 1;
   std::vector<std::vector<std::int32_t>> at(static_cast<std::size_t>(n) * n);
   const auto index = [&](double c) { return std::clamp(static_cast<int>(std::lround(c / spacing)) + half, 0, n - 1); };
-  std::int32_t seed = -1;
-  double nearest = 1e300;
+  double largest_radius = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Vec3& p = particles.motion[i].position;
     at[index(p.y) * static_cast<std::size_t>(n) + index(p.x)].push_back(i);
-    const double square = p.x * p.x + p.y * p.y;
-    if (square < nearest) {
-      nearest = square;
-      seed = i;
-    }
-  }
-  if (seed < 0) return {};
-  double largest_radius = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i)
     largest_radius = std::max(largest_radius, particles.motion[i].radius);
+  }
   const int reach = static_cast<int>(std::ceil(2 * (largest_radius + widening) / spacing)) + 1;
 
   std::vector<char> belongs(particles.count(), 0);
-  std::vector<std::int32_t> front{seed};
-  belongs[seed] = 1;
-  std::array<double, kDirections> low{}, high{};
-  while (!front.empty()) {
-    const std::int32_t i = front.back();
-    front.pop_back();
-    const Motion& a = particles.motion[i];
-    double cosine = 1, sine = 0;
-    for (int d = 0; d < kDirections; ++d) {
-      const double along = a.position.x * cosine + a.position.y * sine;
-      low[d] = std::min(low[d], along - a.radius);
-      high[d] = std::max(high[d], along + a.radius);
-      const double turned = cosine * kCosine - sine * kSine;
-      sine = sine * kCosine + cosine * kSine;
-      cosine = turned;
+  std::vector<std::int32_t> body, front;
+  const auto flood = [&](std::int32_t seed) {
+    body.clear();
+    front = {seed};
+    belongs[seed] = 1;
+    while (!front.empty()) {
+      const std::int32_t i = front.back();
+      front.pop_back();
+      body.push_back(i);
+      const Motion& a = particles.motion[i];
+      const int cx = index(a.position.x), cy = index(a.position.y);
+      for (int y = std::max(cy - reach, 0); y <= std::min(cy + reach, n - 1); ++y)
+        for (int x = std::max(cx - reach, 0); x <= std::min(cx + reach, n - 1); ++x)
+          for (const std::int32_t j : at[y * static_cast<std::size_t>(n) + x]) {
+            if (belongs[j]) continue;
+            const Motion& b = particles.motion[j];
+            const double dx = b.position.x - a.position.x, dy = b.position.y - a.position.y;
+            const double touch = a.radius + b.radius + 2 * widening;
+            if (dx * dx + dy * dy > touch * touch) continue;
+            belongs[j] = 1;
+            front.push_back(j);
+          }
     }
-    const int cx = index(a.position.x), cy = index(a.position.y);
-    for (int y = std::max(cy - reach, 0); y <= std::min(cy + reach, n - 1); ++y)
-      for (int x = std::max(cx - reach, 0); x <= std::min(cx + reach, n - 1); ++x)
-        for (const std::int32_t j : at[y * static_cast<std::size_t>(n) + x]) {
-          if (belongs[j]) continue;
-          const Motion& b = particles.motion[j];
-          const double dx = b.position.x - a.position.x, dy = b.position.y - a.position.y;
-          const double touch = a.radius + b.radius + 2 * widening;
-          if (dx * dx + dy * dy > touch * touch) continue;
-          belongs[j] = 1;
-          front.push_back(j);
-        }
+  };
+  std::vector<std::int32_t> largest;
+  for (std::int32_t seed = 0; seed < particles.count(); ++seed) {
+    if (belongs[seed]) continue;
+    flood(seed);
+    if (body.size() > largest.size()) largest = body;
   }
-  Widths result;
-  for (int d = 0; d < kDirections; ++d) {
-    const double width = high[d] - low[d];
-    result.mean += width / kDirections;
-    if (d % (kDirections / 2) == 0) result.orthogonal += 0.5 * width;
+  if (2 * largest.size() < belongs.size()) {
+    largest.resize(belongs.size());
+    std::iota(largest.begin(), largest.end(), 0);
   }
-  return result;
+  return widths_of(particles, largest);
 }
 
 }  // namespace pastefit

@@ -38,13 +38,15 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   const double highest = std::clamp(highest_point(grains), surface, rim);
   const double height = test_.reading.height == HeightReading::axis ? surface : highest;
   const Widths spread = widths(grains, radius);
+  // A table that is covered to its corners is read as long as it is.
+  const double table = std::max(test_.table_length_m, 2 * test_.mould.base_radius_m);
   set(".height_mm", 1e3 * height);
   set(".slump_mm", 1e3 * (rim - height));
   set(".height_axis_mm", 1e3 * surface);
   set(".height_max_mm", 1e3 * highest);
   set(".lateral_shift_mm", 1e3 * std::sqrt(probe.x * probe.x + probe.y * probe.y));
-  set(".spread_mm", 1e3 * spread.mean);
-  set(".spread_orthogonal_mm", 1e3 * spread.orthogonal);
+  set(".spread_mm", 1e3 * std::min(spread.mean, table));
+  set(".spread_orthogonal_mm", 1e3 * std::min(spread.orthogonal, table));
   const bool dropped = step == "step2";
   const auto& measured = dropped ? test_.reading.outline_step2 : test_.reading.outline_step1;
   if (!dropped && measured.empty()) return;

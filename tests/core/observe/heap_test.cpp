@@ -42,6 +42,17 @@ TEST_CASE("the spread is the size of the body, without a grain that rolled away"
   }
 }
 
+TEST_CASE("of grains that scattered, with or without one on the axis, the spread is that of them all") {
+  for (const bool on_axis : {false, true}) {
+    std::vector<Vec3> centres;
+    if (on_axis) centres.push_back({0, 0, 0.004});
+    for (double x = -0.15; x <= 0.1501; x += 0.03)
+      for (double y = -0.15; y <= 0.1501; y += 0.03) centres.push_back({x, y + 0.005, 0.004});
+    const Widths spread = widths(make_particles(centres, std::vector<double>(centres.size(), 0.004), 2000), 0.004);
+    CHECK(spread.orthogonal == Approx(0.308).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("the slope of a top is that of the plane through its grains") {
   const auto slope = [](double tilt) { return slope_along_x(carpet(0.004, 0.08, 0.1, tilt), 0.004, {0, 0, 0.1}); };
   CHECK(std::fabs(slope(0)) < 1e-3);
