@@ -50,9 +50,9 @@ double mean_height(const Particles& particles, double mean_radius, const Disc& d
 /// Slope along x of the plane fitted to the closed surface over a disc; positive where it rises with x.
 double slope_along_x(const Particles& particles, double mean_radius, const Disc& disc);
 
-/// Widths in plan of the heap, the connected body that has at least half of the grains [m]; those that lie apart from it
-/// by more than one mean radius do not belong to it. Where no body has so many the grains have scattered, and all of them
-/// count: what flows farther is never read as narrower. What a person measures with a tape on a flow table.
+/// Widths in plan of the heap, the connected body that has at least half of the grains [m]; those that lie apart from
+/// it by more than one mean radius do not belong to it. Where no body has so many the grains have scattered, and all of
+/// them count: what flows farther is never read as narrower. What a person measures with a tape on a flow table.
 struct Widths {
   double mean = 0;        ///< over 24 directions, evenly about the axis
   double orthogonal = 0;  ///< mean of those along x and y, as the standards have it
