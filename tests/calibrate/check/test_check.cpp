@@ -195,7 +195,8 @@ TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction droppe
   for (const auto& name : caught) CHECK_THAT(name, Catch::StartsWith("step2."));
 }
 
-TEST_CASE("any change that a force can tell is a change of bits, and the same program gives the same bits", "[campaign]") {
+TEST_CASE("any change that a force can tell is a change of bits, and the same program gives the same bits",
+          "[campaign]") {
   const Card card = with_baseline(coarse_card(), 2);
   const CheckOptions quick{.quick = true};
   const auto same = check(card, quick);
