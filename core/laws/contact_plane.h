@@ -7,10 +7,10 @@
 
 namespace pastefit::detail {
 
-/// Squared lengths and denominators are kept above this before they are divided by; far below anything in a scene, far
-/// above the smallest number, so that a product of four of them is still a number.
+/// Squared lengths and denominators are kept above the first before they are divided by, contact radii, whose inverse is
+/// squared, above the second: far below anything in a scene, and what they divide is still a float.
 inline constexpr double kFloor = 1e-30;
-inline constexpr double kNoWidth = 1e-15;
+inline constexpr double kNoWidth = 1e-15;  // [m]
 
 /// A vector of the contact plane on its way to the plane as it is now: projected, turned with the twist; the length it
 /// lost by the projection is given back by `restored`.

@@ -162,7 +162,7 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
                                   const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
   const Quad velocity_a = velocities(task, i), velocity_b = velocities(task, j);
   const Quad spin_a = spins(task, i), spin_b = spins(task, j);
-  const Real radius_a = Real::load(c.radius + lane), radius_b = p.reach - radius_a;
+  const Real radius_a = spin_a.beside, radius_b = spin_b.beside;
 
   Meeting<Real> meeting;
   meeting.normal = (Real(1.0) / p.distance) * p.between;
@@ -176,7 +176,7 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
   meeting.smaller_radius = smaller(radius_a, radius_b);
   meeting.root_radius = Real::load(c.root_radius + lane);
   meeting.root_mass = Real::load(c.root_mass + lane);
-  meeting.inverse_mass = spin_a.beside + spin_b.beside;
+  meeting.inverse_mass = Real(1.0) / (meeting.root_mass * meeting.root_mass);
   meeting.neighbour_damping = velocity_a.beside + velocity_b.beside;
 
   Memory<Real> memory = recall<Rolling>(c, lane);
@@ -287,7 +287,7 @@ void wall_kernel(const KernelTask& task) {
       WallBatch& w = task.wall[k];
       const Lanes i(c.i + lane);
       const Quad velocity = velocities(task, i), spin = spins(task, i);
-      const Real radius = Real::load(c.radius + lane);
+      const Real radius = spin.beside;
       Meeting<Real> meeting;
       meeting.normal = load(w.normal, lane);
       meeting.overlap = Real::load(w.overlap + lane);
@@ -298,7 +298,7 @@ void wall_kernel(const KernelTask& task) {
       meeting.smaller_radius = radius;
       meeting.root_radius = Real::load(c.root_radius + lane);
       meeting.root_mass = Real::load(c.root_mass + lane);
-      meeting.inverse_mass = spin.beside;
+      meeting.inverse_mass = Real(1.0) / (meeting.root_mass * meeting.root_mass);
       meeting.neighbour_damping = velocity.beside;
 
       Memory<Real> memory = recall<Rolling>(c, lane);

@@ -94,7 +94,7 @@ Moved move_grains(const MoveTask& task) {
     const Row spin_before = vector_of(Row::load(angular));
     const Row w = kept_row * (spin_before + kick_alone * Row(inverse_inertia) * load);
     with_beside(w, inverse_inertia).store(angular);
-    round(with_beside(w, inverse_mass), motion.spin);
+    round(with_beside(w, motion.radius), motion.spin);
 
     Row(0.0).store(force);
     Row(0.0).store(torque);

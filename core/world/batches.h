@@ -8,11 +8,10 @@ namespace pastefit {
 /// stream of memory, and whole lines of it. Lists end with pairs of the dummy grain with itself.
 inline constexpr int kBatch = 8;
 
-/// Pairs that touch or may touch before the next selection, 64 bytes a pair. What they remember from step to step is
+/// Pairs that touch or may touch before the next selection, 56 bytes a pair. What they remember from step to step is
 /// explained with `Memory` in core/laws/meeting.h.
 struct alignas(64) ContactBatch {
   std::int32_t i[kBatch], j[kBatch];             ///< j unused with a wall
-  float radius[kBatch];                          ///< of grain i
   float root_radius[kBatch], root_mass[kBatch];  ///< of the effective radius and mass
   float slip[3][kBatch], roll[3][kBatch];
   float root_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];

@@ -12,7 +12,7 @@ namespace pastefit {
 
 /// A contact taken out of its batch; what it remembers is zero for a pair that has met only now.
 struct Contact {
-  float radius = 0, root_radius = 0, root_mass = 1;
+  float root_radius = 0, root_mass = 1;
   float slip[3] = {}, roll[3] = {};
   float root_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
 
@@ -99,7 +99,6 @@ inline void ContactList::add(std::int32_t i, std::int32_t j, const Contact& cont
   ContactBatch& batch = next();
   batch.i[lane] = i;
   batch.j[lane] = j;
-  batch.radius[lane] = contact.radius;
   batch.root_radius[lane] = contact.root_radius;
   batch.root_mass[lane] = contact.root_mass;
   for (int c = 0; c < 3; ++c) {
@@ -116,7 +115,6 @@ inline Contact ContactList::contact(std::int32_t k) const {
   const ContactBatch& batch = batches[k / kBatch];
   const int lane = k % kBatch;
   Contact contact;
-  contact.radius = batch.radius[lane];
   contact.root_radius = batch.root_radius[lane];
   contact.root_mass = batch.root_mass[lane];
   for (int c = 0; c < 3; ++c) {

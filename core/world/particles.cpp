@@ -37,7 +37,7 @@ Particles make_particles(const std::vector<Vec3>& centres, const std::vector<dou
     const double lightness = 1 / (4.0 / 3.0 * std::numbers::pi * r * r * r * density_kg_m3);
     particles.motion[i].position = centres[i];
     particles.motion[i].radius = r;
-    particles.motion[i].inverse_mass = static_cast<float>(lightness);
+    particles.motion[i].rounded_radius = static_cast<float>(r);
     particles.velocity[i] = {{}, lightness, {}, 2.5 * lightness / (r * r)};
     particles.identity[i] = static_cast<std::int32_t>(i);
   }

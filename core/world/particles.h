@@ -9,12 +9,12 @@ namespace pastefit {
 
 /// What a contact reads of a grain: one cache line, 64 bytes. Hot. Velocities are those of `Velocity`, rounded.
 struct alignas(64) Motion {
-  Vec3 position;           ///< [m]
-  double radius = 0;       ///< [m]
-  float velocity[3] = {};  ///< at the half step before `position` [m/s]
-  float damping_rate = 0;  ///< of its contacts at the last step: sum of c_n/m over what springs leave of 1 [1/s]
-  float spin[3] = {};      ///< angular velocity, at the half step before [rad/s]
-  float inverse_mass = 0;  ///< [1/kg]
+  Vec3 position;             ///< [m]
+  double radius = 0;         ///< [m]
+  float velocity[3] = {};    ///< at the half step before `position` [m/s]
+  float damping_rate = 0;    ///< of its contacts at the last step: sum of c_n/m over what springs leave of 1 [1/s]
+  float spin[3] = {};        ///< angular velocity, at the half step before [rad/s]
+  float rounded_radius = 0;  ///< [m]
 };
 
 /// What its equations of motion need besides: one cache line, 64 bytes. Hot.
