@@ -136,7 +136,7 @@ class CommandLine(Desk):
         self.assertRegex((self.out / "summary.txt").read_text(), r"\d+ simulations and \d+ with coarse grains")
         card = json.loads((self.out / "card.json").read_text())
         with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
-            query = "SELECT count(*), sum(packing >= 1 << 40) FROM evaluations"
+            query = "SELECT count(*), sum(CAST(packing AS INTEGER) >= 1 << 40) FROM evaluations"
             stored, coarse = store.execute(query).fetchone()
         self.assertGreaterEqual(coarse, 2)
         self.assertEqual(stored - coarse, card["search"]["simulations"])
