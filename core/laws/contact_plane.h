@@ -7,8 +7,8 @@
 
 namespace pastefit::detail {
 
-/// Squared lengths and denominators are kept above the first before they are divided by, contact radii, whose inverse is
-/// squared, above the second: far below anything in a scene, and what they divide is still a float.
+/// Squared lengths and denominators are kept above the first before they are divided by, contact radii, whose inverse
+/// is squared, above the second: far below anything in a scene, and what they divide is still a float.
 inline constexpr double kFloor = 1e-30;
 inline constexpr double kNoWidth = 1e-15;  // [m]
 
