@@ -1,5 +1,7 @@
 #include "core/team.h"
 
+#include <system_error>
+
 namespace pastefit {
 
 namespace {
@@ -19,7 +21,11 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 }  // namespace
 
 Team::Team(int size) {
-  for (int member = 1; member < size; ++member) helpers_.emplace_back([this, member] { help(member); });
+  try {
+    for (int member = 1; member < size; ++member) helpers_.emplace_back([this, member] { help(member); });
+  } catch (const std::system_error&) {
+    // As many as the system lets us have: the bits are the same.
+  }
 }
 
 Team::~Team() {

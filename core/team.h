@@ -14,6 +14,7 @@ namespace pastefit {
 /// tasks, not of the threads; then every size of the team gives the same bits.
 class Team {
  public:
+  /// Of so many members, or as many as the system has threads for.
   explicit Team(int size = 1);
   ~Team();
   Team(const Team&) = delete;
