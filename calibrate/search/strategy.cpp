@@ -20,10 +20,14 @@
 namespace pastefit {
 namespace {
 
-constexpr double goal_share = 0.6;             // of the tolerances: what a candidate should be within, to be confirmed
-constexpr double hardly_likely = 0.1;          // its probability with which a confirmation is broken off
-constexpr double likely_enough = 0.5;          // and with which it is begun
-constexpr double all_but_certain = 0.97;       // or with which all is within the tolerances, at the edge of what can be
+constexpr double goal_share = 0.6;     // of the tolerances: what a candidate should be within, to be confirmed
+constexpr double hardly_likely = 0.1;  // its probability with which a confirmation is broken off
+constexpr double likely_enough = 0.5;  // and with which it is begun
+
+/// Or with which all is within the tolerances. A shift of the top is never 0: heaps that are right in all else have 30
+/// mm of the 40 allowed, and a search that waited to be all but certain (0.97) tried 200 more candidates of mix 79; to
+/// ask takes 8 simulations.
+constexpr double likely_to_hold = 0.75;
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
@@ -108,7 +112,7 @@ class Search {
   bool goal_is_met(const Prospects& prospects) const {
     if (prospects.best().size() == 0) return false;
     return prospects.chance_of(prospects.best(), goal_share) >= likely_enough ||
-           prospects.chance_of(prospects.best(), 1) >= all_but_certain;
+           prospects.chance_of(prospects.best(), 1) >= likely_to_hold;
   }
 
   /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.

@@ -18,6 +18,17 @@ constexpr double weight_of_middle = 0.1;
 constexpr double packings_of_a_mean = 8;
 constexpr double harmless_share = 0.5;
 
+/// Of a reading that is further off than so many tolerances the logarithm is learnt.
+constexpr double far_off = 4;
+
+/// The residual, or what is learnt in its place: a heap that stands is 200 mm off or 210, and a model that has to
+/// explain that cliff says less of the heaps near the laboratory's. Continuous, and so is its slope.
+double compressed(double residual, double tolerance) {
+  const double far = far_off * tolerance;
+  if (tolerance <= 0 || std::abs(residual) <= far) return residual;
+  return std::copysign(far * (1 + std::log(std::abs(residual) / far)), residual);
+}
+
 /// Any packing will do where none is simulated.
 const std::vector<std::uint64_t> no_packing{0};
 
@@ -36,18 +47,17 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
     worst_ = std::max(worst_, response.misfit);
   }
   for (Eigen::Index k = 0; k < feasible.front()->residuals.size(); ++k) {
+    const double tolerance = k < tolerances.size() ? tolerances[k] : 0;
     std::vector<UnitPoint> points;
     std::vector<double> values;
     for (const Response* response : feasible) {
       if (!has_reading(*response, k)) continue;
       points.push_back(response->point);
-      values.push_back(response->residuals[k]);
+      values.push_back(compressed(response->residuals[k], tolerance));
     }
     models_.emplace_back();
     scatters_.emplace_back();
-    if (!points.empty())
-      learn(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)),
-            k < tolerances.size() ? tolerances[k] : 0);
+    if (!points.empty()) learn(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)), tolerance);
   }
   if (failed.sum() > 0) failures_.emplace(all, failed);
 }

@@ -1,0 +1,45 @@
+#include "calibrate/search/surrogate.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/search/screening.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// Sinks the more the weaker it is, and stands above a friction of 0.7, as high as it was filled.
+double height(const UnitPoint& point) {
+  return point[1] > 0.7 ? 210 : 60 * (point[0] - 0.5);
+}
+
+/// Root mean square error of a surrogate of 40 heaps where they are within twice the tolerance of 7.5.
+double error_near_the_laboratory(const Eigen::VectorXd& tolerances) {
+  std::vector<Response> heaps;
+  for (const UnitPoint& point : screening_points(2, 40, 1)) {
+    Response heap;
+    heap.point = point;
+    heap.residuals = Eigen::VectorXd::Constant(1, height(point));
+    heap.misfit = 0.5 * heap.residuals.squaredNorm();
+    heaps.push_back(heap);
+  }
+  Surrogate surrogate(heaps, tolerances);
+  double squares = 0;
+  int count = 0;
+  for (const UnitPoint& point : screening_points(2, 200, 2)) {
+    if (std::abs(height(point)) > 15) continue;
+    squares += std::pow(surrogate.evaluate({&point, 1}, {}).at(0).residuals[0] - height(point), 2);
+    ++count;
+  }
+  return std::sqrt(squares / count);
+}
+
+}  // namespace
+
+TEST_CASE("a heap that stands does not blur what is learnt of those near the laboratory's") {
+  const Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(1, 7.5);
+  const double with = error_near_the_laboratory(tolerance), without = error_near_the_laboratory({});
+  INFO(with << " mm, " << without << " mm where every residual is learnt as it is");
+  CHECK(with < 0.6 * without);
+}
