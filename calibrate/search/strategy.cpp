@@ -24,9 +24,8 @@ constexpr double goal_share = 0.6;     // of the tolerances: what a candidate sh
 constexpr double hardly_likely = 0.1;  // its probability with which a confirmation is broken off
 constexpr double likely_enough = 0.5;  // and with which it is begun
 
-/// Or with which all is within the tolerances. A shift of the top is never 0: heaps that are right in all else have 30
-/// mm of the 40 allowed, and a search that waited to be all but certain (0.97) tried 200 more candidates of mix 79; to
-/// ask takes 8 simulations.
+/// Or with which all is within the tolerances. A shift of the top is never 0: good heaps have 30 mm of the 40 allowed,
+/// and a search that waited to be all but certain (0.97) simulated mix 79 two hundred times more; to ask takes 8.
 constexpr double likely_to_hold = 0.75;
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 

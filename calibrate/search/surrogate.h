@@ -16,7 +16,9 @@ namespace pastefit {
 class Surrogate : public Objective {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
-  /// in its own unit; one of 0, or that is not given, may scatter as it likes.
+  /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered, so that a misfit is true
+  /// near the laboratory and too small far off. One of 0, or that is not given, is learnt as it is and may scatter as
+  /// it likes.
   explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {});
 
   int parameters() const override { return parameters_; }

@@ -111,8 +111,9 @@ TEST_CASE("the default strategy meets two heights and a noisy sag at once", "[ca
 }
 
 TEST_CASE("ending candidates early leaves the answer as good, and the best is always a whole one", "[campaign]") {
+  int ended = 0, asked = 0;
   for (const double level : {24.0, 40.0}) {
-    int confirmed = 0, confirmed_whole = 0, ended = 0, asked = 0, simulations = 0, simulations_whole = 0;
+    int confirmed = 0, confirmed_whole = 0, simulations = 0, simulations_whole = 0;
     double off = 0, off_whole = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       CAPTURE(seed, level);
@@ -134,19 +135,22 @@ TEST_CASE("ending candidates early leaves the answer as good, and the best is al
         ended += one.ended_early;
       }
     }
-    CAPTURE(level, confirmed, confirmed_whole, off, off_whole, simulations, simulations_whole, ended, asked);
+    CAPTURE(level, confirmed, confirmed_whole, off, off_whole, simulations, simulations_whole);
     CHECK(confirmed >= confirmed_whole - 2);
     CHECK(off < off_whole + 0.7);
     CHECK(simulations < 1.15 * simulations_whole);  // a bound teaches less than a reading
-    CHECK(ended > asked / 12);                      // a tenth; the better the proposals, the fewer
   }
+  CAPTURE(ended, asked);
+  CHECK(ended > asked / 10);
 }
 
 TEST_CASE("every algorithm by name goes the whole way within the budget", "[campaign]") {
+  constexpr int seeds = 10;
+  int all_confirmed = 0;
   for (const std::string_view name : strategy_names()) {
     int confirmed = 0;
     CAPTURE(name);
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       Synthetic objective = fake_slump(target_of(seed), seed);
       SearchOptions options = options_with(seed);
       options.strategy = name;
@@ -155,9 +159,11 @@ TEST_CASE("every algorithm by name goes the whole way within the budget", "[camp
       CHECK(finite(calibration.best));
       if (calibration.status == CalibrationStatus::confirmed) ++confirmed;
     }
-    // A likely candidate is asked at once, which costs those that propose few: newuoa_bound had 4 before.
+    // Ten seeds leave a share of a half uncertain by 1.6 of ten; the worst of them, newuoa_bound, has 3 or 4.
     CHECK(confirmed >= (name == "default" ? 9 : 3));
+    all_confirmed += confirmed;
   }
+  CHECK(all_confirmed >= 0.65 * seeds * static_cast<double>(strategy_names().size()));
 }
 
 TEST_CASE("the confirmation uses packings the search has not seen") {
