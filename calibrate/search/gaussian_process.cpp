@@ -139,6 +139,10 @@ void GaussianProcess::imagine(const UnitPoint& point, double mean, int answers) 
   set(Eigen::VectorXd(lengths_), noise_ratio_);
 }
 
+double GaussianProcess::log_likelihood() const {
+  return -0.5 * (answers_ * std::log(signal_variance_) + log_determinant_);
+}
+
 GaussianProcess::Prediction GaussianProcess::predict(const UnitPoint& point) const {
   if (signal_variance_ == 0) return {mean_, 0};
   Eigen::VectorXd correlations(static_cast<Eigen::Index>(points_.size()));

@@ -30,6 +30,8 @@ class GaussianProcess {
   void imagine(const UnitPoint& point, double mean, int answers);
 
   Prediction predict(const UnitPoint& point) const;
+  /// Logarithm of the likelihood of the answers, but for a constant of their number; infinite if all are the same.
+  double log_likelihood() const;
   /// Of an answer of precision 1.
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 

@@ -16,9 +16,9 @@ namespace pastefit {
 class Surrogate : public Objective {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
-  /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered, so that a misfit is true
-  /// near the laboratory and too small far off. One of 0, or that is not given, is learnt as it is and may scatter as
-  /// it likes.
+  /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered if it is likelier
+  /// (a warped process: Snelson, Rasmussen & Ghahramani 2004), so that a misfit is true near the laboratory and may be
+  /// too small far off. One of 0, or that is not given, is learnt as it is and may scatter as it likes.
   explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {});
 
   int parameters() const override { return parameters_; }
@@ -56,7 +56,8 @@ class Surrogate : public Objective {
   double noise() const;
 
  private:
-  void learn(const std::vector<UnitPoint>& points, const Eigen::VectorXd& values, double tolerance);
+  void compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far);
+  void learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance);
   /// Variance of the mean of some packings beyond what does no harm.
   double luck(std::size_t residual, const UnitPoint& point) const;
   /// Likely share of failures.
