@@ -16,7 +16,7 @@ double cliff(const UnitPoint& point) {
   return point[1] > 0.7 ? 210 : 60 * (point[0] - 0.5);
 }
 
-/// Sinks the more the weaker it is and the less friction it has, over the whole box.
+/// Sinks the more the weaker it is, over the whole box; bent a little by friction.
 double slope(const UnitPoint& point) {
   return 200 * (point[0] - 0.5) + 100 * (point[1] - 0.5) * (point[1] - 0.5);
 }
