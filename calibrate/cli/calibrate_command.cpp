@@ -157,8 +157,10 @@ int calibrate(const CalibrateOptions& options) {
     const auto fitted = tests_of(study, false);
     if (std::ranges::none_of(fitted, [&](std::size_t test) { return why(test).empty(); }))
       return report({{options.study + ": search.coarse_first", std::string(why(fitted.front())), "leave it out"}});
+    const std::vector<double> middle(static_cast<std::size_t>(free_count(study)), 0.5);
     for (const StudyTest& test : coarse_study.tests)
-      if (const auto faults = validate_in_file_words(test.lab.test); !faults.empty())
+      if (const auto faults = validate_in_file_words(test_with(test.lab.test, values_at(coarse_study, middle), 1));
+          !faults.empty())
         return report({{options.study + ": search.coarse_first", "with coarse grains: " + faults.front().what,
                         "leave it out, or take smaller grains"}});
   }

@@ -225,10 +225,11 @@ bool Archive::any_feasible() const {
   return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
 }
 
-std::vector<Reach> reach_of(std::span<const Response> singles, int readings) {
+std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances) {
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Reach> reach;
-  for (int k = 0; k < readings; ++k) {
+  for (int k = 0; k < std::ssize(allowances); ++k) {
+    const double allowance = allowances[static_cast<std::size_t>(k)];
     Reach one{infinity, -infinity, true, true, 0};
     double squares = 0;
     int freedom = 0;
@@ -236,8 +237,8 @@ std::vector<Reach> reach_of(std::span<const Response> singles, int readings) {
       if (!is_feasible(single) || !has_reading(single, k)) continue;
       one.lowest = std::min(one.lowest, single.observables[k]);
       one.highest = std::max(one.highest, single.observables[k]);
-      one.all_above = one.all_above && single.residuals[k] > 0;
-      one.all_below = one.all_below && single.residuals[k] < 0;
+      one.all_above = one.all_above && single.residuals[k] > allowance;
+      one.all_below = one.all_below && single.residuals[k] < -allowance;
       // Pooled: deviations from the mean of the same point's packings.
       double sum = 0;
       int count = 0;

@@ -102,6 +102,6 @@ class Archive : public Objective {
 };
 
 /// What the simulations did with each reading.
-std::vector<Reach> reach_of(std::span<const Response> singles, int readings);
+std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances);
 
 }  // namespace pastefit

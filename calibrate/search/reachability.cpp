@@ -189,8 +189,8 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
 
 std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings) {
   std::string out;
-  const auto count = singles.empty() ? 0 : static_cast<int>(singles.front().observables.size());
-  const std::vector<Reach> reach = reach_of(singles, count);
+  const auto count = singles.empty() ? 0 : static_cast<std::size_t>(singles.front().observables.size());
+  const std::vector<Reach> reach = reach_of(singles, std::vector<double>(count, 0.0));
   for (std::size_t k = 0; k < reach.size(); ++k) {
     const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
     if (std::ranges::none_of(singles, fitted)) continue;

@@ -291,13 +291,16 @@ class Search {
     result_.simulations = archive_.simulations();
     result_.coarse_simulations = static_cast<int>(archive_.coarse_singles().size());
     result_.failures = archive_.failures();
-    result_.reach = reach_of(archive_.singles(), objective_.readings());
+    std::vector<double> allowances;
+    for (std::size_t k = 0; std::ssize(allowances) < objective_.readings(); ++k)
+      allowances.push_back(objective_.allowance(k));
+    result_.reach = reach_of(archive_.singles(), allowances);
     for (const Response& coarse : corrected(archive_.coarse_singles(), archive_.singles())) {
       for (std::size_t k = 0; k < result_.reach.size(); ++k) {
         Reach& reach = result_.reach[k];
         const double residual = coarse.residuals[static_cast<Eigen::Index>(k)];
-        reach.all_above = reach.all_above && residual > 0;
-        reach.all_below = reach.all_below && residual < 0;
+        reach.all_above = reach.all_above && residual > allowances[k];
+        reach.all_below = reach.all_below && residual < -allowances[k];
       }
     }
     Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), coarse_ != nullptr, out_of_reach_};

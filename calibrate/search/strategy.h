@@ -36,8 +36,8 @@ struct Progress {
 /// What the model did with one reading in all simulations that ended well.
 struct Reach {
   double lowest = 0, highest = 0;  ///< of one simulation, in the reading's unit
-  bool all_above = false;          ///< every simulation, coarse ones corrected, read more than the laboratory
-  bool all_below = false;          ///< every simulation, coarse ones corrected, read less
+  bool all_above = false;          ///< every simulation, coarse ones corrected, read too much
+  bool all_below = false;          ///< every simulation, coarse ones corrected, read too little
   double packing_noise = 0;        ///< standard deviation from packing to packing, same parameters; 0: not seen
 };
 

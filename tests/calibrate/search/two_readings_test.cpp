@@ -94,3 +94,13 @@ TEST_CASE("a reading that is off by more than its tolerance is not made up for b
   CHECK(calibration.status != CalibrationStatus::confirmed);
   CHECK(calibration.best.miss == Approx(1.2));
 }
+
+TEST_CASE("a reading within its tolerance is in reach, though every simulation reads more than the laboratory") {
+  Synthetic objective = shifting_heap(110, 430, 1);
+  objective.observe = [](const UnitPoint& x, std::uint64_t) {
+    return std::vector<double>{110, 430 + (x[0] > 0.5 ? 1.5 : -1.5) * 25, 30};
+  };
+  const Calibration calibration = search(objective, options_with(1));
+  CHECK(calibration.status == CalibrationStatus::unconfirmed);
+  CHECK(calibration.reason.find("cannot reach") == std::string::npos);
+}
