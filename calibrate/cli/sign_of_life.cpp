@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kPatience{2}, kPlain{10};
 constexpr std::chrono::milliseconds kSign{500};
+constexpr double kRate_s = 0.5;  // that a phase is looked at before its rate says anything
 
 }  // namespace
 
@@ -22,14 +23,29 @@ SignOfLife::~SignOfLife() {
   if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
 }
 
+std::string SignOfLife::time_left(const Moment& moment, Clock::time_point now) const {
+  const double taken_s = std::chrono::duration<double>(now - phase_start_).count();
+  const double simulated_s = moment.time_s - phase_start_s_;
+  if (taken_s < kRate_s || simulated_s <= 0) return "";
+  const double pace = taken_s / simulated_s;
+  return " (" + range_of_time(pace * moment.left.least_s, pace * moment.left.most_s) + " left)";
+}
+
 void SignOfLife::show(const Moment& moment) {
   const auto now = Clock::now();
+  // A test may come to a phase again, in a world whose time is an earlier one.
+  if (moment.phase != phase_ || moment.time_s < last_s_) {
+    phase_ = moment.phase;
+    phase_start_ = now;
+    phase_start_s_ = moment.time_s;
+  }
+  last_s_ = moment.time_s;
   if (now < next_ || is_quiet()) return;
   next_ = now + (terminal_ ? Clock::duration(kSign) : Clock::duration(kPlain));
   shown_ = true;
   const double gone_s = std::chrono::duration<double>(now - start_).count();
   const std::string line =
-      fitted({"pastefit: " + std::string(moment.phase), format("%.4g s simulated", moment.time_s),
+      fitted({phase_ + time_left(moment, now), format("%.4g s simulated", moment.time_s),
               format("step %lld", static_cast<long long>(moment.step)), format("%.0f s gone", gone_s)});
   std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line.c_str());
 }

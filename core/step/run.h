@@ -22,6 +22,11 @@ struct Packing;
 /// How an interrupted run goes on (core/step/journal.h).
 class Journal;
 
+/// Simulated time that a phase still takes [s].
+struct PhaseLeft {
+  double least_s = 0, most_s = 0;
+};
+
 /// Where a run is, handed to the caller between blocks of steps.
 struct Moment {
   std::string_view phase;
@@ -29,6 +34,7 @@ struct Moment {
   std::int64_t step = 0;
   const World* world = nullptr;
   int drop = 0;  ///< which of the drops of one heap it belongs to, from 0
+  PhaseLeft left{};
 };
 
 /// Values of a reading, in its unit, beyond which the rest of a test is of no use to the caller.

@@ -69,35 +69,53 @@ std::optional<Failure> Runner::journaled(const Body& wait) {
   return {};
 }
 
-std::optional<Failure> Runner::tell(std::string_view phase) {
+PhaseLeft Runner::left(const Phase& phase) const {
+  const double now = std::max(progress_.end - world_.time, 0.0);
+  PhaseLeft left{now, now};
+  if (progress_.cap > 0) {
+    const RestCriterion& rest = options_.rest;
+    // Windows after this one: those that have to be calm, and, as `wait_for_rest` counts them, those that the cap has.
+    left.least_s += rest.window_s * std::max(0, rest.windows - progress_.calm - 1);
+    left.most_s += rest.window_s * std::max(0.0, std::ceil((progress_.cap - progress_.waited) / rest.window_s) - 1);
+    left.least_s = std::min(left.least_s, left.most_s);
+  }
+  if (phase.done) left.least_s = 0;
+  return {left.least_s + phase.after.least_s, left.most_s + phase.after.most_s};
+}
+
+std::optional<Failure> Runner::tell(const Phase& phase) {
   if (options_.journal && world_.step % kStepsPerPulse == 0 && options_.journal->due()) options_.journal->keep(state());
   if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
-      !options_.pulse({phase, world_.time, world_.step, &world_}))
-    return stopped_in(phase);
-  return world_.time < next_watch_ ? std::nullopt : show(phase);
+      !options_.pulse({phase.name, world_.time, world_.step, &world_, 0, left(phase)}))
+    return stopped_in(phase.name);
+  if (!options_.watch || world_.time < next_watch_) return {};
+  return look({phase.name, world_.time, world_.step, &world_, 0, left(phase)});
 }
 
 Failure Runner::stopped_in(std::string_view phase) const {
   return {FailureReason::stopped, std::string(phase), world_.step, world_.time, -1, 0, 0, "the run was asked to stop"};
 }
 
+std::optional<Failure> Runner::look(const Moment& moment) {
+  next_watch_ = world_.time + options_.watch_interval_s;
+  return options_.watch(moment) ? std::nullopt : std::optional(stopped_in(moment.phase));
+}
+
 std::optional<Failure> Runner::show(std::string_view phase) {
   if (!options_.watch) return {};
-  next_watch_ = world_.time + options_.watch_interval_s;
-  if (options_.watch({phase, world_.time, world_.step, &world_})) return {};
-  return stopped_in(phase);
+  return look({phase, world_.time, world_.step, &world_});
 }
 
 std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {
   return journaled([&](bool midway) {
-    if (!midway) progress_.end = world_.time + duration_s;
+    if (!midway) progress_ = {.end = world_.time + duration_s};
     return advance(phase);
   });
 }
 
 std::optional<Failure> Runner::advance(const Phase& phase) {
   while (world_.time < progress_.end) {
-    if (auto problem = tell(phase.name)) return problem;
+    if (auto problem = tell(phase)) return problem;
     if (auto problem = stepper_.step(phase.drive)) {
       problem->phase = phase.name;
       return problem;
@@ -155,7 +173,7 @@ Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway
   const double radius = world_.reference_radius;
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
-  if (!midway) progress_ = {.before = posture_(world_.particles)};
+  if (!midway) progress_ = {.before = posture_(world_.particles), .cap = cap_s};
   for (bool begun = midway; progress_.waited < cap_s; progress_.waited += criterion.window_s, begun = false) {
     if (!begun) progress_.end = world_.time + criterion.window_s;
     wait.failure = advance(phase);

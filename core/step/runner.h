@@ -17,6 +17,8 @@ struct Phase {
   std::string_view name;
   std::function<void(World&, double dt)> drive{};  ///< moves walls before every step; empty: none is moved
   std::function<bool(const World&)> done{};        ///< asked after every step; true ends the phase
+  /// Simulated time that waits of the same name may take after this one [s]: for those who look how much is left.
+  PhaseLeft after{};
 };
 
 /// Lengths of a specimen that stay where they are once it is at rest [m]: the rig's word.
@@ -70,13 +72,14 @@ class Runner {
   };
   /// How far the wait under way has come.
   struct Progress {
-    double end = 0;              ///< of the run, or the window of a wait for rest [s]
-    double waited = 0;           ///< before this window [s]
-    int calm = 0;                ///< windows in a row
-    std::vector<double> before;  ///< posture at the beginning of the window
+    double end = 0;                ///< of the run, or the window of a wait for rest [s]
+    double waited = 0;             ///< before this window [s]
+    int calm = 0;                  ///< windows in a row
+    std::vector<double> before{};  ///< posture at the beginning of the window
+    double cap = 0;                ///< of a wait for rest [s]; 0: the wait is not for rest
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(end, waited, calm, before);
+      archive(end, waited, calm, before, cap);
     }
   };
   /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before
@@ -103,7 +106,9 @@ class Runner {
   std::optional<Failure> advance(const Phase& phase);
   Wait wait_for_rest(const Phase& phase, double cap_s, bool midway, const std::function<bool(const World&)>& free = {});
   std::optional<Failure> settle_now(const Phase& phase, double cap_s, bool midway);
-  std::optional<Failure> tell(std::string_view phase);
+  std::optional<Failure> tell(const Phase& phase);
+  std::optional<Failure> look(const Moment& moment);
+  PhaseLeft left(const Phase& phase) const;
   Failure stopped_in(std::string_view phase) const;
   /// Energy created over energy put in, as of the ledger's last look.
   double energy_error() const;

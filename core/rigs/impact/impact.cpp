@@ -67,7 +67,8 @@ class ImpactRun {
     bool last = false;
     for (std::int64_t step = 0; !last; ++step) {
       last = (world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0) || rebound_is_over();
-      const Moment moment{"impact", world_.time, world_.step, &world_};
+      const double most_s = std::max(0.0, test_.duration_s - world_.time);
+      const Moment moment{"impact", world_.time, world_.step, &world_, 0, {0, most_s}};
       bool goes_on = !options.pulse || step % kStepsPerPulse != 0 || options.pulse(moment);
       if (options.watch && world_.time >= next_watch_) {
         next_watch_ = world_.time + options.watch_interval_s;

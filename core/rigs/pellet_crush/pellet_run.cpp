@@ -23,7 +23,7 @@ constexpr std::size_t kPunch = 1;
 class Pressing {
  public:
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
-      : test_(test), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
+      : test_(test), options_(options), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
     runner_.follow(filled.fall);
     runner_.remember(sum_, summed_, curve_);
   }
@@ -64,7 +64,10 @@ class Pressing {
   std::optional<Failure> press() {
     const double speed = test_.press_speedup * test_.punch_speed_m_s;
     punch().velocity = {0, 0, -speed};
-    if (auto problem = runner_.run({"press"}, (height_of_punch() - test_.pressed_height_m) / speed)) return problem;
+    const PhaseLeft rest{0, options_.fixed_wait_s.value_or(kPelletRestCap)};
+    if (auto problem =
+            runner_.run({.name = "press", .after = rest}, (height_of_punch() - test_.pressed_height_m) / speed))
+      return problem;
     punch().velocity = {};
     return runner_.settle({"press"}, kPelletRestCap);
   }
@@ -75,7 +78,8 @@ class Pressing {
     punch().velocity = {0, 0, speed};
     const auto is_clear = [&] { return height_of_punch() > highest_point(world_.particles) + test_.grains.radius_m; };
     const auto done = [&](const World& world) { return world.step % kStepsPerLook == 0 && is_clear(); };
-    if (auto problem = runner_.run({"withdraw", {}, done}, 2 * test_.fill_height_m / speed)) return problem;
+    const PhaseLeft rest{0, options_.fixed_wait_s.value_or(kPelletRestCap)};
+    if (auto problem = runner_.run({"withdraw", {}, done, rest}, 2 * test_.fill_height_m / speed)) return problem;
     if (!is_clear())
       return apart("withdraw", highest_point(world_.particles), height_of_punch(),
                    "granules stick to the punch and leave the die with it; give the tools a smaller cohesion_factor");
@@ -136,6 +140,7 @@ class Pressing {
   bool fell_apart() const { return fallen_share() > kMostFallen; }
 
   const PelletCrush& test_;
+  const RunOptions& options_;
   World world_;
   Runner runner_;
   double pellet_height_ = 0;  ///< without the die, at rest [m]

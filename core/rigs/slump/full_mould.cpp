@@ -62,7 +62,8 @@ Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptio
   double size = 1;
   int even = 0;  // looks in a row; what is lifted has had two of them to come to rest at its last size
   for (double waited = 0; even < 2; waited += kLook) {
-    full.failure = runner.run({"fill.settle"}, kLook);
+    const PhaseLeft looks{even > 0 ? 0 : kLook, std::max(0.0, kCap - waited) + 2 * kLook};
+    full.failure = runner.run({.name = "fill.settle", .after = looks}, kLook);
     if (full.failure) break;
     const Fit fit = fit_of(mould, world.particles, test.grains.radius_m * size);
     const double missing_height = (fit.roughness_m - packing.roughness_m) / mould.height_m;

@@ -79,6 +79,7 @@ class MouldLift {
   std::optional<Failure> rest_on_table() { return runner_.settle({"step1.rest", {}, look_whether_lost()}, kRestCap); }
 
   std::function<bool(const World&)> look_whether_lost() const {
+    if (!options_.cutoff) return {};
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };
   }
 
