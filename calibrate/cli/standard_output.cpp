@@ -45,7 +45,10 @@ void print(const char* pattern, ...) {
 void note(const char* pattern, ...) {
   va_list values;
   va_start(values, pattern);
-  if (!quiet) std::fputs(harmless(pattern, values).c_str(), stderr);
+  if (!quiet) {
+    note_error(std::fflush(stdout) != 0);  // where both go to one place, in the order in which they were said
+    std::fputs(harmless(pattern, values).c_str(), stderr);
+  }
   va_end(values);
 }
 

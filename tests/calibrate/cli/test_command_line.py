@@ -48,6 +48,14 @@ class CommandLine(Desk):
         arguments[arguments.index("5")] = "6"
         self.assertNotEqual(first["observables"], json.loads(run(*arguments).stdout)["observables"])
 
+    def test_what_goes_to_one_file_stands_there_in_the_order_in_which_it_was_said(self):
+        both = self.folder / "both.txt"
+        with both.open("w") as file:
+            arguments = ["simulate", RIG, *COARSE, "--set", "parameters.strength_pa=3000", "--out", self.out]
+            subprocess.run([PROGRAM, *map(str, arguments)], stdout=file, stderr=file, timeout=300, check=True)
+        text = both.read_text()
+        self.assertLess(text.index("particle-steps a second"), text.index("wrote "), text)
+
     def test_simulate_takes_impacts_which_have_no_ledger(self):
         taken = 0
         for case in sorted((SOURCE / "tests/cases").glob("*.json")):
