@@ -12,7 +12,8 @@ constexpr std::string_view slump_lab =
   %provenance%
 
   // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann, mini-cone.
-  // Give only what differs from the preset; without a preset give everything but the drop plate.
+  // Give only what differs from the preset; without a preset give everything but the drop plate. With another mould
+  // change the speed, the grains and the deviations below, too, and the study's tolerances: these are a tall cone's.
   "apparatus": {
     "preset": "abrams",
     // "mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300},
@@ -80,7 +81,8 @@ constexpr std::string_view slump_study =
   "weights": {"step1.height_mm": 1, "step1.spread_mm": 1, "step1.lateral_shift_mm": 1},
   // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
   // deviation of the laboratory.
-  // A top that is further off than 0.4 of the mould's base radius has sheared off.
+  // A top that is further off than 0.4 of the mould's base radius has sheared off: 40 mm for the cone of 200 mm, 7.6 mm
+  // for a mini-cone. With a smaller mould give smaller ones, and a smaller tolerance_mm.
   "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25, "step1.lateral_shift_mm": 40},
 
   "search": {

@@ -33,6 +33,8 @@ class FieldChecker {
     s.resize(std::snprintf(s.data(), s.size(), "%.6g", value));
     return s;
   }
+  /// A length as files and people have it.
+  static std::string in_mm(double length_m) { return text(1e3 * length_m) + " mm"; }
 
  private:
   Faults faults_;

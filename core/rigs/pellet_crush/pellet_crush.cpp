@@ -41,9 +41,9 @@ Faults validate(const PelletCrush& test) {
   const double largest = largest_radius(test.grains);
   const double narrow = std::min(test.die_diameter_m, test.pressed_height_m);
   check.require(narrow >= 2 * kGranulesAcross * largest, "grains.radius_m",
-                "is " + FieldChecker::text(largest) + " m (largest), but the pellet is only " +
-                    FieldChecker::text(narrow) + " m across: one of a few granules says nothing about a continuum",
-                "take granules of at most " + FieldChecker::text(narrow / (2 * kGranulesAcross)) + " m radius");
+                "is " + FieldChecker::in_mm(largest) + " (largest), but the pellet is only " +
+                    FieldChecker::in_mm(narrow) + " across: one of a few granules says nothing about a continuum",
+                "take granules of at most " + FieldChecker::in_mm(narrow / (2 * kGranulesAcross)) + " radius");
   check_speed(check, test, "press_speedup", "the punch", test.press_speedup * test.punch_speed_m_s,
               "give a slower punch or a smaller press_speedup");
   check_speed(check, test, "platen_speed_m_s", "the platen", test.platen_speed_m_s, "give a slower platen");

@@ -16,31 +16,32 @@ constexpr double kFastestInertial = 0.01;  // inertial number beyond which stres
 
 void check_ribs(FieldChecker& check, const ShearCell& test, const RibSizes& ribs, const std::string& name) {
   const auto at = [&](const char* field) { return name + "." + field; };
-  const auto text = [](double value) { return FieldChecker::text(value); };
   const double height = test.fill_height_m, length = test.length_m, granule = 2 * largest_radius(test.grains);
   check.range(at("height_m").c_str(), ribs.height_m, 0, height, "m");
   check.range(at("thickness_m").c_str(), ribs.thickness_m, 1e-6, length, "m");
   check.range(at("pitch_m").c_str(), ribs.pitch_m, 1e-6, length, "m");
   if (!(ribs.pitch_m > 0 && length >= ribs.pitch_m)) return;
   const double gap = even_pitch_m(ribs, length) - ribs.thickness_m;
-  check.require(ribs.height_m == 0 || gap >= granule, at("pitch_m").c_str(),
-                "leaves " + text(gap) + " m between two ribs, less than a granule of " + text(granule) + " m (largest)",
-                "set the ribs farther apart, or take granules of at most " + text(0.5 * gap) + " m radius");
+  check.require(
+      ribs.height_m == 0 || gap >= granule, at("pitch_m").c_str(),
+      "leaves " + FieldChecker::in_mm(gap) + " between two ribs, less than a granule of " +
+          FieldChecker::in_mm(granule) + " (largest)",
+      "set the ribs farther apart, or take granules of at most " + FieldChecker::in_mm(0.5 * gap) + " radius");
 }
 
 void check_across(FieldChecker& check, const ShearCell& test) {
   const double largest = largest_radius(test.grains);
   const double between = test.fill_height_m - test.lid_ribs.height_m - test.base_ribs.height_m;
   check.require(between > 0, "fill_height_m",
-                "is " + FieldChecker::text(test.fill_height_m) + " m: the ribs of lid and base would meet",
+                "is " + FieldChecker::in_mm(test.fill_height_m) + ": the ribs of lid and base would meet",
                 "fill the cell higher, or give lower ribs");
   const double narrow = std::min({test.length_m, test.width_m, between});
   if (!(between > 0)) return;
   check.require(narrow >= 2 * kGranulesAcross * largest, "grains.radius_m",
-                "is " + FieldChecker::text(largest) + " m (largest), but the bed is only " +
-                    FieldChecker::text(narrow) + " m across, between its ribs: one of a few granules says nothing " +
+                "is " + FieldChecker::in_mm(largest) + " (largest), but the bed is only " +
+                    FieldChecker::in_mm(narrow) + " across, between its ribs: one of a few granules says nothing " +
                     "about a continuum",
-                "take granules of at most " + FieldChecker::text(narrow / (2 * kGranulesAcross)) + " m radius");
+                "take granules of at most " + FieldChecker::in_mm(narrow / (2 * kGranulesAcross)) + " radius");
 }
 
 void check_shearing(FieldChecker& check, const ShearCell& test) {

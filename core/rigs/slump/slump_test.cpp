@@ -24,10 +24,9 @@ Faults validate(const SlumpTest& test) {
   constexpr double kGrainsAcross = 2.5;
   const double narrow = mould.top_radius_m < mould.height_m / 2 ? mould.top_radius_m : mould.height_m / 2;
   check.require(narrow >= kGrainsAcross * largest, "grains.radius_m",
-                "is " + FieldChecker::text(largest) + " m (largest), but the mould is only " +
-                    FieldChecker::text(2 * narrow) +
-                    " m across: a mould of a few grains says nothing about a continuum",
-                "take grains of at most " + FieldChecker::text(narrow / kGrainsAcross) + " m radius");
+                "is " + FieldChecker::in_mm(largest) + " (largest), but the mould is only " +
+                    FieldChecker::in_mm(2 * narrow) + " across: a mould of a few grains says nothing about a continuum",
+                "take grains of at most " + FieldChecker::in_mm(narrow / kGrainsAcross) + " radius");
   check.range("lift_velocity_m_s", test.lift_velocity_m_s, 1e-3, 10, "m/s");
   check.range("table_length_m", test.table_length_m, 2 * mould.base_radius_m, 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * mould.base_radius_m, "m");

@@ -267,7 +267,7 @@ TEST_CASE("what makes no test is named in the words of the file") {
   document["apparatus"]["mold"] = 1;  // an unknown key does not hide it
   const Faults faults = faults_of(document);
   REQUIRE(faults.size() == 2);
-  CHECK(says(at(faults, "grains.radius_mm"), "mould of a few grains"));
+  CHECK(says(at(faults, "grains.radius_mm"), "is 8 mm (largest), but the mould is only 20 mm across"));
 }
 
 TEST_CASE("every fault of a file is named at once") {
