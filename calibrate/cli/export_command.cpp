@@ -63,7 +63,7 @@ int export_to_folder(const ExportOptions& options) {
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   if (!faults.empty()) return report(faults);
 
-  const auto test = test_to_export(card.value(), *exporter, options.test);
+  const auto test = test_to_export(card.value(), options.test);
   if (!test.ok()) return report(test.faults());
   const auto scene = export_scene(card.value(), test.value(), options.packing);
   if (!scene.ok()) return report(scene.faults(), kFailed);
@@ -97,7 +97,7 @@ Command add_export(CLI::App& verb) {
   for (const auto& one : exporters()) targets += (targets.empty() ? "target: " : ", ") + std::string(one.name);
   verb.add_option("--to", options->target, targets)->required()->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
-  verb.add_option("--test", options->test, "the card's test to write; without it the first that has a deck")
+  verb.add_option("--test", options->test, "the card's test to write; without it the first slump test, or else the first")
       ->type_name("NAME");
   verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
       ->check(whole_number());

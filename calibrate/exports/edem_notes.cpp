@@ -35,19 +35,19 @@ Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
 
 }  // namespace
 
-Result<Export> export_edem_notes(const ExportLaw& law) {
-  const ContactModel& contact = specimen_of(law.test_of_card).contact;
+Result<Export> export_edem_notes(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
   const bool sticks = contact.normal == NormalLaw::jkr;
   KnownLaws known{"EDEM", {NormalLaw::hertz, NormalLaw::jkr}, kAllRolling};
   if (sticks) known.attraction = {BridgeShape::none};  // a plug-in takes the place of EDEM's own JKR
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (sticks)
-    return Export{law_files(law, {{"edem.txt", laws_in_words(law) + kJkrInstructions}}),
+    return Export{law_files(scene, {{"edem.txt", laws_in_words(scene) + kJkrInstructions}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   return Export{
-      law_files(law, {{"edem.txt", laws_in_words(law) + kEdemInstructions}}),
+      law_files(scene, {{"edem.txt", laws_in_words(scene) + kEdemInstructions}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
 }
 

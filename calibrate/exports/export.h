@@ -5,28 +5,42 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "calibrate/card/card.h"
 #include "calibrate/exports/size_classes.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/rigs/slump/packing.h"
 
 namespace pastefit {
 
-/// What every target can be told: the material in a card's test, of whatever kind that is.
-struct ExportLaw {
-  std::string title;  ///< of the card, with the test's name if it has one
-  Test test_of_card;
-  double grain_density_kg_m3 = 0;
-  Packing packing = {};  ///< the filled mould of a slump test; empty for other tests
+/// A surface that grains meet in a test, by the name that its region or mesh has in a deck.
+struct ExportWall {
+  std::string name;
+  WallContact contact;
 };
 
-/// What a deck is written from: a slump test of a card, and the mould filled by pastefit. Other tests have the law
-/// alone.
-struct ExportScene : ExportLaw {
-  SlumpTest test = {};
-  SizeClasses sizes = {};
+/// What a target is told: the material in a card's test, of whatever kind that is, and of a slump test the mould filled
+/// by pastefit, of which decks are written. Of other tests there are decks of two grains.
+struct ExportScene {
+  std::string title;  ///< of the card, with the test's name if it has one
+  Test test;
+  double grain_density_kg_m3 = 0;
+  Packing packing = {};    ///< the filled mould of a slump test; empty for other tests
+  SizeClasses sizes = {};  ///< of its grains; of other tests the mean radius
+
+  const SlumpTest* slump() const { return std::get_if<SlumpTest>(&test); }
+  const ContactModel& contact() const { return specimen_of(test).contact; }
+  const GrainSizes& grains() const { return specimen_of(test).grains; }
+  double radius_m() const { return grains().radius_m; }
+  /// Two grains of the mean radius.
+  GrainPair mean_pair() const { return {radius_m(), radius_m(), radius_m()}; }
 };
+
+/// Mould and table of a slump test, the tools of granules; nothing of a drop test, whose plate is of the grains'
+/// material.
+std::vector<ExportWall> walls_of(const Test& test);
 
 struct ExportFile {
   std::string name;  ///< in the folder of the export, with / where it has folders of its own
@@ -40,28 +54,22 @@ struct Export {
   std::string instructions = {};   ///< how to run it
 };
 
-/// A target, which has a deck of the test or else the law alone. Errors: a law the target lacks and nothing can stand
-/// in for.
+/// A target. Errors: a law the target lacks and nothing can stand in for.
 struct Exporter {
   std::string_view name;
   std::string_view meaning;  ///< what is written, one line
-  Result<Export> (*deck)(const ExportScene& scene);
-  Result<Export> (*law)(const ExportLaw& law) = nullptr;
-
-  /// Requirement: the scene's test is from `test_to_export`.
-  Result<Export> write(const ExportScene& scene) const { return deck ? deck(scene) : law(scene); }
+  Result<Export> (*write)(const ExportScene& scene);
 };
 
 /// What a card's export is called: its title, with the test's name if it has one.
 std::string title_of(const Card& card, const CardTest& test);
 
-/// The card's test to export: the one with this name, or, if that is empty, the first one that the target has a deck of
-/// (a slump test), or else the first of all if it writes the law alone. Errors: there is no such test; there is no deck
-/// of it.
-Result<CardTest> test_to_export(const Card& card, const Exporter& exporter, const std::string& name);
+/// The card's test to export: the one with this name, or, if that is empty, its first slump test, of which there are
+/// decks, or else the first. Error: there is no such test.
+Result<CardTest> test_to_export(const Card& card, const std::string& name);
 
-/// A card's test for any target: with the mould filled by this packing, or by the test's own, if it is a slump test;
-/// else the law alone. Errors: the mould cannot be filled.
+/// A card's test for any target, a slump test with the mould filled by this packing, or by the test's own. Errors: the
+/// mould cannot be filled.
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
@@ -71,8 +79,8 @@ Result<Export> export_lammps(const ExportScene& scene);
 Result<Export> export_lammps_tables(const ExportScene& scene);
 Result<Export> export_liggghts(const ExportScene& scene);
 Result<Export> export_yade(const ExportScene& scene);
-Result<Export> export_mercurydpm(const ExportLaw& law);
-Result<Export> export_csv(const ExportLaw& law);
-Result<Export> export_edem_notes(const ExportLaw& law);
+Result<Export> export_mercurydpm(const ExportScene& scene);
+Result<Export> export_csv(const ExportScene& scene);
+Result<Export> export_edem_notes(const ExportScene& scene);
 
 }  // namespace pastefit

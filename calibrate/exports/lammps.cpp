@@ -22,15 +22,16 @@ if "${pastefit_style} != 1" then &
 const char* const kConventions = R"(#
 # Conventions. Names and numbers of the laws are those of the card; style/README.md explains them.
 #
-#   lmp_pastefit -in in.slump                          one core
-#   mpirun -np 2 lmp_pastefit -in in.slump             two ranks
+#   lmp_pastefit -in DECK                              one core
+#   mpirun -np 2 lmp_pastefit -in DECK                 two ranks
 
 )";
 
 const char* const kBuild =
     "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
     "    (cd style && mpicxx -O3 -std=c++17 -I. -isystem /usr/include/lammps *.cpp -o ../lmp_pastefit -llammps)\n"
-    "    ./lmp_pastefit -in in.slump              or: mpirun -np 2 ./lmp_pastefit -in in.slump\n";
+    "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
+    "    in.two_grains\n";
 
 /// " &" and a name with its number, on a line of its own.
 std::string number(const char* name, double value) {
@@ -57,9 +58,9 @@ std::string bridge_words(const Bridge& bridge) {
   return out;
 }
 
-std::string pair_style(const SlumpTest& test) {
-  const auto& contact = test.contact;
-  const double radius = test.grains.radius_m;
+std::string pair_style(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const double radius = scene.radius_m();
   const bool elastic = contact.friction_basis == FrictionBasis::elastic;
   return "pair_style   pastefit" + number("reference_radius_m", radius) +
          number("youngs_modulus_pa", contact.youngs_modulus_pa) + number("poissons_ratio", contact.poissons_ratio) +
@@ -82,28 +83,19 @@ std::string wall_fix(const std::string& name, const WallContact& wall) {
 
 Result<Export> export_lammps(const ExportScene& scene) {
   const KnownLaws known{"pair style pastefit", {NormalLaw::hertz}, kAllRolling, kAllAttractions};
-  if (Faults faults = unknown_laws(scene.test.contact, known); !faults.empty()) return faults;
+  if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
-  const auto& test = scene.test;
-  const std::string pairs = pair_style(test);
-  const LammpsLaws laws{kGuard,
-                        kConventions,
-                        pairs,
-                        pairs,
-                        wall_fix("table", test.table_wall),
-                        wall_fix("ground", ground_of(test.table_wall)),
-                        wall_fix("mould", test.mould_wall),
-                        true};
+  const std::string pairs = pair_style(scene);
+  LammpsLaws laws{kGuard, kConventions, pairs, pairs, {}, true};
+  for (const auto& [name, wall] : walls_in_deck(scene)) laws.walls.push_back(wall_fix(name, wall));
   Export out;
   out.notes.push_back(
       "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
       "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
       "them.");
   out.instructions = kBuild;
-  out.files = {{"in.slump", slump_deck(scene, laws, out.notes)},
-               {"in.two_grains", two_grains_deck(scene, laws)},
-               {"grains.data", grains_data(scene, scene.packing.radii)}};
+  out.files = lammps_deck(scene, laws, out.notes, scene.packing.radii);
   for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});
   return out;
 }

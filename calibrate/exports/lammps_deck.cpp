@@ -6,8 +6,8 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/store/program.h"
-#include "calibrate/verify/force_curve.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -78,9 +78,10 @@ std::string drop_deck(const DropPlate& drop) {
 }  // namespace
 
 double deck_time_step_s(const ExportScene& scene) {
-  const auto& contact = scene.test.contact;
+  const auto& contact = scene.contact();
   const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
-  const double smallest = *std::ranges::min_element(scene.sizes.radii_m);
+  double smallest = std::ranges::min(scene.sizes.radii_m);
+  if (!scene.slump() && scene.grains().distribution != SizeDistribution::mono) smallest = scene.grains().smallest_m;
   const double step = 0.1 * std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
                       (0.1631 * contact.poissons_ratio + 0.8766);
   const double digit = std::pow(10, std::floor(std::log10(step)) - 1);
@@ -88,7 +89,7 @@ double deck_time_step_s(const ExportScene& scene) {
 }
 
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
-  const auto& test = scene.test;
+  const SlumpTest& test = *scene.slump();
   const auto& mould = test.mould;
   std::string out = header(scene, notes) + laws.conventions;
   out += deck_begin("# the scene") + laws.guard;
@@ -106,7 +107,7 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   out += "variable     rise equal 0\n";
   out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
                 mould.base_radius_m, mould.top_radius_m, mould.height_m);
-  out += laws.table_wall + laws.ground_wall + laws.mould_wall;
+  for (const auto& wall : laws.walls) out += wall;
   out += "compute      top all reduce max z\n";
   out += "variable     speed equal sqrt(2*ke/mass(all))   # root mean square [m/s]\n";
   out += "thermo_style custom step time atoms ke c_top v_speed\nthermo       1000\n";
@@ -134,13 +135,21 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   return out;
 }
 
-std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
+std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
-  const double nearest = 2 * radius - 0.05 * radius;
-  const double reach = bridge_gaps(scene.test.contact, {radius, radius, scene.test.grains.radius_m}).rupture_m;
-  const double farthest = 2 * radius + 1.05 * std::max(reach, 0.05 * radius);
-  std::string out = header(scene, {});
+  const auto [nearest, farthest] = two_grain_distances(scene.contact(), radius);
+  std::string out = header(scene, notes);
+  if (!scene.slump()) {
+    out += laws.conventions;
+    out += format("# For a machine of your own: pair_style and pair_coeff below, time steps of %.6g s at most, and\n",
+                  deck_time_step_s(scene));
+    for (std::string wall : laws.walls) {
+      for (std::size_t at = 0; (at = wall.find('\n', at)) + 1 < wall.size(); at += 2) wall.replace(at, 1, "\n#");
+      out += "# " + wall;
+    }
+    out += "#\n";
+  }
   out +=
       deck_begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
@@ -164,13 +173,24 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws) {
   return out;
 }
 
-WallContact ground_of(WallContact table) {
-  table.rolling_friction = 1;
-  return table;
+std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
+  auto walls = walls_of(scene.test);
+  if (!scene.slump()) return walls;
+  walls.push_back({"ground", scene.slump()->table_wall});
+  walls.back().contact.rolling_friction = 1;  // as in our own test
+  return walls;
+}
+
+std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
+                                    const std::vector<std::string>& notes, std::span<const double> radii) {
+  if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, laws, notes)}};
+  return {{"in.slump", slump_deck(scene, laws, notes)},
+          {"in.two_grains", two_grains_deck(scene, laws, {})},
+          {"grains.data", grains_data(scene, radii)}};
 }
 
 std::string grains_data(const ExportScene& scene, std::span<const double> radii) {
-  const auto& test = scene.test;
+  const SlumpTest& test = *scene.slump();
   const auto& grains = scene.packing.centres;
   const double margin = 4 * std::ranges::max(radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;

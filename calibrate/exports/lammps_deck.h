@@ -10,26 +10,31 @@ namespace pastefit {
 
 /// The contact laws of a scene in LAMMPS's words; everything else of a deck does not depend on them.
 struct LammpsLaws {
-  std::string guard;                                ///< commands that stop a program which would misread the deck
-  std::string conventions;                          ///< comment
-  std::string pairs, first_pair;                    ///< pair style and coefficients; of the first size class only
-  std::string table_wall, ground_wall, mould_wall;  ///< "fix ..." with regions table, ground, mould
-  bool hinge = false;                               ///< fix hinge/pastefit is there
+  std::string guard;               ///< commands that stop a program which would misread the deck
+  std::string conventions;         ///< comment
+  std::string pairs, first_pair;   ///< pair style and coefficients; of the first size class only
+  std::vector<std::string> walls;  ///< "fix ..." with a region of the wall's name, in the order of `walls_in_deck`
+  bool hinge = false;              ///< fix hinge/pastefit is there
 };
 
 /// The slump test: relax in the mould, lift, rest; and, where the laws have a hinge and the card a drop plate, step 2:
 /// turn the plate up, rest, let it fall, rest. Notes become comments.
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
-/// Two grains of the first class at distances from an overlap of a twentieth of their radius to beyond rupture, and
-/// back; prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive.
-std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws);
+/// Two grains of the first class at distances from an overlap (`two_grain_distances`) to beyond rupture, and back;
+/// prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive. Where there is no other deck
+/// it has the notes, and the walls for who copies the laws into a machine of their own.
+std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
+
+/// in.two_grains and, of a slump test, in.slump and grains.data with these radii.
+std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
+                                    const std::vector<std::string>& notes, std::span<const double> radii_m);
 
 /// The filled mould: id, type, diameter, density, position. Types are size classes; `radii_m` one for each grain.
 std::string grains_data(const ExportScene& scene, std::span<const double> radii_m);
 
-/// Where grains land that flow over the table's edge, as in our own test.
-WallContact ground_of(WallContact table);
+/// The walls of the test; of a slump test besides the ground, where grains land that flow over the table's edge.
+std::vector<ExportWall> walls_in_deck(const ExportScene& scene);
 
 /// Tenth of the Rayleigh time of the smallest grain [s], rounded down to two digits: pi R sqrt(rho/G)/(0.1631 nu +
 /// 0.8766).

@@ -7,6 +7,7 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/rolling_spring.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 #include "core/laws/table.h"
@@ -30,8 +31,8 @@ const char* const kTableConventions = R"(#
 # jkr, dmt: Young's modulus and Poisson's ratio of the grains instead of k, surface energy.
 # rolling sds: stiffness, dashpot, friction. Walls: E*, G* of grain and wall. Attraction: tables, negative = pull.
 #
-#   lmp -in in.slump                          one core
-#   mpirun -np 2 lmp -in in.slump             two ranks
+#   lmp -in DECK                              one core
+#   mpirun -np 2 lmp -in DECK                 two ranks
 
 )";
 
@@ -86,16 +87,16 @@ double resting_patch(const ContactModel& contact, const GrainPair& pair, double 
 }
 
 /// "hertz ... damping tsuji" of a pair whose contacts rest with this radius.
-std::string granular_model(const std::string& normal, const PairConstants& pair, bool rolls, double effective_mass,
-                           double resting_patch) {
+std::string granular_model(const std::string& normal, const PairConstants& pair, RollingModel rolling,
+                           double effective_mass, double resting_patch) {
   const double shear = pair.tangential_ratio * pair.normal_stiffness;
   std::string out = normal + format(" tangential mindlin_rescale/force %.17g %.17g %.17g", shear,
                                     std::sqrt(pair.tangential_ratio), pair.friction);
-  if (rolls && pair.rolling_friction > 0) {
+  if (rolling != RollingModel::none && pair.rolling_friction > 0) {
     const double stiffness = pair.normal_stiffness * resting_patch;
-    const double dashpot = 0.6 * std::sqrt(1.4 * 2.25) * pair.rolling_friction * std::sqrt(stiffness * effective_mass);
-    out += format(" rolling sds %.17g %.17g %.17g", 2.25 * stiffness * pair.rolling_friction * pair.rolling_friction,
-                  dashpot, pair.rolling_friction);
+    const double lever = rolling_spring_lever(rolling, pair.rolling_friction);
+    const double dashpot = 0.6 * std::sqrt(1.4 * 2.25) * lever * std::sqrt(stiffness * effective_mass);
+    out += format(" rolling sds %.17g %.17g %.17g", 2.25 * stiffness * lever * lever, dashpot, pair.rolling_friction);
   }
   return out + " damping tsuji";
 }
@@ -129,17 +130,18 @@ double mass_of(double radius, double density) {
   return 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius * density;
 }
 
-Faults lacking(const SlumpTest& test) {
-  KnownLaws known{"LAMMPS's granular style with tables", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt}};
-  if (test.contact.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};
-  Faults faults = unknown_laws(test.contact, known);
-  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
+Faults lacking(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  KnownLaws known{
+      "LAMMPS's granular style with tables", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt}, kAllRolling};
+  if (contact.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};
+  Faults faults = unknown_laws(contact, known);
+  for (const auto& [name, wall] : walls_of(scene.test))
     if (wall.cohesion_factor > 0)
-      faults.push_back(
-          {std::string("test.") + name + "_wall.cohesion_factor", "is not 0, but the deck's walls attract no grain",
-           test.contact.normal != NormalLaw::hertz
-               ? "calibrate with " + std::string(name) + "_cohesion_factor 0"
-               : "export with --to lammps, or calibrate with " + std::string(name) + "_cohesion_factor 0"});
+      faults.push_back({"test." + name + "_wall.cohesion_factor", "is not 0, but the deck's walls attract no grain",
+                        contact.normal != NormalLaw::hertz
+                            ? "calibrate with " + name + "_cohesion_factor 0"
+                            : "export with --to lammps, or calibrate with " + name + "_cohesion_factor 0"});
   return faults;
 }
 
@@ -168,10 +170,9 @@ std::vector<std::string> losses_of_sticking(const ContactModel& contact, double 
 }
 
 std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
-  const double radius = test.grains.radius_m;
-  const GrainPair pair{radius, radius, radius};
+  const ContactModel& contact = scene.contact();
+  const double radius = scene.radius_m();
+  const GrainPair pair = scene.mean_pair();
   const auto gaps = bridge_gaps(contact, pair);
   std::vector<std::string> notes = losses_of_sticking(contact, radius);
   if (gaps.remembers()) {
@@ -194,31 +195,36 @@ std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
     notes.push_back(
         "The rolling spring is constant, that of a contact at rest under the weight of ten grains; on the "
         "card it grows with the root of the overlap. The largest rolling moment is the same.");
+  if (const auto note = note_of_constant_torque(scene, 10 * weight); !note.empty()) notes.push_back(note);
+  if (!scene.slump() && pull > 0 && scene.grains().distribution != SizeDistribution::mono)
+    notes.push_back(
+        "The table is that of two grains of the mean radius. Grains of other sizes want tables of their own: that of "
+        "a pair goes with s^2 in force and with s in distance, s its R* over that of two mean grains.");
   if (scene.sizes.radii_m.size() > 1)
     notes.push_back(
         format("Grains take the radius of their class, %zu classes; the largest change of a radius is "
                "%.2f %%.",
                scene.sizes.radii_m.size(), 100 * scene.sizes.largest_change));
-  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, needs --to lammps.");
+  if (scene.slump() && scene.slump()->drop)
+    notes.push_back("The deck runs step 1. The drop of the plate, step 2, needs --to lammps.");
   return notes;
 }
 
 }  // namespace
 
 Result<Export> export_lammps_tables(const ExportScene& scene) {
-  const auto& test = scene.test;
-  if (auto faults = lacking(test); !faults.empty()) return faults;
+  if (auto faults = lacking(scene); !faults.empty()) return faults;
   const auto& sizes = scene.sizes.radii_m;
-  const double radius = test.grains.radius_m, density = scene.grain_density_kg_m3;
+  const ContactModel& contact = scene.contact();
+  const double radius = scene.radius_m(), density = scene.grain_density_kg_m3;
   const double load = 10 * mass_of(radius, density) * kGravity;
-  const bool rolls = test.contact.rolling == RollingModel::spring_dashpot;
-  const GrainPair mean{radius, radius, radius};
-  const bool attracts = attraction_n(test.contact, mean, 1e-12) > 0 || attraction_n(test.contact, mean, 0) > 0;
+  const GrainPair mean = scene.mean_pair();
+  const bool attracts = attraction_n(contact, mean, 1e-12) > 0 || attraction_n(contact, mean, 0) > 0;
 
-  LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, {}, {}, false};
+  LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)
                                      : "pair_style   granular\n";
-  const PairConstants grains = grain_pair(test.contact, radius);
+  const PairConstants grains = grain_pair(contact, radius);
   std::string tables = "# attraction of two grains; read by \"pair_coeff ... table\"\n\n";
   for (std::size_t i = 0; i < sizes.size(); ++i)
     for (std::size_t j = i; j < sizes.size(); ++j) {
@@ -226,13 +232,13 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
       const double first = mass_of(sizes[i], density), second = mass_of(sizes[j], density);
       const std::string types = format("pair_coeff   %zu %zu ", i + 1, j + 1);
       laws.pairs += types + (attracts ? "granular " : "") +
-                    granular_model(normal_model(test.contact), grains, rolls, first * second / (first + second),
-                                   resting_patch(test.contact, pair, load)) +
+                    granular_model(normal_model(contact), grains, contact.rolling, first * second / (first + second),
+                                   resting_patch(contact, pair, load)) +
                     "\n";
       if (attracts) {
         const std::string name = format("ATTRACTION_%zu_%zu", i + 1, j + 1);
         double cutoff = 0;
-        tables += table_text(test.contact, pair, name, cutoff);
+        tables += table_text(contact, pair, name, cutoff);
         laws.pairs += types + format("table attraction.table %s %.17g\n", name.c_str(), cutoff);
       }
       if (j == 0) laws.first_pair = style + laws.pairs;
@@ -241,26 +247,22 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
 
   const GrainPair on_wall{2 * radius, 2 * radius, radius};  // R* = radius
   const auto wall = [&](const std::string& name, const WallContact& surface) {
-    const PairConstants pair = wall_pair(test.contact, surface, radius);
+    const PairConstants pair = wall_pair(contact, surface, radius);
     const double overlap = std::pow(load / (pair.hertz * std::sqrt(radius)), 2.0 / 3.0);
     return "fix          " + name + " all wall/gran/region granular " +
-           granular_model(normal_model(pair, surface.restitution), pair, rolls, mass_of(radius, density),
+           granular_model(normal_model(pair, surface.restitution), pair, contact.rolling, mass_of(radius, density),
                           std::sqrt(on_wall.effective_radius_m() * overlap)) +
            " region " + name + "\n";
   };
-  laws.table_wall = wall("table", test.table_wall);
-  laws.ground_wall = wall("ground", ground_of(test.table_wall));
-  laws.mould_wall = wall("mould", test.mould_wall);
+  for (const auto& [name, surface] : walls_in_deck(scene)) laws.walls.push_back(wall(name, surface));
 
   std::vector<double> radii;
   for (const int type : scene.sizes.class_of) radii.push_back(sizes[type]);
 
   Export out;
-  out.instructions = "lmp -in in.slump              or: mpirun -np 2 lmp -in in.slump\n";
+  out.instructions = "lmp -in DECK              or: mpirun -np 2 lmp -in DECK, which is in.slump or in.two_grains\n";
   out.notes = table_losses(scene, load / 10);
-  out.files = {{"in.slump", slump_deck(scene, laws, out.notes)},
-               {"in.two_grains", two_grains_deck(scene, laws)},
-               {"grains.data", grains_data(scene, radii)}};
+  out.files = lammps_deck(scene, laws, out.notes, radii);
   if (attracts) out.files.push_back({"attraction.table", tables});
   return out;
 }

@@ -7,6 +7,7 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/exports/soulie.h"
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
@@ -35,33 +36,63 @@ Models models_of(const ContactModel& contact, bool attracts) {
           base + rolling};
 }
 
-/// A 3 x 3 matrix over grains, mould and table; walls do not meet each other.
-std::string pairs_of(double grains, double mould, double table) {
-  return format("peratomtypepair 3 %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", grains, mould, table, mould,
-                mould, mould, table, mould, table);
+/// A matrix over the grains and each wall; walls do not meet each other.
+std::string pairs_of(const std::vector<double>& values) {
+  std::string out = format("peratomtypepair %zu", values.size());
+  for (std::size_t row = 0; row < values.size(); ++row)
+    for (std::size_t column = 0; column < values.size(); ++column)
+      out += format(" %.17g", values[std::min(row, column) == 0 ? std::max(row, column) : std::min(row, column)]);
+  return out;
 }
 
-std::string properties(const ExportScene& scene, const SoulieFit* fit) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
-  const auto &mould = test.mould_wall, &table = test.table_wall;
-  std::string out = "# types: 1 grains, 2 mould, 3 table\n";
-  out += format("fix p1 all property/global youngsModulus peratomtype %.17g %.17g %.17g\n", contact.youngs_modulus_pa,
-                mould.youngs_modulus_pa, table.youngs_modulus_pa);
-  out += format("fix p2 all property/global poissonsRatio peratomtype %.17g %.17g %.17g\n", contact.poissons_ratio,
-                mould.poissons_ratio, table.poissons_ratio);
-  out += "fix p3 all property/global coefficientRestitution " +
-         pairs_of(contact.restitution, mould.restitution, table.restitution) + "\n";
-  out += "fix p4 all property/global coefficientFriction " +
-         pairs_of(contact.friction, mould.friction, table.friction) + "\n";
-  out += "fix p5 all property/global coefficientRollingFriction " +
-         pairs_of(contact.rolling_friction, mould.rolling_friction, table.rolling_friction) + "\n";
-  out += "fix p6 all property/global coefficientRollingViscousDamping " + pairs_of(0.3, 0.3, 0.3) + "\n";
+/// The value of the grains, then those of the walls.
+template <class OfWall>
+std::vector<double> by_type(const std::vector<ExportWall>& walls, double grains, const OfWall& of_wall) {
+  std::vector<double> out{grains};
+  for (const ExportWall& wall : walls) out.push_back(of_wall(wall.contact));
+  return out;
+}
+
+std::string one_each(const std::vector<double>& values) {
+  std::string out = "peratomtype";
+  for (const double value : values) out += format(" %.17g", value);
+  return out;
+}
+
+/// Energy density of sjkr2 by which a wall holds the grains as the card's does.
+double energy_density(const ContactModel& card, const WallContact& wall, double radius) {
+  if (card.normal == NormalLaw::sjkr) return card.cohesion_energy_density_pa * wall.cohesion_factor;
+  return sjkr_energy_density(sticking_of(card, wall, radius).pull_off_n, radius,
+                             0.75 * wall_pair(card, wall, radius).hertz);
+}
+
+/// `contact` is what is written, with the law that stands in for the card's.
+std::string properties(const ExportScene& scene, const ContactModel& contact, const SoulieFit* fit) {
+  const auto walls = walls_of(scene.test);
+  std::string out = "# types: 1 grains";
+  for (std::size_t i = 0; i < walls.size(); ++i) out += format(", %zu ", i + 2) + walls[i].name;
+  const auto property = [&](int number, const std::string& name, const std::string& value) {
+    out += format("fix p%d all property/global ", number) + name + " " + value + "\n";
+  };
+  out += "\n";
+  property(
+      1, "youngsModulus",
+      one_each(by_type(walls, contact.youngs_modulus_pa, [](const auto& wall) { return wall.youngs_modulus_pa; })));
+  property(2, "poissonsRatio",
+           one_each(by_type(walls, contact.poissons_ratio, [](const auto& wall) { return wall.poissons_ratio; })));
+  property(3, "coefficientRestitution",
+           pairs_of(by_type(walls, contact.restitution, [](const auto& wall) { return wall.restitution; })));
+  property(4, "coefficientFriction",
+           pairs_of(by_type(walls, contact.friction, [](const auto& wall) { return wall.friction; })));
+  property(5, "coefficientRollingFriction",
+           pairs_of(by_type(walls, contact.rolling_friction, [](const auto& wall) { return wall.rolling_friction; })));
+  property(6, "coefficientRollingViscousDamping", pairs_of(by_type(walls, 0.3, [](const auto&) { return 0.3; })));
   if (contact.normal == NormalLaw::sjkr) {
     // sjkr2 has twice the area of the card's law.
-    const double half = 0.5 * contact.cohesion_energy_density_pa;
-    out += "fix p7 all property/global cohesionEnergyDensity " +
-           pairs_of(half, half * mould.cohesion_factor, half * table.cohesion_factor) + "\n";
+    auto halves = by_type(walls, contact.cohesion_energy_density_pa,
+                          [&](const auto& wall) { return energy_density(scene.contact(), wall, scene.radius_m()); });
+    for (double& value : halves) value *= 0.5;
+    property(7, "cohesionEnergyDensity", pairs_of(halves));
   }
   if (!fit) return out;
   const double radius = fit->bridge.radius_m;
@@ -71,7 +102,7 @@ std::string properties(const ExportScene& scene, const SoulieFit* fit) {
                 fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75))));
   out += format("fix p8 all property/global surfaceTension scalar %.17g\n", fit->bridge.surface_tension_n_m);
   out += "fix p9 all property/global fluidViscosity scalar 0\n";
-  out += "fix p10 all property/global contactAngle peratomtype 0 0 0\n";
+  property(10, "contactAngle", one_each(by_type(walls, 0, [](const auto&) { return 0; })));
   out += "fix p11 all property/global minSeparationDistanceRatio scalar 1.01\n";
   out += format("fix p12 all property/global maxSeparationDistanceRatio scalar %.17g\n",
                 1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius);
@@ -93,15 +124,15 @@ communicate  single vel yes
 )";
 }
 
-std::string liggghts_slump(const ExportScene& scene, const Models& models, const SoulieFit* fit,
-                           const std::vector<std::string>& notes) {
-  const auto& test = scene.test;
+std::string liggghts_slump(const ExportScene& scene, const ContactModel& contact, const Models& models,
+                           const SoulieFit* fit, const std::vector<std::string>& notes) {
+  const SlumpTest& test = *scene.slump();
   const double step = deck_time_step_s(scene);
   const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
   std::string out = liggghts_begin(scene, "the slump test, step 1", notes);
   out += "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump\n\nread_data    grains.data\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * test.grains.radius_m);
-  out += properties(scene, fit);
+  out += properties(scene, contact, fit);
   out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
   out += format("timestep     %.6g\nfix          weight all gravity 9.81 vector 0 0 -1\n", step);
   out += "fix          table all wall/gran " + models.walls + " primitive type 3 zplane 0.0\n";
@@ -123,19 +154,29 @@ std::string liggghts_slump(const ExportScene& scene, const Models& models, const
 }
 
 /// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
-std::string liggghts_two_grains(const ExportScene& scene, const Models& models, const SoulieFit* fit) {
+std::string liggghts_two_grains(const ExportScene& scene, const ContactModel& contact, const Models& models,
+                                const SoulieFit* fit, const std::vector<std::string>& notes) {
   constexpr int kDistances = 240;
-  const double radius = scene.test.grains.radius_m, speed = 1e-9;
-  const double nearest = 1.95 * radius;
+  const double radius = scene.radius_m(), speed = 1e-9;
+  const double nearest = two_grain_distances(contact, radius).nearest_m;
   const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
-  std::string out = liggghts_begin(scene, "force of two grains against their distance; prints \"apart r F\"", {});
-  out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   3 box\n", -4 * radius,
-                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius);
+  std::string out = liggghts_begin(scene, "force of two grains against their distance; prints \"apart r F\"",
+                                   scene.slump() ? std::vector<std::string>{} : notes);
+  const auto walls = walls_of(scene.test);
+  if (!scene.slump()) {
+    out += format("# For a machine of your own: properties and pair_style below, time steps of %.6g s at most, and\n",
+                  deck_time_step_s(scene));
+    for (std::size_t i = 0; i < walls.size(); ++i)
+      out += "# fix " + walls[i].name + " all wall/gran " + models.walls +
+             format(" mesh n_meshes ... meshes ..., each fix mesh/surface file ... type %zu\n", i + 2);
+  }
+  out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   %zu box\n", -4 * radius,
+                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius, walls.size() + 1);
   out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", nearest);
   out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
                 scene.grain_density_kg_m3);
   out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * radius);
-  out += properties(scene, fit);
+  out += properties(scene, contact, fit);
   out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
   out += format("timestep     %.17g\n", (farthest - nearest) / kDistances / speed);
   out += "group        first id 1\ngroup        second id 2\n";
@@ -171,7 +212,7 @@ std::string mould_stl(const Mould& mould) {
 /// As LAMMPS's, but grains keep their radii: the law belongs to no type.
 std::string liggghts_data(const ExportScene& scene) {
   std::string out = "grains of a filled mould, written by pastefit\n\n";
-  const auto& test = scene.test;
+  const SlumpTest& test = *scene.slump();
   const auto& grains = scene.packing.centres;
   const double margin = 4 * *std::ranges::max_element(scene.packing.radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
@@ -184,12 +225,13 @@ std::string liggghts_data(const ExportScene& scene) {
   return out;
 }
 
-std::vector<std::string> liggghts_losses(const ExportScene& scene, const SoulieFit* fit) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
-  const double radius = test.grains.radius_m;
-  const GrainPair pair{radius, radius, radius};
-  std::vector<std::string> notes;
+std::vector<std::string> liggghts_losses(const ExportScene& scene, const ContactModel& written, const SoulieFit* fit) {
+  const ContactModel& contact = scene.contact();
+  const GrainPair pair = scene.mean_pair();
+  const Sticking deck = sticking_of(written, 0.5 * scene.radius_m());
+  // Reduced, LIGGGHTS's friction is that of the force less its cohesion: nothing where grains only stick.
+  std::vector<std::string> notes = differences_of_sticking(
+      scene, written, "LIGGGHTS", contact.friction_basis == FrictionBasis::elastic ? deck.load_n : 0);
   if (fit) {
     const auto& difference = fit->difference;
     notes.push_back(
@@ -208,52 +250,60 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const SoulieF
     const double cohesion = attraction_n(contact, pair, 1e-12), touch = fit->bridge.force_n(0);
     notes.push_back(
         format("Overlapping grains attract each other with %.4g N; on the card with %.4g N.", touch, cohesion));
-    if (scene.sizes.radii_m.size() > 1)
+    if (scene.sizes.radii_m.size() > 1 || (!scene.slump() && scene.grains().distribution != SizeDistribution::mono))
       notes.push_back(
           "Between grains of other than the mean size the bridge scales as Soulie's, not with the square of "
           "the size.");
   }
-  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
-    if (wall.cohesion_factor > 0 && contact.normal != NormalLaw::sjkr)
-      notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name,
+  for (const auto& [name, wall] : walls_of(scene.test))
+    if (wall.cohesion_factor > 0 && written.normal != NormalLaw::sjkr)
+      notes.push_back(format("The attraction of grains to the %s (%.3g of that between grains) is lost.", name.c_str(),
                              wall.cohesion_factor));
   if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
     notes.push_back(
         "The rolling spring is two thirds of the card's (secant for tangent stiffness); the largest moment "
         "is the same.");
-  if (test.drop) notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
+  if (scene.slump() && scene.slump()->drop)
+    notes.push_back("The deck runs step 1. The drop of the plate, step 2, is not part of it.");
   return notes;
+}
+
+/// "gap_m,card_n,liggghts_n" of a fitted bridge.
+ExportFile bridge_curves(const ExportScene& scene, const SoulieFit& fit) {
+  std::string text = "gap_m,card_n,liggghts_n\n";
+  const GrainPair pair = scene.mean_pair();
+  const double farthest = 1.2 * std::max(fit.bridge.rupture_gap_m(), bridge_gaps(scene.contact(), pair).rupture_m);
+  for (int i = 0; i <= 400; ++i) {
+    const double gap = farthest * i / 400;
+    text += format("%.17g,%.17g,%.17g\n", gap, attraction_n(scene.contact(), pair, -gap), fit.bridge.force_n(gap));
+  }
+  return {"curves.csv", text};
 }
 
 }  // namespace
 
 Result<Export> export_liggghts(const ExportScene& scene) {
-  const auto& contact = scene.test.contact;
-  if (Faults faults = unknown_laws(contact, {"LIGGGHTS", {NormalLaw::hertz, NormalLaw::sjkr}, kAllRolling});
-      !faults.empty())
-    return faults;
-  const double radius = scene.test.grains.radius_m;
-  const bool attracts = bridge_gaps(contact, {radius, radius, radius}).rupture_m > 0 &&
-                        attraction_n(contact, {radius, radius, radius}, 0) > 0;
+  const ContactModel& card = scene.contact();
+  KnownLaws known{"LIGGGHTS", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr}, kAllRolling};
+  if (card.normal != NormalLaw::hertz) known.attraction = {BridgeShape::none};  // it has one cohesion at a time
+  if (Faults faults = unknown_laws(card, known); !faults.empty()) return faults;
+  const double radius = scene.radius_m();
+  const ContactModel contact = with_nearest_law(card, NormalLaw::sjkr, radius);
+  const GrainPair pair = scene.mean_pair();
+  const bool attracts = bridge_gaps(contact, pair).rupture_m > 0 && attraction_n(contact, pair, 0) > 0;
   const SoulieFit fit = attracts ? fit_soulie(contact, radius) : SoulieFit{};
   const SoulieFit* const fitted = attracts ? &fit : nullptr;
   const Models models = models_of(contact, attracts);
   Export out;
-  out.notes = liggghts_losses(scene, fitted);
-  std::string law = "gap_m,card_n,liggghts_n\n";
-  if (attracts)
-    for (int i = 0; i <= 400; ++i) {
-      const double gap =
-          1.2 * std::max(fit.bridge.rupture_gap_m(), bridge_gaps(contact, {radius, radius, radius}).rupture_m) * i /
-          400;
-      law += format("%.17g,%.17g,%.17g\n", gap, attraction_n(contact, {radius, radius, radius}, -gap),
-                    fit.bridge.force_n(gap));
-    }
-  out.files = {{"in.slump", liggghts_slump(scene, models, fitted, out.notes)},
-               {"in.two_grains", liggghts_two_grains(scene, models, fitted)},
-               {"grains.data", liggghts_data(scene)},
-               {"mould.stl", mould_stl(scene.test.mould)},
-               {"curves.csv", law}};
+  out.notes = liggghts_losses(scene, contact, fitted);
+  if (scene.slump())
+    out.files = {{"in.slump", liggghts_slump(scene, contact, models, fitted, out.notes)},
+                 {"grains.data", liggghts_data(scene)},
+                 {"mould.stl", mould_stl(scene.slump()->mould)}};
+  out.files.push_back({"in.two_grains", liggghts_two_grains(scene, contact, models, fitted, out.notes)});
+  if (attracts) out.files.push_back(bridge_curves(scene, fit));
+  if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "liggghts"));
+  out.instructions = "liggghts -in DECK, which is in.slump or in.two_grains\n";
   return out;
 }
 

@@ -21,11 +21,11 @@ Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
 
 }  // namespace
 
-Result<Export> export_mercurydpm(const ExportLaw& law) {
+Result<Export> export_mercurydpm(const ExportScene& scene) {
   const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
-  if (Faults faults = unknown_laws(specimen_of(law.test_of_card).contact, known); !faults.empty()) return faults;
+  if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   return Export{
-      law_files(law, {{"mercurydpm.txt", laws_in_words(law) + kMercuryInstructions}}),
+      law_files(scene, {{"mercurydpm.txt", laws_in_words(scene) + kMercuryInstructions}}),
       {"MercuryDPM has no such bridge as it comes; an adhesive species has to be derived.", "Not run in MercuryDPM."}};
 }
 

@@ -58,13 +58,13 @@ std::string laws_chosen(const ContactModel& contact) {
          word_of(contact.friction_basis, friction_bases) + " normal force";
 }
 
-std::vector<ParameterRow> parameter_rows(const ExportLaw& law) {
-  const Specimen& specimen = specimen_of(law.test_of_card);
+std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
+  const Specimen& specimen = specimen_of(scene.test);
   const ContactModel& contact = specimen.contact;
   const double radius = specimen.grains.radius_m;
   std::vector<ParameterRow> rows{
       {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
-      {"grain_density_kg_m3", law.grain_density_kg_m3, "of the grains"},
+      {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains"},
       {"bulk_density_kg_m3", specimen.bulk_density_kg_m3, "of the material as the laboratory prepares it"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
@@ -76,25 +76,24 @@ std::vector<ParameterRow> parameter_rows(const ExportLaw& law) {
   if (contact.cohesion_energy_density_pa > 0)
     rows.push_back({"cohesion_energy_density_pa", contact.cohesion_energy_density_pa, "of the grains, over 2 pi R* d"});
   if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, radius);
-  if (const auto* slump = std::get_if<SlumpTest>(&law.test_of_card))
+  if (const auto* slump = scene.slump())
     rows.insert(rows.end(), {{"mould_base_radius_m", slump->mould.base_radius_m, "apparatus"},
                              {"mould_top_radius_m", slump->mould.top_radius_m, "apparatus"},
                              {"mould_height_m", slump->mould.height_m, "apparatus"},
                              {"lift_velocity_m_s", slump->lift_velocity_m_s, "of the mould"}});
-  Test test = law.test_of_card;
-  for (const Surface& surface : surfaces_of(test)) add_wall(rows, std::string(surface.name), surface.contact);
+  for (const ExportWall& wall : walls_of(scene.test)) add_wall(rows, wall.name, wall.contact);
   return rows;
 }
 
-ExportFile parameters_csv(const ExportLaw& law) {
+ExportFile parameters_csv(const ExportScene& scene) {
   std::string text = "name,value,meaning\n";
-  for (const auto& row : parameter_rows(law))
+  for (const auto& row : parameter_rows(scene))
     text += format("%s,%.17g,\"%s\"\n", row.name.c_str(), row.value, row.meaning.c_str());
   return {"parameters.csv", text};
 }
 
-ExportFile force_csv(const ExportLaw& law) {
-  const Specimen& specimen = specimen_of(law.test_of_card);
+ExportFile force_csv(const ExportScene& scene) {
+  const Specimen& specimen = specimen_of(scene.test);
   const double radius = specimen.grains.radius_m;
   std::string text = "overlap_m,attraction_n,repulsion_n\n";
   for (const auto& point : force_table(specimen.contact, {radius, radius, radius}, 0.1 * radius, 2001))
@@ -102,24 +101,24 @@ ExportFile force_csv(const ExportLaw& law) {
   return {"force.csv", text};
 }
 
-ExportFile grains_csv(const ExportLaw& law) {
+ExportFile grains_csv(const ExportScene& scene) {
   std::string text = "x_m,y_m,z_m,radius_m\n";
-  for (std::size_t i = 0; i < law.packing.centres.size(); ++i) {
-    const auto& p = law.packing.centres[i];
-    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, law.packing.radii[i]);
+  for (std::size_t i = 0; i < scene.packing.centres.size(); ++i) {
+    const auto& p = scene.packing.centres[i];
+    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, scene.packing.radii[i]);
   }
   return {"grains.csv", text};
 }
 
-std::vector<ExportFile> law_files(const ExportLaw& law, std::vector<ExportFile> files) {
-  files.push_back(parameters_csv(law));
-  if (specimen_of(law.test_of_card).contact.normal == NormalLaw::hertz) files.push_back(force_csv(law));
-  if (!law.packing.centres.empty()) files.push_back(grains_csv(law));
+std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFile> files) {
+  files.push_back(parameters_csv(scene));
+  if (scene.contact().normal == NormalLaw::hertz) files.push_back(force_csv(scene));
+  if (!scene.packing.centres.empty()) files.push_back(grains_csv(scene));
   return files;
 }
 
-std::string laws_in_words(const ExportLaw& law) {
-  const ContactModel& contact = specimen_of(law.test_of_card).contact;
+std::string laws_in_words(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
   std::string out =
       R"(The contact law of two grains. d is the overlap: positive when they overlap, negative across a gap.
 R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 - nu)(1 + nu)/E, s = 2 R*/R.
@@ -147,7 +146,7 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
                      until the gap exceeds s |d_c|
 )";
   out += "\nHere: " + laws_chosen(contact) + ".\n\n";
-  for (const auto& row : parameter_rows(law))
+  for (const auto& row : parameter_rows(scene))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
   return out;
 }

@@ -16,23 +16,23 @@ struct ParameterRow {
 };
 
 /// The contact laws, walls, grains and apparatus of the test in SI, for grains of its mean radius.
-std::vector<ParameterRow> parameter_rows(const ExportLaw& law);
+std::vector<ParameterRow> parameter_rows(const ExportScene& scene);
 
 /// "name,value,meaning" with a header.
-ExportFile parameters_csv(const ExportLaw& law);
+ExportFile parameters_csv(const ExportScene& scene);
 
 /// "overlap_m,attraction_n,repulsion_n" of two grains of the mean radius, 2,001 rows from the rupture gap to an overlap
 /// of a tenth of the radius; a row at touch. Both forces are positive; the attraction pulls.
-ExportFile force_csv(const ExportLaw& law);
+ExportFile force_csv(const ExportScene& scene);
 
 /// "x_m,y_m,z_m,radius_m" of the filled mould.
-ExportFile grains_csv(const ExportLaw& law);
+ExportFile grains_csv(const ExportScene& scene);
 
 /// These files, then parameters, forces and, if there is a filled mould, its grains.
-std::vector<ExportFile> law_files(const ExportLaw& law, std::vector<ExportFile> files = {});
+std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFile> files = {});
 
 /// The laws in words and formulas, for people who type them into another program.
-std::string laws_in_words(const ExportLaw& law);
+std::string laws_in_words(const ExportScene& scene);
 
 /// The names of the laws in one line.
 std::string laws_chosen(const ContactModel& contact);

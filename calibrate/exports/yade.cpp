@@ -6,7 +6,9 @@
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/exports/parameter_table.h"
+#include "calibrate/exports/rolling_spring.h"
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
@@ -33,7 +35,9 @@ def bridge(overlap):
 
 
 class Attraction:
-    """The attraction of grains, cohesion in overlap and bridges across gaps, with the memory of bridges.
+    """The attraction of grains: cohesion and DMT's 4 pi gamma R* in overlap, bridges across gaps with their memory.
+
+    Yade's own DMT has one surface energy for all contacts, those on walls too.
 
     Run `act` once a step, after the interaction loop and before the integrator."""
 
@@ -66,7 +70,7 @@ class Attraction:
         formed = (-overlap <= FORMATION_GAP * size) | np.isin(code, self.alive)
         living = formed & (-overlap <= RUPTURE_GAP * size)
         self.alive = code[living]
-        pull = np.where(overlap > 0, COHESION * size**2,
+        pull = np.where(overlap > 0, COHESION * size**2 + 2 * pi * SURFACE_ENERGY * RADIUS * size,
                         np.where(living, size**2 * bridge(np.minimum(overlap, 0) / size), 0))
         force = (pull / distance)[:, None] * apart
         total = np.zeros_like(x)
@@ -102,21 +106,20 @@ def neighbours(x, reach):
 
 
 def materials():
-    """Grains, mould and table, appended to the scene."""
+    """Grains, then each wall of WALLS, appended to the scene."""
     return [O.materials.append(FrictMat(young=E, poisson=nu, density=density, frictionAngle=atan(friction)))
             for E, nu, density, friction in MATERIALS]
 
 
-def laws(grains, mould, table):
-    """Ip2 and Law2 of Hertz-Mindlin with damping, friction and rolling, without attraction."""
+def laws(grains, *walls):
+    """Ip2 and Law2 of Hertz-Mindlin with damping, friction and rolling, without attraction.
+
+    Takes what `materials` returns."""
     def by_pair(values):
-        grain, at_mould, at_table = values
-        return MatchMaker(matches=((grains, grains, grain), (grains, mould, at_mould), (grains, table, at_table)))
+        return MatchMaker(matches=tuple((grains, other, value) for other, value in zip((grains, *walls), values)))
     ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en=by_pair(RESTITUTION), krot=KROT, ktwist=0.0, eta=ETA,
                                             frictAngle=by_pair([atan(f) for f in FRICTION]))
-    if SURFACE_ENERGY > 0:
-        ip2.gamma = by_pair([SURFACE_ENERGY, 0, 0])
-    return ip2, Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=ETA > 0, includeAdhesion=SURFACE_ENERGY > 0)
+    return ip2, Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=ETA > 0)
 )PY";
 
 constexpr const char* kSlump = R"PY(# The slump test, step 1. In this folder:   yade -n -x slump.py
@@ -184,10 +187,10 @@ import os, sys
 sys.path.insert(0, os.getcwd())
 from pastefit_material import *
 
-grain, mould_material, table_material = materials()
-nearest, farthest, distances = 1.95 * RADIUS, 2 * RADIUS + 1.05 * max(RUPTURE_GAP, 0.05 * RADIUS), 240
+grain, *wall_materials = materials()
+nearest, farthest, distances = NEAREST, FARTHEST, 240
 ids = [O.bodies.append(sphere((x, 0, 0), RADIUS, material=grain, fixed=True)) for x in (0, nearest)]
-ip2, law2 = laws(grain, mould_material, table_material)
+ip2, law2 = laws(grain, *wall_materials)
 attraction = Attraction(ids, [RADIUS, RADIUS])
 O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0.1 * RADIUS),
              InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [ip2], [law2]),
@@ -201,16 +204,16 @@ for way, order in (('apart', range(distances + 1)), ('back', range(distances, -1
     print(way + ' %.17g %.17g' % (O.bodies[ids[1]].state.pos[0], O.forces.f(ids[1])[0]))
 )PY";
 
-std::string module_of(const ExportScene& scene) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
+/// `contact` is what is written, with the law that stands in for the card's.
+std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   const auto& bridge = contact.bridge;
-  const double radius = test.grains.radius_m;
-  const GrainPair pair{radius, radius, radius};
+  const double radius = scene.radius_m();
+  const GrainPair pair = scene.mean_pair();
   const auto gaps = bridge_gaps(contact, pair);
   const PairConstants constants = grain_pair(contact, radius);
-  const bool rolls = contact.rolling == RollingModel::spring_dashpot;
-  const double lever = contact.rolling_friction * pair.effective_radius_m();
+  const bool rolls = contact.rolling != RollingModel::none && contact.rolling_friction > 0;
+  const double lever = rolling_spring_lever(contact.rolling, contact.rolling_friction) * pair.effective_radius_m();
+  const auto walls = walls_of(scene.test);
 
   std::string out =
       "\"\"\"Written by " + program_identity() + " for Yade.\n\nSI units.\n\"\"\"\n" + deck_comment(scene.title);
@@ -228,68 +231,85 @@ std::string module_of(const ExportScene& scene) {
   number("COHESION", attraction_n(contact, pair, 1e-12));
   number("FORMATION_GAP", gaps.formation_m);
   number("RUPTURE_GAP", gaps.rupture_m);
-  out += "# Young's modulus, Poisson's ratio, density, friction: grains, mould, table\n";
+  out += "WALLS = [";
+  for (const auto& wall : walls) out += "'" + wall.name + "', ";
+  out += "]\n# of the grains, then of each wall: Young's modulus, Poisson's ratio, density, friction\n";
   out += format("MATERIALS = [(%.17g, %.17g, %.17g, %.17g),\n", contact.youngs_modulus_pa, contact.poissons_ratio,
                 scene.grain_density_kg_m3, contact.friction);
-  for (const auto& [wall, end] : {std::pair{test.mould_wall, ","}, std::pair{test.table_wall, "]"}})
-    out += format("             (%.17g, %.17g, 2500, %.17g)%s\n", wall.youngs_modulus_pa, wall.poissons_ratio,
-                  wall.friction, end);
-  out += format("RESTITUTION = [%.17g, %.17g, %.17g]\n", contact.restitution, test.mould_wall.restitution,
-                test.table_wall.restitution);
-  out += format("FRICTION = [%.17g, %.17g, %.17g]\n", contact.friction, test.mould_wall.friction,
-                test.table_wall.friction);
+  for (const auto& [name, wall] : walls)
+    out += format("             (%.17g, %.17g, 2500, %.17g),  # ", wall.youngs_modulus_pa, wall.poissons_ratio,
+                  wall.friction) +
+           name + "\n";
+  std::string restitution = format("RESTITUTION = [%.17g", contact.restitution),
+              friction = format("FRICTION = [%.17g", contact.friction);
+  for (const auto& [name, wall] : walls) {
+    restitution += format(", %.17g", wall.restitution);
+    friction += format(", %.17g", wall.friction);
+  }
+  out += "            ]\n" + restitution + "]\n" + friction + "]\n";
   out += "# rolling: stiffness over the shear stiffness [m^2], largest moment over the normal force [m]\n";
   number("KROT", rolls ? 2.25 * lever * lever / constants.tangential_ratio : 0);
-  number("ETA", rolls ? lever : 0);
-  number("MOULD_BASE_RADIUS", test.mould.base_radius_m);
-  number("MOULD_TOP_RADIUS", test.mould.top_radius_m);
-  number("MOULD_HEIGHT", test.mould.height_m);
-  number("LIFT_VELOCITY", test.lift_velocity_m_s);
+  number("ETA", rolls ? contact.rolling_friction * pair.effective_radius_m() : 0);
+  if (const SlumpTest* test = scene.slump()) {
+    number("MOULD_BASE_RADIUS", test->mould.base_radius_m);
+    number("MOULD_TOP_RADIUS", test->mould.top_radius_m);
+    number("MOULD_HEIGHT", test->mould.height_m);
+    number("LIFT_VELOCITY", test->lift_velocity_m_s);
+    number("REST_TIME", 2);
+  }
   number("TIME_STEP", deck_time_step_s(scene));
-  number("REST_TIME", 2);
+  out += "# distances of the two grains\n";
+  const Distances distances = two_grain_distances(contact, radius);
+  number("NEAREST", distances.nearest_m);
+  number("FARTHEST", distances.farthest_m);
   return out + kModule;
 }
 
 }  // namespace
 
 Result<Export> export_yade(const ExportScene& scene) {
-  const auto& test = scene.test;
-  const auto& contact = test.contact;
-  Faults faults = unknown_laws(
-      contact,
-      {.target = "Yade's Mindlin law", .normal = {NormalLaw::hertz, NormalLaw::dmt}, .attraction = kAllAttractions});
-  for (const auto& [name, wall] : {std::pair{"mould", test.mould_wall}, std::pair{"table", test.table_wall}})
+  const ContactModel& card = scene.contact();
+  KnownLaws known{"Yade's Mindlin law",
+                  {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr},
+                  kAllRolling,
+                  kAllAttractions};
+  if (card.normal == NormalLaw::jkr) known.attraction = {BridgeShape::none};  // as its DMT, which has none beside it
+  Faults faults = unknown_laws(card, known);
+  for (const auto& [name, wall] : walls_of(scene.test))
     if (wall.cohesion_factor > 0)
-      faults.push_back({std::string("test.") + name + "_wall.cohesion_factor",
+      faults.push_back({"test." + name + "_wall.cohesion_factor",
                         "is not 0, but the module attracts grains to grains only",
-                        "calibrate with " + std::string(name) + "_cohesion_factor 0"});
+                        "calibrate with " + name + "_cohesion_factor 0"});
   if (!faults.empty()) return faults;
 
+  const double radius = scene.radius_m();
+  const ContactModel contact = with_nearest_law(card, NormalLaw::dmt, radius);
+  const Sticking sticking = sticking_of(contact, 0.5 * radius);
   Export out;
-  if (contact.normal == NormalLaw::dmt)
-    out.notes.push_back("The attraction is Yade's own DMT, with the card's surface energy.");
-  else
-    out.notes.push_back(
-        "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: the "
-        "law is the card's, but slow. It suits thousands of grains, not millions.");
-  const double radius = test.grains.radius_m;
-  const double sticking = 2 * std::numbers::pi * contact.surface_energy_j_m2 * radius;  // 4 pi gamma R*
-  const double pull = sticking + attraction_n(contact, {radius, radius, radius}, 1e-12);
-  if (contact.friction_basis != FrictionBasis::elastic && pull > 0)
+  out.notes = differences_of_sticking(scene, contact, "Yade", sticking.load_n);
+  out.notes.push_back(
+      "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: slow. It suits "
+      "thousands of grains, not millions.");
+  const double pull = sticking.pull_off_n + attraction_n(contact, scene.mean_pair(), 1e-12);
+  if (contact.normal == card.normal && contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
         format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "
                "attraction (%.3g N) presses together holds %.3g N in Yade, %.3g N on the card.",
-               pull, contact.friction * pull,
-               contact.friction_basis == FrictionBasis::total ? 2 * contact.friction * sticking : 0.0));
-  if (contact.rolling == RollingModel::spring_dashpot && contact.rolling_friction > 0)
+               pull, contact.friction * pull, contact.friction * held_normal_force_n(contact, sticking)));
+  if (contact.rolling != RollingModel::none && contact.rolling_friction > 0)
     out.notes.push_back(
         "Rolling: the spring and the largest moment are those of two mean grains, on walls too; there is "
         "no dashpot.");
-  if (test.drop) out.notes.push_back("The script runs step 1. The drop of the plate, step 2, is not part of it.");
-  out.files = {{"pastefit_material.py", module_of(scene)},
-               {"slump.py", kSlump},
-               {"two_grains.py", kTwoGrains},
-               grains_csv(scene)};
+  const double weight = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * scene.grain_density_kg_m3 * kGravity;
+  if (const auto note = note_of_constant_torque(scene, 10 * weight); !note.empty()) out.notes.push_back(note);
+  out.files = {{"pastefit_material.py", module_of(scene, contact)}, {"two_grains.py", kTwoGrains}};
+  if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "yade"));
+  if (const SlumpTest* test = scene.slump()) {
+    if (test->drop) out.notes.push_back("The script runs step 1. The drop of the plate, step 2, is not part of it.");
+    out.files.push_back({"slump.py", kSlump});
+    out.files.push_back(grains_csv(scene));
+  }
+  out.instructions = "yade -n -x SCRIPT, which is slump.py or two_grains.py\n";
   return out;
 }
 

@@ -153,14 +153,16 @@ TEST_CASE("the style for LAMMPS names every fault of its words") {
 
 TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
   ExportScene scene;
-  scene.test.contact = paste(BridgeShape::polynomial);
-  scene.test.drop = DropPlate{};
+  SlumpTest test;
+  test.contact = paste(BridgeShape::polynomial);
+  test.drop = DropPlate{};
   scene.packing.centres = {{0, 0, kGrainRadius}};
   scene.packing.radii = {kGrainRadius};
   scene.sizes = size_classes(scene.packing.radii);
   for (const auto shape : {BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear, BridgeShape::exponential,
                            BridgeShape::capillary}) {
-    scene.test.contact.bridge.shape = shape;
+    test.contact.bridge.shape = shape;
+    scene.test = test;
     const auto written = export_lammps(scene);
     REQUIRE(written.ok());
     const std::string& deck = written.value().files[0].content;
@@ -174,8 +176,8 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
     style::Law law;
     CHECK(style::read_law(after("pair_style   pastefit ", "\npair_coeff"), law) == "");
     style::WallLaw wall;
-    CHECK(style::read_wall_law(after("wall/pastefit mould ", "\ncompute"), wall) == "");
-    CHECK(wall.friction == scene.test.mould_wall.friction);
+    CHECK(style::read_wall_law(after("wall/pastefit mould ", "\nfix"), wall) == "");
+    CHECK(wall.friction == test.mould_wall.friction);
     style::Hinge plate;
     CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
     CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));

@@ -1,0 +1,167 @@
+#include "calibrate/exports/nearest_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/base/format.h"
+#include "calibrate/laboratory/names.h"
+#include "core/laws/constants.h"
+#include "core/laws/table.h"
+
+namespace pastefit {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Force at an overlap on the way apart [N], repulsion positive.
+double force_apart(NormalLaw normal, const PairConstants& pair, double effective_radius, double overlap) {
+  return with_law(NormalLaws{}, normal,
+                  [&](auto law) { return law.at(pair, std::sqrt(effective_radius), overlap, 1.0).force; });
+}
+
+/// `pair` is that of reference bodies with this R*.
+Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_radius) {
+  if (acting(normal, pair) == NormalLaw::hertz) return {};
+  return with_law(NormalLaws{}, normal, [&](auto law) {
+    Sticking out;
+    const double root = std::sqrt(effective_radius);
+    out.resting_overlap_m = law.overlap_under(pair, effective_radius, 0.0);
+    if (law.reaches) out.part_gap_m = pair.tear_gap;
+    const auto rest = law.at(pair, root, out.resting_overlap_m, 1.0);
+    out.load_n = rest.load;
+    out.reserve_n = rest.reserve;
+    if constexpr (decltype(law)::adheres) out.work_j = -law.energy(pair, effective_radius, rest, out.resting_overlap_m);
+    const double touch = 1e-12 * out.resting_overlap_m;  // a law that does not reach pulls nothing at zero
+    out.at_touch_n = -law.at(pair, root, touch, 1.0).force;
+    // The attraction has one maximum between the end of the contact and its rest.
+    double low = law.reaches ? -out.part_gap_m : touch, high = out.resting_overlap_m;
+    for (int step = 0; step < 200; ++step) {
+      const double third = (high - low) / 3;
+      const bool lower = law.at(pair, root, low + third, 1.0).force < law.at(pair, root, high - third, 1.0).force;
+      (lower ? high : low) += lower ? -third : third;
+    }
+    out.pull_off_n = -law.at(pair, root, low, 1.0).force;
+    if (out.at_touch_n < 1e-9 * out.pull_off_n) out.at_touch_n = 0;
+    return out;
+  });
+}
+
+/// Two grains of this R*, as reference grains.
+PairConstants grains_of(const ContactModel& contact, double effective_radius) {
+  return grain_pair(contact, 2 * effective_radius);
+}
+
+}  // namespace
+
+Sticking sticking_of(const ContactModel& contact, double effective_radius) {
+  return sticking(contact.normal, grains_of(contact, effective_radius), effective_radius);
+}
+
+Sticking sticking_of(const ContactModel& contact, const WallContact& wall, double radius) {
+  return sticking(contact.normal, wall_pair(contact, wall, radius), radius);
+}
+
+Distances two_grain_distances(const ContactModel& contact, double radius) {
+  const Sticking grains = sticking_of(contact, 0.5 * radius);
+  const double reach = std::max({bridge_gaps(contact, {radius, radius, radius}).rupture_m, grains.part_gap_m});
+  return {2 * radius - std::max(0.05 * radius, 1.2 * grains.resting_overlap_m),
+          2 * radius + 1.05 * std::max(reach, 0.05 * radius)};
+}
+
+double dmt_surface_energy(double pull_off, double effective_radius) {
+  return pull_off / (4 * pi * effective_radius);
+}
+
+double sjkr_energy_density(double pull_off, double effective_radius, double effective_modulus) {
+  const double share = effective_modulus / effective_radius;
+  return std::cbrt(1.5 * pull_off * share * share / (pi * pi * pi));
+}
+
+ContactModel with_nearest_law(const ContactModel& contact, NormalLaw law, double radius) {
+  const double effective_radius = 0.5 * radius;
+  const double pull_off = sticking_of(contact, effective_radius).pull_off_n;
+  if (contact.normal == law || pull_off == 0) return contact;
+  ContactModel out = contact;
+  out.normal = law;
+  out.surface_energy_j_m2 = out.cohesion_energy_density_pa = 0;
+  if (law == NormalLaw::dmt)
+    out.surface_energy_j_m2 = dmt_surface_energy(pull_off, effective_radius);
+  else
+    out.cohesion_energy_density_pa =
+        sjkr_energy_density(pull_off, effective_radius, 0.75 * grain_pair(contact, radius).hertz);
+  return out;
+}
+
+double held_normal_force_n(const ContactModel& contact, const Sticking& grains) {
+  switch (contact.friction_basis) {
+    case FrictionBasis::elastic:
+      return grains.load_n;
+    case FrictionBasis::total:
+      return grains.reserve_n;
+    default:
+      return 0;
+  }
+}
+
+std::vector<std::string> differences_of_sticking(const ExportScene& scene, const ContactModel& written,
+                                                 std::string_view target, double held) {
+  const ContactModel& contact = scene.contact();
+  if (contact.normal == written.normal) return {};
+  const double radius = scene.radius_m();
+  const Sticking card = sticking_of(contact, 0.5 * radius), deck = sticking_of(written, 0.5 * radius);
+  const std::string own = word_of(contact.normal, normal_laws), other = word_of(written.normal, normal_laws);
+  const bool by_area = written.normal == NormalLaw::sjkr;
+  std::vector<std::string> notes{
+      format("%s has no %s. In its place stands %s with %s %.6g %s, which parts two grains of the mean radius by the "
+             "same force, %.4g N. Another size needs another number: export a card of that size (pastefit rescale).",
+             std::string(target).c_str(), own.c_str(), other.c_str(),
+             by_area ? "a cohesion energy density of" : "a surface energy of",
+             by_area ? written.cohesion_energy_density_pa : written.surface_energy_j_m2, by_area ? "Pa" : "J/m^2",
+             deck.pull_off_n)};
+  notes.push_back(format(
+      "Two mean grains that only stick overlap by %.3g mm in the deck, %.3g of their radius; on the card by %.3g "
+      "mm. At touch they attract each other with %.3g N in the deck, %.3g N on the card.",
+      1e3 * deck.resting_overlap_m, deck.resting_overlap_m / radius, 1e3 * card.resting_overlap_m, deck.at_touch_n,
+      card.at_touch_n));
+  notes.push_back(
+      format("They part at a gap of %.3g mm in the deck, %.3g mm on the card; to part them costs %.3g J in the deck, "
+             "%.3g J on "
+             "the card, %.3g of it.",
+             1e3 * deck.part_gap_m, 1e3 * card.part_gap_m, deck.work_j, card.work_j, deck.work_j / card.work_j));
+  if (scene.grains().distribution != SizeDistribution::mono && by_area) {
+    std::string sizes;
+    for (const double size : {scene.grains().smallest_m, scene.grains().largest_m})
+      sizes +=
+          format("%s%.4g N in the deck and %.4g N on the card between grains of %.3g mm", sizes.empty() ? "" : ", ",
+                 sticking_of(written, 0.5 * size).pull_off_n, sticking_of(contact, 0.5 * size).pull_off_n, 1e3 * size);
+    notes.push_back(
+        "The pull-off grows with the square of the size in the deck, in proportion to it on the card: " + sizes + ".");
+  }
+  notes.push_back(
+      format("Friction of two mean grains that only stick holds %.3g N in the deck, %.3g N on the card (%s).",
+             contact.friction * held, contact.friction * held_normal_force_n(contact, card),
+             word_of(contact.friction_basis, friction_bases).c_str()));
+  return notes;
+}
+
+ExportFile sticking_curves(const ExportScene& scene, const ContactModel& written, std::string_view target) {
+  constexpr int kPoints = 401;
+  const double radius = scene.radius_m(), effective_radius = 0.5 * radius;
+  const Distances card = two_grain_distances(scene.contact(), radius), deck = two_grain_distances(written, radius);
+  const double deepest = 2 * radius - std::min(card.nearest_m, deck.nearest_m);
+  const double reach = 1.05 * sticking_of(scene.contact(), effective_radius).part_gap_m;
+  std::string text = "overlap_m,card_n," + std::string(target) + "_n\n";
+  for (int i = 0; i < kPoints; ++i) {
+    const double overlap = -reach + (deepest + reach) * i / (kPoints - 1);
+    text += format("%.17g", overlap);
+    for (const ContactModel* contact : {&scene.contact(), &written})
+      text += format(",%.17g",
+                     force_apart(contact->normal, grains_of(*contact, effective_radius), effective_radius, overlap));
+    text += "\n";
+  }
+  return {"curves.csv", text};
+}
+
+}  // namespace pastefit
