@@ -9,7 +9,8 @@ With a law of the overlap that sticks, the card's grains stick by that instead o
 The program has to give the card's curve to 1e-6 of its peak: on the way apart, with a bridge that lives until it
 ruptures, and, where the program has memory, on the way back, where a new one forms when the shells meet. LIGGGHTS, whose
 nearest law is another one, has to give the curve that the export says it will, to 1e-6 of the peak; the difference to
-the card is reported. JKR stands in LIGGGHTS as SJKR and in Yade as DMT, of the same pull-off. LAMMPS's JKR has to be the card's while grains come together, and until its own contact ends.
+the card is reported. SJKR stands in for other laws that stick in LIGGGHTS, DMT in Yade, of the same pull-off. LAMMPS's
+JKR has to be the card's while grains come together, and until its own contact ends.
 Exit status 77, and "skipped: ... is not installed", where the program is missing.
 """
 
@@ -103,21 +104,6 @@ def sticking_force(test, distance, way):
     return hertz - contact["cohesion_energy_density_pa"] * 2 * math.pi * effective * overlap
 
 
-def standing_in(test, target):
-    """The card's law as the target has it: in place of JKR one of the same pull-off, 3 pi gamma R*."""
-    contact, radius = test["contact"], 0.5 * test["grains"]["radius_m"]
-    if contact["normal"] != "jkr" or target.startswith("lammps"):
-        return test
-    test = copy.deepcopy(test)
-    gamma, modulus = contact["surface_energy_j_m2"], modulus_of(contact)
-    if target == "yade":
-        test["contact"].update(normal="dmt", surface_energy_j_m2=0.75 * gamma)
-    else:
-        density = (9 * gamma * modulus ** 2 / (2 * math.pi ** 2 * radius)) ** (1 / 3)
-        test["contact"].update(normal="sjkr", cohesion_energy_density_pa=density)
-    return test
-
-
 def pull_off(test):
     contact, effective = test["contact"], 0.5 * test["grains"]["radius_m"]
     if contact["normal"] == "sjkr":
@@ -126,13 +112,26 @@ def pull_off(test):
     return (3 if contact["normal"] == "jkr" else 4) * math.pi * contact["surface_energy_j_m2"] * effective
 
 
+def standing_in(card, target):
+    """The card's law as the target has it: where it lacks the law, the one that stands in, of the same pull-off."""
+    law = {"liggghts": "sjkr", "yade": "dmt"}.get(target, card["contact"]["normal"])
+    if card["contact"]["normal"] == law:
+        return card
+    test, force = copy.deepcopy(card), pull_off(card)
+    contact, radius, modulus = test["contact"], 0.5 * test["grains"]["radius_m"], modulus_of(test["contact"])
+    contact.update(normal=law, surface_energy_j_m2=force / (4 * math.pi * radius),
+                   cohesion_energy_density_pa=(3 * force * modulus ** 2 / (2 * math.pi ** 3 * radius ** 2)) ** (1 / 3))
+    return test
+
+
 def judge_sticking(card, target, apart, back):
     peak = pull_off(card)
     test = standing_in(card, target)
     worst = {way: largest_error(points, lambda r: sticking_force(test, r, way), peak)
              for way, points in (("apart", apart), ("back", back)) if points}
     strongest = -min(force for _, force in apart)
-    print(f"{target}, {card['contact']['normal']} as {test['contact']['normal']}: {len(apart)} distances, largest pull {strongest:.4g} N of {peak:.4g} N; "
+    print(f"{target}, {card['contact']['normal']} as {test['contact']['normal']}: {len(apart)} distances, "
+          f"largest pull {strongest:.4g} N of {peak:.4g} N; "
           "largest error " + ", ".join(f"{error:.1e} of it {way}" for way, error in worst.items()))
     return max(worst.values()) < TOLERANCE and strongest > 0.9 * peak and any(p[1] == 0 for p in apart)
 

@@ -103,10 +103,10 @@ class CardCommands(Desk):
 
     def test_a_law_the_target_lacks_is_bad_input(self):
         card = json.loads(CARD.read_text())
-        card["material"]["contact"]["rolling"] = "constant_torque"
+        card["material"]["contact"].update(normal="jkr", surface_energy_j_m2=8)  # the usual adhesion of 1000 Pa times R
         file = self.folder / "card.json"
         file.write_text(json.dumps(card))
-        self.fails(run("export", file, "--to", "lammps-tables", "--out", self.folder / "x"), 2, "constant_torque", "spring_dashpot")
+        self.fails(run("export", file, "--to", "csv", "--out", self.folder / "x"), 2, "jkr", "hertz")
         self.assertFalse((self.folder / "x").exists())
 
     def test_rescale_measures_its_bias_and_the_new_card_is_a_card(self):
