@@ -287,9 +287,10 @@ Result<Export> export_yade(const ExportScene& scene) {
   const Sticking sticking = sticking_of(contact, 0.5 * radius);
   Export out;
   out.notes = differences_of_sticking(scene, contact, "Yade", sticking.load_n);
-  out.notes.push_back(
-      "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: slow. It suits "
-      "thousands of grains, not millions.");
+  if (sticking.pull_off_n > 0 || contact.bridge.shape != BridgeShape::none)
+    out.notes.push_back(
+        "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: slow. It suits "
+        "thousands of grains, not millions.");
   const double pull = sticking.pull_off_n + attraction_n(contact, scene.mean_pair(), 1e-12);
   if (contact.normal == card.normal && contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(

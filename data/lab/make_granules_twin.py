@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Makes shear-karkala.json and granules-pellet.json: laboratory files of one material whose truth is known, by simulating it.
+"""Makes laboratory files of granules whose truth is known, by simulating them: shear-karkala.json and granules-pellet.json of
+one material, slump-pellet-cone.json and slump-pellet-crush.json of another.
 
-Usage: make_granules_twin.py PASTEFIT [FOLDER]      (PASTEFIT: the program; minutes on two cores)
+Usage: make_granules_twin.py PASTEFIT [FOLDER [NAME...]]      (PASTEFIT: the program; NAME: files, without .json; minutes)
 
 The granules are those of Karkala et al., Processes 7 (2019) 278, with the surface energy that a pellet crush asks for and
 more rolling friction, in their shear cell and in their pellet crush. The publication's shear stress is not at hand, so that what
 stands in shear-karkala.json is this twin's and not a laboratory's. Each packing counts as one repeat, and normal noise of the
 instruments is added. The granules are those of the fit, so that only packings and instruments stand between a twin and its
 truth.
+
+The second material is heavier and sticks a ninth as much, so that an Abrams cone of it slumps (that of the first stands as it was
+filled) and a pellet of it still stands without its die.
 """
 import concurrent.futures
 import json
@@ -20,6 +24,8 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 DRY = {"friction": 0.4, "restitution": 0.2, "youngs_modulus_pa": 2400000, "poissons_ratio": 0.2}
 GRANULES = {"adhesion_pa": 3700, "rolling_friction": 0.05, **DRY}
+WEAK = {"adhesion_pa": 400, "rolling_friction": 0.05, **DRY}
+DENSITY = {3700: 1000, 400: 2000}  # kg/m3, by adhesion_pa
 SEEDS = range(9201, 9209)  # packings of a fit are numbered from its own search seed, far below
 INSTRUMENT_SHARE = 0.02  # normal noise of a reading over the reading
 
@@ -29,6 +35,9 @@ SHEAR = {"length_mm": 18, "width_mm": 23, "fill_height_mm": 16,
          "lid_ribs": {"height_mm": 3, "thickness_mm": 0.8, "pitch_mm": 10.5},
          "base_ribs": {"height_mm": 2, "thickness_mm": 1, "pitch_mm": 5.35},
          "normal_stress_pa": 2000, "shear_speed_mm_s": 0.03813, "shear_speedup": 500, "final_displacement_mm": 11.4}
+
+CONE = {"mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300}, "table_length_mm": 900,
+        "lift_velocity_mm_s": 100, "drop_plate": None, "reading": {"height": "highest", "probe_diameter_mm": 40}}
 
 
 def granules(radius_mm):
@@ -44,6 +53,10 @@ TWINS = {
                       "Shear cell of Karkala et al. 2019 with twin granules: simulated, not measured"),
     "granules-pellet": ("pellet", PELLET, granules(1.05), ["pellet.dynamic_yield_strength_pa", "pellet.height_mm"], GRANULES,
                         "Twin of a pellet crush of the same granules: simulated, not measured"),
+    "slump-pellet-cone": ("slump", CONE, {"distribution": "mono", "radius_mm": 10}, ["step1.height_mm", "step1.spread_mm"], WEAK,
+                          "Twin of a weak wet material in an Abrams cone: simulated, not measured"),
+    "slump-pellet-crush": ("pellet", PELLET, granules(1.05), ["pellet.dynamic_yield_strength_pa", "pellet.height_mm"], WEAK,
+                           "Twin of a pellet crush of that material: simulated, not measured"),
 }
 
 
@@ -62,7 +75,7 @@ def lab(name, measurements):
             "twin": True,
         },
         "apparatus": apparatus,
-        "material": {"bulk_density_kg_m3": 1000},
+        "material": {"bulk_density_kg_m3": DENSITY[truth["adhesion_pa"]]},
         "grains": grains,
         "measurements": measurements,
     }
@@ -78,9 +91,12 @@ def simulate(program, file, truth, seed):
     return json.loads(done.stdout)["observables"]
 
 
-def main(program, output):
-    luck = random.Random("granules twin")
+def main(program, output, names):
+    shared = random.Random("granules twin")
     for name, (_, _, _, readings, truth, _) in TWINS.items():
+        if name not in names:
+            continue
+        luck = shared if truth is GRANULES else random.Random(name)
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "lab.json").write_text(json.dumps(lab(name, {readings[0]: {"value": 100, "standard_deviation": 1}})))
@@ -100,6 +116,6 @@ def main(program, output):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) < 2 or set(sys.argv[3:]) - set(TWINS):
         sys.exit(__doc__)
-    main(sys.argv[1], pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else HERE)
+    main(sys.argv[1], pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else HERE, sys.argv[3:] or list(TWINS))
