@@ -97,7 +97,8 @@ Command add_export(CLI::App& verb) {
   for (const auto& one : exporters()) targets += (targets.empty() ? "target: " : ", ") + std::string(one.name);
   verb.add_option("--to", options->target, targets)->required()->type_name("TARGET");
   verb.add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
-  verb.add_option("--test", options->test, "the card's test to write; without it the first slump test, or else the first")
+  verb.add_option("--test", options->test,
+                  "the card's test to write; without it the first that has a deck, or else the first")
       ->type_name("NAME");
   verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
       ->check(whole_number());
