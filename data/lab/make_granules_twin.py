@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes laboratory files of granules whose truth is known, by simulating them: shear-karkala.json and granules-pellet.json of
-one material, slump-pellet-cone.json and slump-pellet-crush.json of another.
+"""Makes laboratory files of granules whose truth is known, by simulating them: shear-karkala.json and
+granules-pellet.json of one material, slump-pellet-cone.json and slump-pellet-crush.json of another.
 
 Usage: make_granules_twin.py PASTEFIT [FOLDER [NAME...]]      (PASTEFIT: the program; NAME: files, without .json; minutes)
 
@@ -10,8 +10,8 @@ stands in shear-karkala.json is this twin's and not a laboratory's. Each packing
 instruments is added. The granules are those of the fit, so that only packings and instruments stand between a twin and its
 truth.
 
-The second material is heavier and sticks a ninth as much, so that an Abrams cone of it slumps (that of the first stands as it was
-filled) and a pellet of it still stands without its die.
+The second material is heavier and sticks a ninth as much, so that an Abrams cone of it slumps (that of the first stands
+as it was filled) and a pellet of it still stands without its die.
 """
 import concurrent.futures
 import json
@@ -53,7 +53,8 @@ TWINS = {
                       "Shear cell of Karkala et al. 2019 with twin granules: simulated, not measured"),
     "granules-pellet": ("pellet", PELLET, granules(1.05), ["pellet.dynamic_yield_strength_pa", "pellet.height_mm"], GRANULES,
                         "Twin of a pellet crush of the same granules: simulated, not measured"),
-    "slump-pellet-cone": ("slump", CONE, {"distribution": "mono", "radius_mm": 10}, ["step1.height_mm", "step1.spread_mm"], WEAK,
+    "slump-pellet-cone": ("slump", CONE, {"distribution": "mono", "radius_mm": 10},
+                          ["step1.height_mm", "step1.spread_mm"], WEAK,
                           "Twin of a weak wet material in an Abrams cone: simulated, not measured"),
     "slump-pellet-crush": ("pellet", PELLET, granules(1.05), ["pellet.dynamic_yield_strength_pa", "pellet.height_mm"], WEAK,
                            "Twin of a pellet crush of that material: simulated, not measured"),

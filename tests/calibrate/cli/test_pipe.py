@@ -124,7 +124,8 @@ class Pipe(Desk):
             self.assertIn("contact laws is lost" if kind == "drop" else "What is lost or changed", text)
             if is_slump(kind) or not shutil.which(command[0]):
                 continue
-            run_of_deck = subprocess.run([*command, script], cwd=out / "deck" / target, capture_output=True, text=True, timeout=300)
+            run_of_deck = subprocess.run([*command, script], cwd=out / "deck" / target, capture_output=True, text=True,
+                                         timeout=300)
             apart = [line for line in run_of_deck.stdout.splitlines() if line.startswith("apart ")]
             self.assertGreater(len(apart), 200, f"{target}\n{run_of_deck.stdout[-2000:]}{run_of_deck.stderr[-2000:]}")
 
