@@ -9,6 +9,7 @@ import { copyFileSync, existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
+import { drawTest, grow, processorSeconds, shareHidden } from "./grown.js";
 
 const file = process.env.PASTEFIT_PAGE, dropped = process.env.PASTEFIT_DROP, live = process.env.PASTEFIT_LIVE, parts = process.env.PASTEFIT_PARTS, shots = process.env.PASTEFIT_SHOTS;
 const card = JSON.parse(readFileSync(join(file, "../card.json"), "utf8"));
@@ -86,6 +87,32 @@ test("the scene draws, plays, turns and is sliced", async () => {
   }
   assert.equal(seen.size, kinds.length, "every colouring is a picture of its own");
   assert.deepEqual(page.faults, []);
+});
+
+test("ten thousand grains are drawn ten times in a processor second, most of them behind others left out unseen", async () => {
+  const other = await openPage(browser, file);
+  await filmIsThere(other);
+  const grains = await grow(other, 10_000);
+  await drawn(other);
+  for (const [view, sliced, share, most] of [["slanted", false, 0, 0.5], ["slanted", true, 0.4, 0.5], ["top", false, 1, 0.9], ["side", true, 1, 0.7], ["front", false, 0.7, 0.7]]) {
+    const { lost, drawn: part } = await shareHidden(other, view, sliced, share);
+    console.log(`${view}${sliced ? ", sliced" : ""}: ${(100 * part).toFixed(0)} % of the grains drawn, ${(1e6 * lost).toFixed(0)} of a million pixels differ`);
+    assert.ok(lost < 1e-3, `${view}: ${lost} of the pixels are not what they are with all grains`);
+    assert.ok(part < most, `${view}: ${part} of the grains are drawn`);
+  }
+  await other.evaluate(() => {
+    const { scene } = document.querySelector(".player").player;
+    scene.look("slanted");
+    scene.slice(false);
+  });
+  await drawTest(other, 10); // until it is warm
+  const before = processorSeconds(), pictures = 40;
+  await drawTest(other, pictures);
+  const each = (processorSeconds() - before) / pictures;
+  console.log(`${grains} grains: ${(1e3 * each).toFixed(0)} processor ms a picture`);
+  assert.ok(each < 0.1, `${each} processor seconds a picture`);
+  assert.deepEqual(other.faults, []);
+  await other.context().close();
 });
 
 test("every phase of the test is in the film", async () => {

@@ -14,19 +14,23 @@ function boxOf({ bands, lines, lengths }) {
   return { x: range(0), y: range(1) };
 }
 
-/// A length: thin lines from what it is the distance of, arrows at both ends, and its value.
-function lengthMarks(length) {
+/// A length: thin lines from what it is the distance of, arrows at both ends, and its value; `scale`: pixels for 1 upwards.
+function lengthMarks(length, scale) {
   const stroke = colour[length.by], centre = middle(length.from, length.to);
   const unit = unitOf(length.reading);
   const text = `${plusMinus(length.value, length.deviation)} ${unit}`;
   const links = [[length.first, length.from], [length.last, length.to]].map(([[x1, y1], [x2, y2]]) => ({ x1, y1, x2, y2 }));
+  // Beside an arrow that is shorter than its text there is no room; above it there is, one line for each.
+  const along = isUpright(length) && Math.abs(length.to[1] - length.from[1]) * scale > 8 * text.length;
+  const above = isUpright(length) && !along;
+  const place = above ? [centre[0], Math.max(length.from[1], length.to[1])] : centre;
   const arrows = [length.from, length.to].map(([x2, y2]) => ({ x1: centre[0], y1: centre[1], x2, y2 }));
   const ends = { x1: "x1", y1: "y1", x2: "x2", y2: "y2", stroke };
   return [
     Plot.link(links, { ...ends, strokeWidth: 0.7, strokeDasharray: "2 3" }),
     Plot.arrow(arrows, { ...ends, strokeWidth: 1.4, headLength: 7, headAngle: 40 }),
-    Plot.text([{ x: centre[0], y: centre[1] }], { x: "x", y: "y", text: () => text, fill: stroke, stroke: "var(--page)", strokeWidth: 4,
-      rotate: isUpright(length) ? -90 : 0, dy: isUpright(length) ? 0 : -8, dx: isUpright(length) ? -8 : 0, fontWeight: 600 }),
+    Plot.text([{ x: place[0], y: place[1] }], { x: "x", y: "y", text: () => text, fill: stroke, stroke: "var(--page)", strokeWidth: 4,
+      rotate: along ? -90 : 0, dy: above ? (length.by === "laboratory" ? -28 : -10) : along ? 0 : -8, dx: along ? -8 : above ? 12 : 0, textAnchor: above ? "end" : "middle", fontWeight: 600 }),
   ];
 }
 
@@ -42,6 +46,7 @@ function drawn(drawing, width) {
   const scale = (width - margins.marginLeft - margins.marginRight) / (x[1] - x[0]);
   const height = drawing.to_scale ? Math.round((y[1] - y[0]) * scale * 1.08 + margins.marginTop + margins.marginBottom) : Math.round(Math.min(420, 0.6 * width));
   const pad = drawing.to_scale ? 0.04 * (y[1] - y[0]) : 0;
+  const upwards = drawing.to_scale ? scale : (height - margins.marginTop - margins.marginBottom) / (1.05 * y[1] - Math.min(0, y[0]));
   return Plot.plot({
     width, height, ...margins, style: { fontSize: "13px", background: "none" },
     x: { label: drawing.x, domain: x, labelAnchor: "center", labelArrow: "none" },
@@ -49,7 +54,7 @@ function drawn(drawing, width) {
     marks: [
       ...drawing.bands.map(({ points }) => Plot.areaY(points, { x: "0", y1: "1", y2: "2", fill: colour.simulation, fillOpacity: 0.22 })),
       ...drawing.lines.flatMap(lineMarks),
-      ...drawing.lengths.flatMap(lengthMarks),
+      ...drawing.lengths.flatMap((length) => lengthMarks(length, upwards)),
     ],
   });
 }
@@ -58,7 +63,7 @@ function legendOf({ bands, lines, lengths }) {
   const entries = [...bands.map(({ name }) => [name, "band"]), ...lines.map(({ name, by }) => [name, `line ${by}`])];
   const told = new Set();
   for (const { by } of lengths) if (!told.has(by)) told.add(by);
-  for (const by of told) entries.push([by === "laboratory" ? "the laboratory's lengths \u00b1 deviation" : "simulated lengths, means", `line ${by}`]);
+  for (const by of told) entries.push([by === "laboratory" ? "the laboratory's lengths \u00b1 deviation" : "simulated lengths, means \u00b1 standard error", `line ${by}`]);
   return legend(entries);
 }
 

@@ -2,6 +2,7 @@
 // cost two triangles each less than one of a mesh would.
 import * as THREE from "three";
 import { interpolateViridis } from "d3";
+import { Cover } from "./cover.js";
 
 // What is the same for all pixels of a grain is computed here: by software a pixel costs most.
 const vertexShader = /* glsl */ `
@@ -90,6 +91,8 @@ export class Grains {
     geometry.setAttribute("position", dynamic(3));
     geometry.setAttribute("radius", dynamic(1));
     geometry.setAttribute("value", dynamic(1));
+    this.cover = new Cover(film.most);
+    geometry.setIndex(new THREE.BufferAttribute(this.cover.seen, 1).setUsage(THREE.DynamicDrawUsage));
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader,
@@ -124,18 +127,26 @@ export class Grains {
       else if (by === "pull") values[i] = (one.pulls[i] + share * (other.pulls[i] - one.pulls[i])) / 255;
       else values[i] = places[3 * i + 2] / top;
     }
-    this.points.geometry.setDrawRange(0, reel.count);
+    this.count = reel.count;
     for (const attribute of [position, radius, value]) attribute.needsUpdate = true;
     return { one, share, other };
   }
 
-  /// To be called before every picture: `height` of the picture in pixels; `plane` in the world, or null.
+  /// To be called before every picture, after show(): `height` of the picture in pixels; `plane` in the world, or null.
+  /// Gives how many grains are drawn.
   prepare(camera, height, plane) {
     const { pixels, sliced, slice } = this.material.uniforms;
     pixels.value = height;
     sliced.value = plane !== null;
-    if (!plane) return;
-    const seen = plane.clone().applyMatrix4(camera.matrixWorldInverse);
-    slice.value.set(seen.normal.x, seen.normal.y, seen.normal.z, seen.constant);
+    if (plane) {
+      const seen = plane.clone().applyMatrix4(camera.matrixWorldInverse);
+      slice.value.set(seen.normal.x, seen.normal.y, seen.normal.z, seen.constant);
+    }
+    const { attributes, index } = this.points.geometry;
+    const grains = { count: this.count, positions: attributes.position.array, radii: attributes.radius.array };
+    const drawn = this.cover.look(camera, grains, plane ? slice.value : null);
+    index.needsUpdate = true;
+    this.points.geometry.setDrawRange(0, drawn);
+    return drawn;
   }
 }

@@ -10,18 +10,26 @@ const looks = {
   other: { stroke: colour.apparatus, strokeWidth: 1.4 },
 };
 
-function drawn(law, width) {
+/// Overlaps in millimetres where bridges reach so far, else in micrometres.
+function scaled(law) {
+  const far = Math.max(...law.flatMap(({ points }) => points.map(([x]) => Math.abs(x))));
+  const [unit, share] = far > 500 ? ["mm", 1e-3] : ["\u00b5m", 1];
+  return { unit, law: law.map((one) => ({ ...one, points: one.points.map(([x, y]) => [share * x, y]) })) };
+}
+
+function drawn(inMicrometres, width) {
+  const { unit, law } = scaled(inMicrometres);
   const others = law.filter(({ role }) => role === "other");
   // Each name stands at its own place along the gap, so that names do not cover each other.
   const ends = others.map(({ name, points }, k) => ({ name, point: points[Math.round((points.length / 2) * ((k + 1) / (others.length + 1)))] }));
   return plot(width, {
-    x: { label: "overlap of two grains [\u00b5m]; negative: a gap" },
+    x: { label: `overlap of two grains [${unit}]; negative: a gap` },
     y: { label: "force [mN]; negative: attraction" },
     marks: [
       Plot.ruleX([0], { stroke: colour.quiet }), Plot.ruleY([0], { stroke: colour.quiet }),
       ...law.map(({ name, role, points }) => Plot.line(points, { ...looks[role], strokeDasharray: role === "other" ? dashes[name] : null })),
       Plot.tip(law.flatMap(({ name, points }) => points.map(([x, y]) => ({ x, y, name }))), Plot.pointer({
-        x: "x", y: "y", title: ({ name, x, y }) => `${name}\n${number(x)} \u00b5m: ${number(y)} mN`, fill: "var(--card)" })),
+        x: "x", y: "y", title: ({ name, x, y }) => `${name}\n${number(x)} ${unit}: ${number(y)} mN`, fill: "var(--card)" })),
       Plot.text(ends, { x: ({ point }) => point[0], y: ({ point }) => point[1], text: "name", dy: -8, fill: colour.apparatus, stroke: "var(--page)", strokeWidth: 4 }),
     ],
   });

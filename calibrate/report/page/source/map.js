@@ -1,6 +1,6 @@
 // What the readings leave open: the misfit over two parameters, and the materials that meet them as well.
 import { element, figure, section } from "./dom.js";
-import { number } from "./numbers.js";
+import { atNoise, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
 import { colour, legend, plot, Plot } from "./plots.js";
 
 const levels = [1, 2, 3, 5, 8];
@@ -35,23 +35,35 @@ function drawn({ x, y, points, miss, equivalent, simulated }, width) {
 
 function levelLegend() {
   const words = [`below ${levels[0]}`, ...levels.slice(1).map((level, k) => `${levels[k]} to ${level}`), `above ${levels.at(-1)}`];
-  return words.map((text, k) => [k === 0 ? `${text} standard deviations from the laboratory` : text, `field shade-${k}`]);
+  return words.map((text, k) => [k === 0 ? `${text} standard deviation from the laboratory` : text, `field shade-${k}`]);
 }
 
-function familyTable({ family }) {
+/// What the laboratory measured of a reading, with its deviation.
+function measuredOf(tests, name) {
+  for (const test of tests)
+    for (const one of test.readings)
+      if (fullName(test.name, one.name) === name && one.measured !== undefined) return plusMinus(one.measured, one.standard_deviation);
+  return "";
+}
+
+/// With places where a name may be broken.
+const broken = (name) => name.replace(/[_.]/g, "$&\u200b");
+
+function familyTable({ family, noise }, tests) {
   const names = Object.keys(family[0].values), readings = Object.keys(family[0].readings);
-  return element("div", { class: "wide" }, element("table", {}, element("caption", {}, "Materials that meet the laboratory as well as any, as far as is known; the first is the recommended one"),
-    element("thead", {}, element("tr", {}, ...[...names, ...readings].map((name) => element("th", { class: "number" }, name.replace(/[_.]/g, "$&\u200b"))), element("th", {}, "known from"))),
-    element("tbody", {}, ...family.map((one) => element("tr", {}, ...names.map((name) => element("td", { class: "number" }, number(one.values[name], 3))),
-      ...readings.map((name) => element("td", { class: "number" }, number(one.readings[name], 4))), element("td", {}, one.simulated ? "simulation" : "neighbours"))))));
+  return element("div", { class: "wide" }, element("table", {}, element("caption", {}, "Materials that may well meet the laboratory too; the first is the recommended one. \u201cPredicted\u201d ones are told from simulations nearby, and were not simulated themselves."),
+    element("thead", {}, element("tr", {}, ...names.map((name) => element("th", { class: "number" }, broken(name))), ...readings.map((name) => element("th", { class: "number" }, `${words(name)} [${unitOf(name)}]`)), element("th", {}, "Known from"))),
+    element("tbody", {}, element("tr", { class: "measured" }, element("th", { colspan: names.length, scope: "row" }, "Laboratory"), ...readings.map((name) => element("td", { class: "number" }, measuredOf(tests, name))), element("td")),
+      ...family.map((one) => element("tr", {}, ...names.map((name) => element("td", { class: "number" }, number(one.values[name], 3))),
+      ...readings.map((name) => element("td", { class: "number" }, atNoise(one.readings[name], noise?.[name]))), element("td", {}, one.simulated ? "simulated" : "predicted"))))));
 }
 
-export function openPart({ inference, search }) {
+export function openPart({ inference, search, tests = [] }) {
   if (!inference) return null;
   const map = search.map;
   return section("open", "What is determined, and what is not", `From ${inference.simulations} simulations of this study.`,
     element("pre", { class: "words" }, inference.words.trimEnd()),
     map ? figure({}, (width) => drawn(map, width), element("figcaption", {}, element("strong", {}, `Predicted misfit over ${map.x.name} and ${map.y.name}, the other parameters as recommended`),
       legend([...levelLegend(), ["recommended", "mark star"], ["equivalent materials; their other parameters differ too", "mark diamond"], ["simulated", "mark dot"]]))) : null,
-    familyTable(inference));
+    familyTable(inference, tests));
 }

@@ -13,12 +13,19 @@ export function number(value, digits = 4) {
   return text.replace(/-/g, minus);
 }
 
-export function signed(value, digits = 3) {
-  return value > 0 ? `+${number(value, digits)}` : number(value, digits);
+/// To the decimal to which its deviation has two digits; what lies behind that is luck.
+export function atNoise(value, deviation, digits = 4) {
+  if (!(deviation > 0) || !Number.isFinite(value)) return number(value, digits);
+  const decimals = 1 - Math.floor(Math.log10(deviation));
+  return decimals < 0 || decimals > 6 ? number(value, digits) : value.toFixed(decimals).replace(/-/g, minus);
+}
+
+export function signed(value, deviation) {
+  return value > 0 ? `+${atNoise(value, deviation, 3)}` : atNoise(value, deviation, 3);
 }
 
 export function plusMinus(value, deviation, digits = 4) {
-  return deviation > 0 ? `${number(value, digits)} \u00b1 ${number(deviation, 2)}` : number(value, digits);
+  return deviation > 0 ? `${atNoise(value, deviation, digits)} \u00b1 ${number(deviation, 2)}` : number(value, digits);
 }
 
 const unitsOfNames = [["_mm", "mm"], ["_pa", "Pa"], ["_kg", "kg"], ["_g", "g"], ["_rad_s", "rad/s"], ["_s", "s"], ["_n", "N"]];

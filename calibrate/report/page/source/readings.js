@@ -16,7 +16,7 @@ function row(reading, noise) {
   const [kind, verdict] = judged(reading);
   return element("tr", { class: kind }, element("th", { scope: "row" }, words(reading.name), unit ? ` [${unit}]` : ""),
     ...[plusMinus(reading.measured, reading.standard_deviation), plusMinus(reading.simulated, reading.standard_error),
-      number(noise ?? reading.simulated_standard_deviation, 2), signed(off), number(reading.tolerance, 3)].map((text, k) =>
+      number(noise ?? reading.simulated_standard_deviation, 2), signed(off, reading.standard_error), number(reading.tolerance, 3)].map((text, k) =>
       element("td", { class: "number", "data-head": heads[k + 1], title: k === 0 ? `${reading.repeats} reading(s)` : null }, text)),
     element("td", {}, verdict));
 }

@@ -147,7 +147,7 @@ export class Scene {
     const { one } = this.grains.show(this.time, this.colouredBy);
     this.apparatus.show(one.walls);
     this.camera.updateMatrixWorld();
-    this.grains.prepare(this.camera, this.renderer.domElement.height, this.plane);
+    this.drawn = this.grains.prepare(this.camera, this.renderer.domElement.height, this.plane);
     this.renderer.render(this.scene, this.camera);
     ++this.pictures;
   }

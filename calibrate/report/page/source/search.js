@@ -12,6 +12,12 @@ const kinds = {
   failure: { symbol: "times", stroke: colour.failure },
 };
 
+const legendWords = {
+  failure: "failed, or without a fitted reading (at the top)",
+  "ended early": "ended early: at least so much",
+  "other grains": "coarser grains, which point the way (at the top: their misfit is not of these grains)",
+};
+
 function kindsIn(history) {
   const there = new Set(history.map(kindOf));
   return Object.keys(kinds).filter((kind) => there.has(kind));
@@ -71,7 +77,7 @@ function historyFigure(content, measured) {
     const drawn = historyPlot(points, search, width);
     drawn.addEventListener("input", () => choose(drawn.value));
     return drawn;
-  }, card, element("figcaption", {}, legend([...kindsIn(points).map((kind) => [kind === "failure" ? "failed, or without a fitted reading (at the top)" : kind === "ended early" ? "ended early: at least so much" : kind, `mark ${kind.replace(" ", "-")}`]), ["best single run so far", "line simulation"]])));
+  }, card, element("figcaption", {}, legend([...kindsIn(points).map((kind) => [legendWords[kind] ?? kind, `mark ${kind.replace(" ", "-")}`]), ["best single run so far", "line simulation"]])));
   choose(best(points));
   made.addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];

@@ -15,16 +15,22 @@ function shownWords({ run_shown: shown, film }) {
   return `One run with the fitted parameters, on packing ${shown.packing}. ${same} Between its pictures grains move in straight lines.`;
 }
 
+/// The drawing, its simulated lengths with the standard errors of the readings that they are.
+function withNoise(drawing, readings) {
+  const error = (name) => readings.find((one) => one.name === name)?.standard_error ?? 0;
+  return { ...drawing, lengths: drawing.lengths.map((one) => (one.by === "simulation" ? { ...one, deviation: error(one.reading) } : one)) };
+}
+
 function testPart(test, index) {
   const bytes = document.getElementById(`film-${index}`);
   return [
     test.name ? element("h3", {}, `Test ${test.name}`) : null,
     test.film && bytes && lasts(test.film) ? filmPlayer(test.film, bytes.textContent) : null,
     element("p", { class: "note" }, shownWords(test)),
-    ...test.drawings.map(drawingFigure),
+    ...test.drawings.map((drawing) => drawingFigure(withNoise(drawing, test.readings))),
   ];
 }
 
 export function testsPart({ tests }) {
-  return section("tests", "The test", "Drag to turn; click, then scroll to zoom; keys: arrows and space.", ...tests.flatMap(testPart));
+  return section("tests", "The test", tests.some(({ film }) => film && lasts(film)) ? "Drag to turn; click, then scroll to zoom; keys: arrows and space." : null, ...tests.flatMap(testPart));
 }

@@ -1,6 +1,6 @@
 // What the calibration answers, on top of everything.
 import { element } from "./dom.js";
-import { duration, number } from "./numbers.js";
+import { duration, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
 
 const signs = { meets: ["\u2713", "The material meets the laboratory"], open: ["?", "Not certain"], fails: ["\u2717", "The material does not meet the laboratory"], none: ["\u2026", "No answer yet"], goes: ["\u2026", "The calibration is under way"] };
 
@@ -28,6 +28,30 @@ function facts({ verdict, search, parameters, interval_level: level }) {
   return element("dl", { class: "facts" }, ...list.map(([value, what]) => element("div", {}, element("dt", {}, value), element("dd", {}, what))));
 }
 
+/// The answer in words: what was fitted, how well each reading is met, what is open.
+function answers({ verdict, parameters = [], tests = [], interval_level: level }) {
+  if (!verdict) return null;
+  const free = parameters.filter((one) => one.free), told = free.filter((one) => one.interval), open = free.filter((one) => !one.interval);
+  const value = (one) => `${one.name} ${number(one.value)}`;
+  const reading = (test, one) => `${words(fullName(test.name, one.name))} ${plusMinus(one.simulated, one.standard_error)} ${unitOf(one.name)}, measured ${plusMinus(one.measured, one.standard_deviation)}`;
+  const readings = (wanted) => tests.flatMap((test) => test.readings.filter((one) => one.measured !== undefined && wanted(test, one)).map((one) => reading(test, one)));
+  const off = (one) => Math.abs(one.simulated - one.measured) > one.tolerance;
+  const fitted = (test, one) => !test.hold_out && one.weight > 0;
+  const list = [
+    ["Fitted", level > 0 ? told.map((one) => `${value(one)} (${number(100 * level, 3)} %: ${number(one.interval[0], 3)} to ${number(one.interval[1], 3)})`) : free.map(value)],
+    ["Met", readings((test, one) => fitted(test, one) && !off(one))],
+    ["Missed", readings((test, one) => fitted(test, one) && off(one))],
+    ["Predicted", readings((test, one) => !fitted(test, one))],
+    ["Open", level > 0 ? [open.map(value).join(", ") + (open.length > 1 ? ": each one choice among many that the readings allow" : ": one choice among many that the readings allow")] : []],
+  ].filter(([what, lines]) => lines.length > 0 && (what !== "Open" || open.length > 0));
+  return element("dl", { class: "answers" }, ...list.flatMap(([what, lines]) => [element("dt", {}, what), element("dd", {}, ...lines.map((line) => element("div", {}, line)))]));
+}
+
+/// The verdict's own sentence, without what the heading says already.
+function sentence(text, heading) {
+  return text.startsWith(`${heading}: `) ? text.slice(heading.length + 2) : text;
+}
+
 export function verdictPart(content) {
   const kind = verdictKind(content);
   const [sign, heading] = signs[kind];
@@ -35,7 +59,7 @@ export function verdictPart(content) {
     element("p", { class: "brand" }, "pastefit"),
     element("h1", {}, content.title ?? "A calibration that has no card yet"),
     element("div", { class: "answer" }, element("span", { class: "badge", "aria-hidden": "true" }, sign),
-      element("div", {}, element("strong", {}, heading), element("p", {}, content.verdict?.words ?? (kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.")))),
+      element("div", {}, element("strong", {}, heading), element("p", {}, content.verdict ? sentence(content.verdict.words, heading) : (kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.")), answers(content))),
     facts(content));
 }
 
