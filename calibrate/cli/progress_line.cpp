@@ -54,10 +54,23 @@ std::string ProgressLine::time_left() const {
 std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
-  return fitted({format("%s %d of %d simulations", phase_.c_str(), done(), work_.budget),
-                 best_miss_ < 0 ? "no misfit yet" : "misfit " + unit_.words(best_miss_, "%.2f"), time_left(),
-                 failed > 0 ? format("%d failed", failed) : "",
-                 counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
+  std::string line =
+      fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, terminal_ ? "" : " simulations"),
+              best_miss_ < 0 ? "no misfit yet" : "misfit " + unit_.words(best_miss_, "%.2f"), time_left(),
+              failed > 0 ? format("%d failed", failed) : "",
+              counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
+  if (terminal_) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));
+  return line;
+}
+
+/// How much of the budget is used, as a bar of at most so many columns; none where that is too few to be told.
+std::string ProgressLine::bar(std::size_t columns) const {
+  constexpr std::size_t kMost = 24, kLeast = 6, kFrame = 3;  // a blank and the brackets
+  if (columns < kLeast + kFrame || work_.budget <= 0) return "";
+  const std::size_t length = std::min(kMost, columns - kFrame);
+  const double share = std::clamp(static_cast<double>(done()) / work_.budget, 0.0, 1.0);
+  const auto full = static_cast<std::size_t>(share * static_cast<double>(length));
+  return " [" + std::string(full, '#') + std::string(length - full, '-') + "]";
 }
 
 void ProgressLine::rewrite(bool now) {

@@ -17,8 +17,9 @@ struct WorkAhead {
   int examination = 0;   ///< after the search, hold-outs included
 };
 
-/// Live progress on standard error, unless it is quiet: one line that is rewritten on a terminal, cut to its width;
-/// elsewhere a plain line of at most 80 columns at the start of each phase and every few seconds. Thread-safe.
+/// Live progress on standard error, unless it is quiet: one line that is rewritten on a terminal, cut to its width,
+/// with a bar where there is room; elsewhere a plain line of at most 80 columns at the start of each phase and every
+/// few seconds. Thread-safe.
 ///
 /// The time that is left is a range: from what the phases still have to do if the next candidate holds, to what the
 /// budget allows, both at the rate of simulations so far.
@@ -32,6 +33,7 @@ class ProgressLine {
  private:
   void rewrite(bool now);
   std::string text() const;
+  std::string bar(std::size_t columns) const;
   std::string time_left() const;
   int done() const { return counts_.simulated + counts_.answered; }
 

@@ -46,10 +46,10 @@ std::string determined(const Inference& inference) {
     const ParameterInterval& lead = inference.intervals[combination.lead];
     if (said.empty()) {
       out += format(
-          "  %s %s %s to %.3g to %.3g (95 %%), the other parameters "
+          "  %s %s %s to %s to %s (95 %%), the other parameters "
           "held at the recommended values.\n",
           enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
-          lead.name.c_str(), lead.held_lower, lead.held_upper);
+          lead.name.c_str(), plain(lead.held_lower).c_str(), plain(lead.held_upper).c_str());
       out += exchange_of(inference, combination);
     } else {
       const std::string width = lead.scale == Scale::linear ? format("+-%.2g", combination.lead_width)
@@ -69,13 +69,13 @@ std::string determined(const Inference& inference) {
 
 /// What of a parameter comes from knowledge, and what from the readings.
 std::string prior_line(const ParameterInterval& one) {
-  const std::string known =
-      format("  %s was known to be %.3g +- %.3g; ", one.name.c_str(), one.prior->value, one.prior->standard_deviation);
+  const std::string known = format("  %s was known to be %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
+                                   plain(one.prior->standard_deviation).c_str());
   if (one.uncertainty > worth_measuring)
-    return known +
-           format("the readings add nothing: %.3g to %.3g (95 %%) comes from the prior.\n", one.lower, one.upper);
-  return known + format("with the readings %.3g to %.3g (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
-                        one.lower, one.upper, 100 * one.uncertainty);
+    return known + format("the readings add nothing: %s to %s (95 %%) comes from the prior.\n",
+                          plain(one.lower).c_str(), plain(one.upper).c_str());
+  return known + format("with the readings %s to %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
+                        plain(one.lower).c_str(), plain(one.upper).c_str(), 100 * one.uncertainty);
 }
 
 std::string intervals(const Inference& inference) {
@@ -87,13 +87,14 @@ std::string intervals(const Inference& inference) {
     } else if (one.not_identified()) {
       unknown.push_back(one.name);
     } else if (one.interval_exists()) {
-      out += format("  %s lies between %.3g and %.3g (95 %%), all parameters free.\n", one.name.c_str(), one.lower,
-                    one.upper);
+      out += format("  %s lies between %s and %s (95 %%), all parameters free.\n", one.name.c_str(),
+                    plain(one.lower).c_str(), plain(one.upper).c_str());
     } else {
       out += format(
-          "  %s lies %s %.3g (95 %%), all parameters free; its bound "
+          "  %s lies %s %s (95 %%), all parameters free; its bound "
           "sets the other end.\n",
-          one.name.c_str(), one.lower_known ? "above" : "below", one.lower_known ? one.lower : one.upper);
+          one.name.c_str(), one.lower_known ? "above" : "below",
+          plain(one.lower_known ? one.lower : one.upper).c_str());
     }
   }
   if (unknown.size() == 1)
@@ -130,10 +131,10 @@ std::string next(const Inference& inference) {
     if (gain.narrowing > worth_measuring) break;
     const bool known = std::ranges::find(inference.fitted, gain.reading) != inference.fitted.end();
     out += format(
-        "  %d %smeasurements of %s (+-%.3g each) would leave %s %.0f "
+        "  %d %smeasurements of %s (+-%s each) would leave %s %.0f "
         "%% of its uncertainty.\n",
-        gain.measurements, known ? "more " : "", gain.reading.c_str(), gain.deviation, gain.parameter.c_str(),
-        100 * gain.narrowing);
+        gain.measurements, known ? "more " : "", gain.reading.c_str(), plain(gain.deviation).c_str(),
+        gain.parameter.c_str(), 100 * gain.narrowing);
   }
   if (out.empty())
     out = "  No reading of this test would tell more; a test of another kind, or on another apparatus, would.\n";

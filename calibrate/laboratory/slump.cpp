@@ -5,6 +5,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/specimen_json.h"
@@ -174,7 +175,8 @@ std::string conditions_in_words(const SlumpTest& test) {
   return format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
                 diameter_mm * test.mould.base_radius_m, diameter_mm * test.mould.top_radius_m, mm * test.mould.height_m,
                 mm * test.lift_velocity_m_s) +
-         format("  pressure                 up to %.3g Pa, the weight of the full mould\n", largest_pressure_pa(test));
+         format("  pressure                 up to %s Pa, the weight of the full mould\n",
+                plain(largest_pressure_pa(test)).c_str());
 }
 
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {

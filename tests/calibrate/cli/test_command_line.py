@@ -354,9 +354,11 @@ class CommandLine(Desk):
                 self.assertGreater(len(rewritten), 5)
                 for line in rewritten:
                     self.assertLess(len(line.removesuffix("\x1b[K")), width)
-                self.assertTrue(any(re.search(rf"screening \d+ of {budget} simulations", line) for line in rewritten))
+                self.assertTrue(any(re.search(rf"screening( \[#*-*\])? \d+ of {budget}\b", line) for line in rewritten))
                 self.assertNotIn("\x1b[3", shown.decode())  # no colour
                 if width == 80:
+                    bars = [found[1] for line in rewritten if (found := re.search(r" \[([#-]+)\] ", line))]
+                    self.assertGreater(bars[-1].count("#") / len(bars[-1]), bars[0].count("#") / len(bars[0]))
                     self.assertTrue(any(re.search(r"\d+( s| min)? to \d+ (s|min) left", line) for line in rewritten))
 
     def test_a_terminal_that_cannot_rewrite_a_line_gets_plain_ones(self):

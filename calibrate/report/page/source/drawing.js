@@ -14,15 +14,16 @@ function boxOf({ bands, lines, lengths }) {
   return { x: range(0), y: range(1) };
 }
 
-/// A length: thin lines from what it is the distance of, arrows at both ends, and its value; `scale`: pixels for 1 upwards.
-function lengthMarks(length, scale) {
+/// A length: thin lines from what it is the distance of, arrows at both ends, and its value; `scale`: pixels for 1 upwards, `among`: from where to where the axis goes.
+function lengthMarks(length, scale, among) {
   const stroke = colour[length.by], centre = middle(length.from, length.to);
   const unit = unitOf(length.reading);
   const text = `${plusMinus(length.value, length.deviation)} ${unit}`;
   const links = [[length.first, length.from], [length.last, length.to]].map(([[x1, y1], [x2, y2]]) => ({ x1, y1, x2, y2 }));
   // Beside an arrow that is shorter than its text there is no room; above it there is, one line for each.
-  const along = isUpright(length) && Math.abs(length.to[1] - length.from[1]) * scale > 8 * text.length;
+  const along = isUpright(length) && Math.abs(length.to[1] - length.from[1]) * scale > 6.6 * text.length;
   const above = isUpright(length) && !along;
+  const left = centre[0] < (among[0] + among[1]) / 2;
   const place = above ? [centre[0], Math.max(length.from[1], length.to[1])] : centre;
   const arrows = [length.from, length.to].map(([x2, y2]) => ({ x1: centre[0], y1: centre[1], x2, y2 }));
   const ends = { x1: "x1", y1: "y1", x2: "x2", y2: "y2", stroke };
@@ -30,7 +31,7 @@ function lengthMarks(length, scale) {
     Plot.link(links, { ...ends, strokeWidth: 0.7, strokeDasharray: "2 3" }),
     Plot.arrow(arrows, { ...ends, strokeWidth: 1.4, headLength: 7, headAngle: 40 }),
     Plot.text([{ x: place[0], y: place[1] }], { x: "x", y: "y", text: () => text, fill: stroke, stroke: "var(--page)", strokeWidth: 4,
-      rotate: along ? -90 : 0, dy: above ? (length.by === "laboratory" ? -28 : -10) : along ? 0 : -8, dx: along ? -8 : above ? 12 : 0, textAnchor: above ? "end" : "middle", fontWeight: 600 }),
+      rotate: along ? -90 : 0, dy: above ? (length.by === "laboratory" && !left ? -28 : -10) : along ? 0 : -8, dx: along ? -8 : above ? (left ? -10 : 12) : 0, textAnchor: above ? (left ? "start" : "end") : "middle", fontWeight: 600 }),
   ];
 }
 
@@ -54,7 +55,7 @@ function drawn(drawing, width) {
     marks: [
       ...drawing.bands.map(({ points }) => Plot.areaY(points, { x: "0", y1: "1", y2: "2", fill: colour.simulation, fillOpacity: 0.22 })),
       ...drawing.lines.flatMap(lineMarks),
-      ...drawing.lengths.flatMap((length) => lengthMarks(length, upwards)),
+      ...drawing.lengths.flatMap((length) => lengthMarks(length, upwards, x)),
     ],
   });
 }

@@ -3,6 +3,7 @@ import { element, figure, section } from "./dom.js";
 import { number } from "./numbers.js";
 import { colour, legend, plot, Plot } from "./plots.js";
 
+const dashWords = { linear: "dots", exponential: "dashes", capillary: "dash and dot", polynomial: "long dashes" };
 const dashes = { linear: "2 3", exponential: "8 3", capillary: "8 3 2 3", polynomial: "12 4" };
 const looks = {
   fitted: { stroke: colour.simulation, strokeWidth: 3 },
@@ -19,7 +20,8 @@ function scaled(law) {
 
 function drawn(inMicrometres, width) {
   const { unit, law } = scaled(inMicrometres);
-  const others = law.filter(({ role }) => role === "other");
+  // In a narrow picture there is no room for them; the legend has them, too.
+  const others = width < 480 ? [] : law.filter(({ role }) => role === "other");
   // Each name stands at its own place along the gap, so that names do not cover each other.
   const ends = others.map(({ name, points }, k) => ({ name, point: points[Math.round((points.length / 2) * ((k + 1) / (others.length + 1)))] }));
   return plot(width, {
@@ -39,7 +41,7 @@ export function lawPart({ law, radius_mm: radius }) {
   const has = (role) => law.some((one) => one.role === role);
   const entries = [["fitted", "line simulation thick"]];
   if (has("equivalent")) entries.push(["equivalent materials: the readings do not tell them apart", "line equivalent"]);
-  if (has("other")) entries.push(["other attractions with the same peak and reach", "line apparatus"]);
-  return section("law", "The contact law", `Two grains of ${number(radius, 3)} mm radius: what pulls them together across a gap, and pushes them apart where they overlap.`,
+  if (has("other")) entries.push([`other attractions with the same peak and reach: ${law.filter(({ role }) => role === "other").map(({ name }) => `${name} (${dashWords[name]})`).join(", ")}`, "line apparatus"]);
+  return section("law", "The contact law", `Two grains of ${number(radius, 3)} mm radius: ${law.some(({ points }) => points.some(([, force]) => force < 0)) ? "what pulls them together, and pushes them apart where they overlap" : "what pushes them apart where they overlap"}.`,
     figure({}, (width) => drawn(law, width), element("figcaption", {}, legend(entries))));
 }

@@ -53,7 +53,7 @@ function historyPlot(points, search, width) {
     y: { type: "log", label: `misfit [${search.misfit_unit ?? "tolerances"}]`, tickFormat: "~g" },
     marks: [
       search.misfit_asked ? Plot.ruleY([search.misfit_asked], { stroke: colour.laboratory, strokeDasharray: "6 4" }) : null,
-      search.misfit_asked ? Plot.text([search.misfit_asked], { y: (d) => d, text: () => "asked for", frameAnchor: "right", dy: -8, fill: colour.laboratory }) : null,
+      search.misfit_asked ? Plot.text([search.misfit_asked], { y: (d) => d, text: () => "asked for", frameAnchor: "left", dx: 4, dy: -8, fill: colour.laboratory }) : null,
       Plot.line(bestSoFar(points), { x: "number", y: "at", curve: "step-after", stroke: colour.simulation, strokeWidth: 1.2 }),
       ...dots(points, "number", "at"),
       Plot.dot(points, Plot.pointer({ x: "number", y: "at", r: 8, stroke: "currentColor", strokeWidth: 2, maxRadius: 40 })),
