@@ -108,19 +108,24 @@ std::string intervals(const Inference& inference) {
   return out;
 }
 
+/// A column for each material, so that five of them fit a window of 80 columns.
 std::string family(const Inference& inference) {
   std::string out = "Materials that meet these readings as well; recommended is the first" +
-                    (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n  ";
-  for (const ParameterInterval& one : inference.intervals) out += format("%20s", one.name.c_str());
-  for (const std::string& reading : inference.fitted) out += format("  %s", reading.c_str());
-  out += "\n";
-  for (const EquivalentMaterial& member : inference.family) {
-    out += "  ";
-    for (const double value : member.values) out += format("%20.4g", value);
-    for (std::size_t k = 0; k < member.readings.size(); ++k)
-      out += format("  %*.4g", static_cast<int>(inference.fitted[k].size()), member.readings[k]);
-    out += member.simulated ? "\n" : "   predicted only\n";
-  }
+                    (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n";
+  std::size_t widest = 0;
+  for (const ParameterInterval& one : inference.intervals) widest = std::max(widest, one.name.size());
+  for (const std::string& reading : inference.fitted) widest = std::max(widest, reading.size());
+  const auto row = [&](const std::string& name, const auto& cell) {
+    out += format("  %-*s", static_cast<int>(widest), name.c_str());
+    for (const EquivalentMaterial& member : inference.family) out += format(" %9s", cell(member).c_str());
+    out += "\n";
+  };
+  for (std::size_t k = 0; k < inference.intervals.size(); ++k)
+    row(inference.intervals[k].name, [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
+  for (std::size_t k = 0; k < inference.fitted.size(); ++k)
+    row(inference.fitted[k], [&](const EquivalentMaterial& member) { return plain(member.readings[k], 4); });
+  row("known from",
+      [](const EquivalentMaterial& member) { return std::string(member.simulated ? "simulated" : "predicted"); });
   return out;
 }
 

@@ -62,9 +62,9 @@ std::string observable_lines(const std::vector<CardObservable>& observables, std
     out += format("  %-24s ", observable.name.c_str());
     out += observable.measured ? format("%10.4g %10.3g ", *observable.measured, observable.standard_deviation)
                                : format("%10s %10s ", "-", "-");
-    out += format("%12.5g +- %-6.2g", observable.simulated, error);
+    out += format("%10.5g +- %-6.2g", observable.simulated, error);
     if (observable.measured)
-      out += format(" %+12.3g%s", observable.simulated - *observable.measured,
+      out += format(" %+9.3g%s", observable.simulated - *observable.measured,
                     observable.weight > 0 ? "" : "   (not fitted)");
     if (observable.band) out += format("   (noise explains +-%.3g)", *observable.band);
     out += "\n";
@@ -75,7 +75,7 @@ std::string observable_lines(const std::vector<CardObservable>& observables, std
 std::string reading_lines(const Card& card) {
   const auto packings = card.confirmation.packings.size();
   std::string out =
-      format("%-26s %10s %10s %22s %12s\n", "Reading", "measured", "+- sd", "simulated +- std error", "difference");
+      format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- std err", "difference");
   for (const auto& test : card.tests) {
     if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
     out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);

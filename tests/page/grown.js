@@ -1,32 +1,37 @@
 // A film with many times the grains of that of a page, and what it costs a browser to draw it.
 import { readFileSync, readdirSync } from "node:fs";
 
-/// Puts in place of the page's film one of `least` grains or more: each grain becomes eight of half its radius, until
-/// there are enough. Gives how many there are.
+/// Puts in place of the page's film one of `least` grains: grains become eight of half their radius each, until there are
+/// enough. Gives how many there are.
 export async function grow(page, least) {
   return page.evaluate((count) => {
     const place = document.querySelector(".player"), { film, constructor: Player } = place.player;
-    const eightfold = (list, of) => {
-      const out = new list.constructor(8 * list.length);
-      for (let i = 0; i < list.length; ++i) for (let k = 0; k < 8; ++k) out[8 * i + k] = of(list[i], i, k);
-      return out;
-    };
     const same = (value) => value;
     let grown = film;
     while (Math.min(...grown.reels.map((reel) => reel.count)) < count) {
       const old = grown;
-      grown = Object.assign(Object.create(Object.getPrototypeOf(old)), old, { most: 8 * old.most });
-      grown.reels = old.reels.map((reel) => ({
-        count: 8 * reel.count,
-        radii: eightfold(reel.radii, (radius) => radius / 2),
-        frames: reel.frames.map((frame) => ({
-          ...frame,
-          places: frame.places.map((list, axis) => eightfold(list, (at, i, k) => Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * reel.radii[i]) / old.quantum))),
-          speeds: eightfold(frame.speeds, same),
-          touching: eightfold(frame.touching, same),
-          pulls: eightfold(frame.pulls, same),
-        })),
-      }));
+      grown = Object.assign(Object.create(Object.getPrototypeOf(old)), old);
+      grown.reels = old.reels.map((reel) => {
+        const parted = Math.min(reel.count, Math.max(0, Math.ceil((count - reel.count) / 7)));
+        const eightfold = (list, of) => {
+          const out = new list.constructor(list.length + 7 * parted);
+          for (let i = 0; i < parted; ++i) for (let k = 0; k < 8; ++k) out[8 * i + k] = of(list[i], i, k);
+          out.set(list.subarray(parted), 8 * parted);
+          return out;
+        };
+        return {
+          count: reel.count + 7 * parted,
+          radii: eightfold(reel.radii, (radius) => radius / 2),
+          frames: reel.frames.map((frame) => ({
+            ...frame,
+            places: frame.places.map((list, axis) => eightfold(list, (at, i, k) => Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * reel.radii[i]) / old.quantum))),
+            speeds: eightfold(frame.speeds, same),
+            touching: eightfold(frame.touching, same),
+            pulls: eightfold(frame.pulls, same),
+          })),
+        };
+      });
+      grown.most = Math.max(...grown.reels.map((reel) => reel.count));
     }
     place.replaceChildren();
     new Player(grown, place);
