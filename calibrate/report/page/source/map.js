@@ -52,7 +52,7 @@ const broken = (name) => name.replace(/[_.]/g, "$&\u200b");
 function familyTable({ family, noise }, tests) {
   const names = Object.keys(family[0].values), readings = Object.keys(family[0].readings);
   return element("div", { class: "wide" }, element("table", {}, element("caption", {}, "Materials that may well meet the laboratory too; the first is the recommended one. \u201cPredicted\u201d ones are told from simulations nearby, and were not simulated themselves."),
-    element("thead", {}, element("tr", {}, ...names.map((name) => element("th", { class: "number" }, broken(name))), ...readings.map((name) => element("th", { class: "number" }, `${words(name)} [${unitOf(name)}]`)), element("th", {}, "Known from"))),
+    element("thead", {}, element("tr", {}, ...names.map((name) => element("th", { class: "number" }, broken(name))), ...readings.map((name) => element("th", { class: "number" }, unitOf(name) ? `${words(name)} [${unitOf(name)}]` : words(name))), element("th", {}, "Known from"))),
     element("tbody", {}, element("tr", { class: "measured" }, element("th", { colspan: names.length, scope: "row" }, "Laboratory"), ...readings.map((name) => element("td", { class: "number" }, measuredOf(tests, name))), element("td")),
       ...family.map((one) => element("tr", {}, ...names.map((name) => element("td", { class: "number" }, number(one.values[name], 3))),
       ...readings.map((name) => element("td", { class: "number" }, atNoise(one.readings[name], noise?.[name]))), element("td", {}, one.simulated ? "simulated" : "predicted"))))));

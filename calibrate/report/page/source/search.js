@@ -102,7 +102,7 @@ function scatterPlot(points, { parameter, reading, spec, measured, deviation, no
   return plot(width, {
     className: "scatter",
     x: { label: parameter, type: spec?.scale === "log" ? "log" : "linear", tickFormat: spec?.scale === "log" ? "~g" : undefined },
-    y: { label: `${words(reading)} [${unitOf(reading)}]` },
+    y: { label: unitOf(reading) ? `${words(reading)} [${unitOf(reading)}]` : words(reading) },
     marks: [
       measuredAt === undefined || !deviation ? null : Plot.rect([measuredAt], { y1: (at) => at - deviation, y2: (at) => at + deviation, fill: colour.laboratory, fillOpacity: 0.12 }),
       measuredAt === undefined ? null : Plot.ruleY([measuredAt], { stroke: colour.laboratory, strokeDasharray: "6 4" }),
@@ -118,7 +118,7 @@ function scatterFigure({ search, parameters = [], tests = [], inference }, measu
   const done = search.history.filter((point) => !point.failure && !point.other_grains);
   const names = [...new Set(done.flatMap((point) => Object.keys(point.values)))];
   const readings = [...new Set(done.flatMap((point) => [...readingsOf(point).keys()]))]
-    .sort((one, other) => measured.has(other) - measured.has(one) || one.includes("fill.") - other.includes("fill."));
+    .sort((one, other) => measured.has(other) - measured.has(one) || one.includes("fill.") - other.includes("fill.") || other.endsWith(".height_mm") - one.endsWith(".height_mm"));
   if (names.length === 0 || readings.length === 0) return null;
   const shown = { parameter: names[0], reading: readings[0] };
   const made = figure({}, (width) => {

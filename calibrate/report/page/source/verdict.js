@@ -16,7 +16,8 @@ function facts({ verdict, search, parameters, interval_level: level }) {
   if (verdict) {
     const told = number(verdict.misfit * search.misfit_asked, 3);
     list.push([`${told} ${search.misfit_unit}`, `largest difference from the laboratory; asked for ${number(search.misfit_asked, 3)}`]);
-    list.push([String(verdict.packings.length), verdict.fresh ? "random packings that the search had not seen" : "random packings, which the search had seen"]);
+    const packings = verdict.packings.length === 1 ? "random packing" : "random packings";
+    list.push([String(verdict.packings.length), verdict.fresh ? `${packings} that the search had not seen` : `${packings}, which the search had seen`]);
     const open = parameters.filter((one) => one.not_identified).length, free = parameters.filter((one) => one.free).length;
     if (level > 0) list.push([`${free - open} of ${free}`, "fitted parameters bounded by the readings"]);
   } else if (search.misfit_asked) {
@@ -24,7 +25,7 @@ function facts({ verdict, search, parameters, interval_level: level }) {
     if (runs.length > 0) list.push([`${number(Math.min(...runs.map((one) => one.misfit)), 3)} ${search.misfit_unit}`,
       `misfit of the best single run so far; asked for, as a mean over fresh packings, ${number(search.misfit_asked, 3)}`]);
   }
-  list.push([`${search.history.length}`, `simulations kept, ${duration(search.wall_s)} of computing`]);
+  if (search.history.length > 0) list.push([`${search.history.length}`, `simulations kept, ${duration(search.wall_s)} of computing`]);
   return element("dl", { class: "facts" }, ...list.map(([value, what]) => element("div", {}, element("dt", {}, value), element("dd", {}, what))));
 }
 
@@ -57,7 +58,7 @@ export function verdictPart(content) {
   const [sign, heading] = signs[kind];
   return element("header", { id: "verdict", class: kind },
     element("p", { class: "brand" }, "pastefit"),
-    element("h1", {}, content.title ?? "A calibration that has no card yet"),
+    element("h1", {}, content.title ?? "A calibration without a card"),
     element("div", { class: "answer" }, element("span", { class: "badge", "aria-hidden": "true" }, sign),
       element("div", {}, element("strong", {}, heading), element("p", {}, content.verdict ? sentence(content.verdict.words, heading) : (kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.")), answers(content))),
     facts(content));
