@@ -75,7 +75,7 @@ std::string observable_lines(const std::vector<CardObservable>& observables, std
 std::string reading_lines(const Card& card) {
   const auto packings = card.confirmation.packings.size();
   std::string out =
-      format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- std err", "difference");
+      format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- error", "difference");
   for (const auto& test : card.tests) {
     if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
     out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);
