@@ -5,7 +5,7 @@ import { drawn, filmIsThere, openBrowser, openPage } from "./browser.js";
 
 const [page, picture] = process.argv.slice(2);
 const browser = await openBrowser();
-const shown = await openPage(browser, page, { viewport: { width: 1200, height: 500 }, colorScheme: "light" });
+const shown = await openPage(browser, page, { viewport: { width: 1200, height: 560 }, colorScheme: "light" });
 await filmIsThere(shown);
 await shown.evaluate(() => {
   const { player } = document.querySelector(".player");
@@ -20,12 +20,13 @@ await shown.evaluate(() => {
     image.style.cssText = "width:100%;border-radius:8px";
     return image;
   };
-  Object.assign(player.canvas.style, { width: "290px", height: "420px" });
+  Object.assign(player.canvas.style, { width: "290px", height: "530px" });
   const { camera, controls } = player.scene;
   camera.position.sub(controls.target).multiplyScalar(0.62).add(controls.target);
   player.scene.slice(true);
   const lift = player.film.phases().find(({ name }) => name === "step1.lift");
   frame.append(still(lift.begin + 0.45 * (lift.end - lift.begin)), still(player.film.end), document.querySelector(".test-drawing"));
+  frame.querySelector("figcaption").remove(); // the README has its own
   document.body.append(frame);
 });
 await shown.waitForTimeout(500);
