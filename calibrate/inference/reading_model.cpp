@@ -11,9 +11,9 @@
 namespace pastefit {
 namespace {
 
-constexpr double shortest_length = 0.15, longest_length = 15, usual_length = 1;  // of the unit cube
+constexpr double shortest_length = 0.15, longest_length = 15, usual_length = 0.5;  // of the unit cube
 // In variances of all answers, as the trend's.
-constexpr double least_signal = 1e-3, most_signal = 10, usual_signal = 0.5;
+constexpr double least_signal = 1e-3, most_signal = 10, usual_signal = 1;
 constexpr double least_noise = 1e-6, most_noise = 2, usual_noise = 0.01;
 constexpr double most_slope = 2.5;  // of the logarithm of the noise variance, over one standard deviation
 constexpr double constant_variance = 9, slope_variance = 2;
@@ -92,7 +92,7 @@ class ReadingModel::Fit : public Objective {
       const auto off = [](double value, double usual, double deviation) {
         return 0.5 * std::pow(std::log(value / usual) / deviation, 2);
       };
-      double prior = off(settings.signal_variance, usual_signal, 1.5) +
+      double prior = off(settings.signal_variance, usual_signal, 0.7) +
                      off(std::exp(settings.noise_level), usual_noise, 1.5) +
                      0.5 * (std::pow(settings.noise_slope, 2) + std::pow(settings.noise_bend, 2));
       for (const double length : settings.lengths) prior += off(length, usual_length, 1 / std::numbers::sqrt2);

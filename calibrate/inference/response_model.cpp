@@ -54,6 +54,7 @@ ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence))
   }
   learn_correlation(sites);
   find_shared();
+  count_independent();
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
@@ -118,6 +119,28 @@ void ResponseModel::find_shared() {
   }
 }
 
+void ResponseModel::count_independent() {
+  const auto count = static_cast<Eigen::Index>(fitted_.size());
+  Eigen::MatrixXd all(count, 0);
+  for (Eigen::Index i = 0; i < std::ssize(evidence_.points); ++i) {
+    Eigen::VectorXd one(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      one[k] = evidence_.readings[fitted_[static_cast<std::size_t>(k)]].simulated[i];
+    if (one.array().isNaN().any()) continue;
+    all.conservativeResize(Eigen::NoChange, all.cols() + 1);
+    all.rightCols(1) = one;
+  }
+  if (all.cols() < 2) return;
+  all.colwise() -= all.rowwise().mean().eval();
+  const Eigen::VectorXd sizes = all.rowwise().norm();
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (sizes[k] > 0) all.row(k) /= sizes[k];
+  // What never changes is independent of everything.
+  Eigen::MatrixXd correlation = all * all.transpose();
+  correlation.diagonal().setOnes();
+  independent_ = static_cast<double>(count) / correlation.squaredNorm();
+}
+
 ReadingModel::Prediction ResponseModel::predict(std::size_t reading, const UnitPoint& point) const {
   return models_.at(reading).predict(point);
 }
@@ -178,7 +201,8 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
     differences[static_cast<Eigen::Index>(k)] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance(known));
   const Eigen::VectorXd scaled = cholesky.matrixL().solve(differences);
-  double sum = -0.5 * scaled.squaredNorm() - Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+  double sum =
+      -0.5 * scaled.squaredNorm() - independent_ * Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
   if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
   return sum;
 }

@@ -18,7 +18,12 @@ namespace pastefit {
 ///     C = L + M,   M_jk = (doubt of the two means: that of j for j = k; else what the same heaps brought into both),
 ///     L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j n_k);
 /// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
-/// What the laboratory's deviation is more than s is the ruler's, and not correlated.
+/// What the laboratory's deviation is more than s is the ruler's, and not correlated. With d the differences, the
+/// logarithm of the likelihood is
+///     -(d' C^-1 d)/2 - (n/N)(log det C)/2,   n = (tr R)^2/tr(R^2),
+/// R the correlation of the N readings over all simulations: so many of them are independent. Two heights and two
+/// spreads of one heap are nearly one number; a candidate that little is known of would lose by its doubt once for each
+/// of them, and all that was never looked at would seem to be ruled out.
 /// Requirement: at least one simulation ended well.
 class ResponseModel {
  public:
@@ -50,6 +55,7 @@ class ResponseModel {
   };
 
   void learn_correlation(const std::vector<std::size_t>& sites);
+  void count_independent();
   void find_shared();
   Eigen::MatrixXd covariance(const std::vector<ReadingModel::Prediction>& predictions) const;
   std::vector<ReadingModel::Prediction> predictions(const UnitPoint& point) const;
@@ -58,6 +64,7 @@ class ResponseModel {
   std::vector<ReadingModel> models_;
   std::vector<std::size_t> fitted_;
   Eigen::MatrixXd correlation_;
+  double independent_ = 1;                                // n/N
   std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
   std::optional<GaussianProcess> failures_;
 };

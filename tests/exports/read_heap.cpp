@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", message_of(card.faults()).c_str());
     return 2;
   }
-  const auto exported = test_to_export(card.value(), exporters()[0], "");
+  const auto exported = test_to_export(card.value(), "");
   if (!exported.ok()) {
     std::fprintf(stderr, "%s\n", message_of(exported.faults()).c_str());
     return 2;

@@ -14,6 +14,8 @@ using namespace pastefit::synthetic;
 // How often stated intervals hold a known truth, over many made-up studies: a heap that stands, slumps or flows away
 // with a strength (coordinate 0) and is wide or narrow with a friction (coordinate 1). The widths are held to what
 // these studies give; with bounds taken for readings, even noise and no correlation they were 0.28, 0.19 and 0.34.
+// With each reading of a heap counted as an independent one they were 0.12 and 0.28 for both readings; intervals of
+// real twins were too narrow then (tests/twins).
 
 namespace {
 
@@ -163,6 +165,6 @@ TEST_CASE("intervals of 95 % hold the truth as often as they say, height and spr
   CHECK(friction.told >= 95);
   CHECK(strength.held >= least_of(strength.told));
   CHECK(friction.held >= least_of(friction.told));
-  CHECK(strength.width / strength.told < 0.14);
-  CHECK(friction.width / friction.told < 0.31);
+  CHECK(strength.width / strength.told < 0.155);
+  CHECK(friction.width / friction.told < 0.33);
 }

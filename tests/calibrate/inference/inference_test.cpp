@@ -21,7 +21,7 @@ struct Law {
   double deviation = 5;
 };
 
-Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40) {
+Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40, double most_of_second = 1) {
   Evidence evidence;
   for (const char* name : {"first", "second"}) {
     Parameter parameter;
@@ -31,6 +31,7 @@ Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40) {
     evidence.parameters.push_back(parameter);
   }
   evidence.points = screening_points(2, simulations, 1);
+  for (UnitPoint& point : evidence.points) point[1] *= most_of_second;
   for (const Law& law : laws) {
     ReadingEvidence reading;
     reading.name = law.name;
@@ -175,6 +176,18 @@ TEST_CASE("a reading that the model misses by far is not proposed again") {
   const Inference inference = infer(evidence, middle);
   REQUIRE(inference.gains.size() == 1);
   CHECK(inference.gains[0].reading == "step1.height_mm");
+}
+
+TEST_CASE("what no simulation has looked at is not ruled out by readings that are one and the same") {
+  const auto wave = [](const UnitPoint& x) { return 100 * x[0] + 20 * std::sin(9 * x[1]); };
+  const Evidence evidence = evidence_for({{"step1.height_mm", wave, 50},
+                                          {"step1.spread_mm", wave, 50},
+                                          {"step2.height_mm", wave, 50},
+                                          {"step2.spread_mm", wave, 50}},
+                                         40, 0.4);
+  const Inference inference = infer(evidence, UnitPoint{{0.5, 0.35}});
+  CHECK(inference.intervals[0].interval_exists());
+  CHECK_FALSE(inference.intervals[1].upper_known);
 }
 
 TEST_CASE("the words name what is fixed, what is not, and what to measure") {
