@@ -156,26 +156,41 @@ std::vector<ReadingModel::Prediction> ResponseModel::predictions(const UnitPoint
 }
 
 Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
-  return covariance(predictions(point));
+  const auto known = predictions(point);
+  return errors_of_laboratory(known) + doubt(known);
 }
 
-Eigen::MatrixXd ResponseModel::covariance(const std::vector<ReadingModel::Prediction>& predictions) const {
+Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const {
   const auto count = static_cast<Eigen::Index>(fitted_.size());
   Eigen::MatrixXd out(count, count);
   std::vector<double> of_heap;  // part of the laboratory's deviation that is the heap's
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
     const ReadingEvidence& first = evidence_.readings[fitted_[j]];
     const auto row = static_cast<Eigen::Index>(j);
-    out(row, row) = first.variance() + predictions[j].variance;
+    out(row, row) = first.variance();
     of_heap.push_back(std::min(models_[fitted_[j]].noise_at(predictions[j].mean), first.widening * first.deviation) /
                       std::sqrt(first.weight));
     for (std::size_t k = 0; k < j; ++k) {
       const ReadingEvidence& second = evidence_.readings[fitted_[k]];
       const auto column = static_cast<Eigen::Index>(k);
-      double both = correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
+      out(row, column) = out(column, row) =
+          correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
+    }
+  }
+  return out;
+}
+
+Eigen::MatrixXd ResponseModel::doubt(const std::vector<ReadingModel::Prediction>& predictions) const {
+  const auto count = static_cast<Eigen::Index>(fitted_.size());
+  Eigen::MatrixXd out(count, count);
+  for (std::size_t j = 0; j < fitted_.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    out(row, row) = predictions[j].variance;
+    for (std::size_t k = 0; k < j; ++k) {
+      double both = 0;
       for (const Shared& one : shared_[j][k])
         both += predictions[j].weights[one.row_of_first] * predictions[k].weights[one.row_of_second] * one.covariance;
-      out(row, column) = out(column, row) = both;
+      out(row, static_cast<Eigen::Index>(k)) = out(static_cast<Eigen::Index>(k), row) = both;
     }
   }
   return out;
@@ -199,10 +214,14 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
   Eigen::VectorXd differences(std::ssize(known));
   for (std::size_t k = 0; k < known.size(); ++k)
     differences[static_cast<Eigen::Index>(k)] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance(known));
-  const Eigen::VectorXd scaled = cholesky.matrixL().solve(differences);
-  double sum =
-      -0.5 * scaled.squaredNorm() - independent_ * Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+  const Eigen::MatrixXd laboratory = errors_of_laboratory(known);
+  const Eigen::LLT<Eigen::MatrixXd> of_laboratory(laboratory), of_both(laboratory + doubt(known));
+  const auto half_log_determinant = [](const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
+    return Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+  };
+  const double by_laboratory = half_log_determinant(of_laboratory);
+  double sum = -0.5 * of_both.matrixL().solve(differences).squaredNorm() - by_laboratory -
+               independent_ * (half_log_determinant(of_both) - by_laboratory);
   if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
   return sum;
 }

@@ -20,7 +20,7 @@ namespace pastefit {
 /// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
 /// What the laboratory's deviation is more than s is the ruler's, and not correlated. With d the differences, the
 /// logarithm of the likelihood is
-///     -(d' C^-1 d)/2 - (n/N)(log det C)/2,   n = (tr R)^2/tr(R^2),
+///     -(d' C^-1 d + log det L + n/N (log det C - log det L))/2,   n = (tr R)^2/tr(R^2),
 /// R the correlation of the N readings over all simulations: so many of them are independent. Two heights and two
 /// spreads of one heap are nearly one number; a candidate that little is known of would lose by its doubt once for each
 /// of them, and all that was never looked at would seem to be ruled out.
@@ -57,7 +57,8 @@ class ResponseModel {
   void learn_correlation(const std::vector<std::size_t>& sites);
   void count_independent();
   void find_shared();
-  Eigen::MatrixXd covariance(const std::vector<ReadingModel::Prediction>& predictions) const;
+  Eigen::MatrixXd errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const;  // L
+  Eigen::MatrixXd doubt(const std::vector<ReadingModel::Prediction>& predictions) const;                 // M
   std::vector<ReadingModel::Prediction> predictions(const UnitPoint& point) const;
 
   Evidence evidence_;

@@ -165,6 +165,6 @@ TEST_CASE("intervals of 95 % hold the truth as often as they say, height and spr
   CHECK(friction.told >= 95);
   CHECK(strength.held >= least_of(strength.told));
   CHECK(friction.held >= least_of(friction.told));
-  CHECK(strength.width / strength.told < 0.155);
-  CHECK(friction.width / friction.told < 0.33);
+  CHECK(strength.width / strength.told < 0.175);
+  CHECK(friction.width / friction.told < 0.32);
 }

@@ -179,7 +179,7 @@ TEST_CASE("a reading that the model misses by far is not proposed again") {
 }
 
 TEST_CASE("what no simulation has looked at is not ruled out by readings that are one and the same") {
-  const auto wave = [](const UnitPoint& x) { return 100 * x[0] + 20 * std::sin(9 * x[1]); };
+  const auto wave = [](const UnitPoint& x) { return 100 * x[0] + 8 * std::sin(9 * x[1]); };
   const Evidence evidence = evidence_for({{"step1.height_mm", wave, 50},
                                           {"step1.spread_mm", wave, 50},
                                           {"step2.height_mm", wave, 50},
@@ -235,11 +235,11 @@ TEST_CASE("a simulation that ended early says that it read less, not that it rea
 TEST_CASE("readings of one heap that scatter against each other tell more together than apart") {
   // Both rise with the first parameter, with a noise of 5 each: var = 25/(100^2 2) (1 + r).
   const auto uncertainty = [](double correlation) {
-    Evidence evidence = evidence_for({first_alone, {"step1.spread_mm", first_alone.mean, 50}}, 16);
+    Evidence evidence = evidence_for({first_alone, {"step1.spread_mm", first_alone.mean, 50}}, 40);
     const std::vector<UnitPoint> sites = evidence.points;
     evidence.points.clear();
     std::vector<double> heights, spreads;
-    for (std::uint64_t i = 0; i < 160; ++i) {
+    for (std::uint64_t i = 0; i < 800; ++i) {
       const UnitPoint& site = sites[i % sites.size()];
       const double one = normal(i, 7), other = normal(i, 8);
       evidence.points.push_back(site);
