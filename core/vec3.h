@@ -63,6 +63,17 @@ PASTEFIT_INLINE BasicVec3<Real> cross(const BasicVec3<Real>& a, const BasicVec3<
   return {fused(a.y, b.z, -(a.z * b.y)), fused(a.z, b.x, -(a.x * b.z)), fused(a.x, b.y, -(a.y * b.x))};
 }
 
+PASTEFIT_INLINE Vec3 vector_of(const float (&components)[3]) {
+  return {components[0], components[1], components[2]};
+}
+
+/// Rounded to single precision.
+PASTEFIT_INLINE void put(const Vec3& v, float (&components)[3]) {
+  components[0] = static_cast<float>(v.x);
+  components[1] = static_cast<float>(v.y);
+  components[2] = static_cast<float>(v.z);
+}
+
 PASTEFIT_INLINE double norm(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }

@@ -106,20 +106,20 @@ struct PolynomialAttraction : GivenEnds {
     pair.bridge_b = share * bridge.b_n_m;
   }
   template <class Real>
-  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
-    const Real slope = fused(Real(k.bridge_a), d, Real(k.bridge_b) * s);
-    const Real tangent = fused(Real(k.bridge_a), d, slope);
-    return {fused(slope, d, Real(k.bridge_c) * s * s), larger(tangent, -tangent)};
+  PASTEFIT_INLINE static Pull<Real> at(const ConstantsOf<Real>& k, Real d, Real s) {
+    const Real slope = fused(k.bridge_a, d, k.bridge_b * s);
+    const Real tangent = fused(k.bridge_a, d, slope);
+    return {fused(slope, d, k.bridge_c * s * s), larger(tangent, -tangent)};
   }
   template <class Real>
-  PASTEFIT_INLINE static Real work(const PairConstants& k, Real d, Real s) {
-    return antiderivative(k, d, s) - antiderivative(k, Real(-k.rupture_gap) * s, s);
+  PASTEFIT_INLINE static Real work(const ConstantsOf<Real>& k, Real d, Real s) {
+    return antiderivative(k, d, s) - antiderivative(k, -k.rupture_gap * s, s);
   }
 
  private:
   template <class Real>
-  PASTEFIT_INLINE static Real antiderivative(const PairConstants& k, Real d, Real s) {
-    return d * (Real(k.bridge_c) * s * s + d * (Real(0.5 * k.bridge_b) * s + d * Real(k.bridge_a / 3)));
+  PASTEFIT_INLINE static Real antiderivative(const ConstantsOf<Real>& k, Real d, Real s) {
+    return d * (k.bridge_c * s * s + d * (Real(0.5) * k.bridge_b * s + d * Real(1.0 / 3) * k.bridge_a));
   }
 };
 
@@ -150,17 +150,17 @@ struct ExponentialAttraction : GivenEnds {
   }
   static void set(PairConstants& pair, const Bridge&, double, double) { pair.bridge_b = 3 / pair.rupture_gap; }
   template <class Real>
-  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
-    const Real x = larger(Real(k.bridge_b) * d / s, Real(-3.0)) * Real(0.125);
+  PASTEFIT_INLINE static Pull<Real> at(const ConstantsOf<Real>& k, Real d, Real s) {
+    const Real x = larger(k.bridge_b * d / s, Real(-3.0)) * Real(0.125);
     Real sum(1.0);
     for (int n = 11; n > 0; --n) sum = Real(1.0) + x * Real(1.0 / n) * sum;
     const Real second = sum * sum, fourth = second * second;
-    const Real force = Real(k.bridge_c) * s * s * fourth * fourth;
-    return {force, force * Real(k.bridge_b) / s};
+    const Real force = k.bridge_c * s * s * fourth * fourth;
+    return {force, force * k.bridge_b / s};
   }
   template <class Real>
-  PASTEFIT_INLINE static Real work(const PairConstants& k, Real d, Real s) {
-    return (at(k, d, s).force - at(k, Real(-k.rupture_gap) * s, s).force) * s / Real(k.bridge_b);
+  PASTEFIT_INLINE static Real work(const ConstantsOf<Real>& k, Real d, Real s) {
+    return (at(k, d, s).force - at(k, -k.rupture_gap * s, s).force) * s / k.bridge_b;
   }
 };
 
@@ -189,19 +189,19 @@ struct CapillaryAttraction : AcrossGap {
     pair.bridge_b = 1.05 * std::sqrt(radius / bridge.liquid_volume_m3);
   }
   template <class Real>
-  PASTEFIT_INLINE static Pull<Real> at(const PairConstants& k, Real d, Real s) {
+  PASTEFIT_INLINE static Pull<Real> at(const ConstantsOf<Real>& k, Real d, Real s) {
     const Real gap = -d / s;
-    const Real share = Real(1.0) / (Real(1.0) + (Real(k.bridge_b) + Real(k.bridge_a) * gap) * gap);
-    const Real force = Real(k.bridge_c) * s * s * share;
-    return {force, force * share * (Real(k.bridge_b) + Real(2 * k.bridge_a) * gap) / s};
+    const Real share = Real(1.0) / (Real(1.0) + (k.bridge_b + k.bridge_a * gap) * gap);
+    const Real force = k.bridge_c * s * s * share;
+    return {force, force * share * (k.bridge_b + Real(2.0) * k.bridge_a * gap) / s};
   }
   /// The integral of 1/(1 + p x + q x^2) has an arc tangent, which packs do not offer; eight-point Gauss-Legendre is
   /// exact to 1e-9 over the length of a bridge.
   template <class Real>
-  PASTEFIT_INLINE static Real work(const PairConstants& k, Real d, Real s) {
+  PASTEFIT_INLINE static Real work(const ConstantsOf<Real>& k, Real d, Real s) {
     constexpr double nodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
     constexpr double weights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
-    const Real half = Real(0.5) * (d + Real(k.rupture_gap) * s), middle = d - half;
+    const Real half = Real(0.5) * (d + k.rupture_gap * s), middle = d - half;
     Real sum(0.0);
     for (int n = 0; n < 4; ++n)
       sum = sum + Real(weights[n]) *
@@ -214,12 +214,12 @@ struct CapillaryAttraction : AcrossGap {
 /// A bridge that forms will take work to be pulled apart: the ledger counts that work as spent when it forms (`spent`).
 /// Few form in a step, so that the work is computed only where one does.
 template <class Attraction, class Real>
-PASTEFIT_INLINE Pull<Real> bridge_pull(const PairConstants& k, Real overlap, Real scale, Real& alive, Real& spent) {
+PASTEFIT_INLINE Pull<Real> bridge_pull(const ConstantsOf<Real>& k, Real overlap, Real scale, Real& alive, Real& spent) {
   const Real zero(0.0), one(1.0);
   const Real gap = -overlap;
-  const Real formed = select(gap <= Real(k.formation_gap) * scale, one, alive);
+  const Real formed = select(gap <= k.formation_gap * scale, one, alive);
   const Real before = alive;
-  alive = select(gap <= Real(k.rupture_gap) * scale, formed, zero);
+  alive = select(gap <= k.rupture_gap * scale, formed, zero);
   spent = zero;
   if (any(alive > before)) spent = larger(alive - before, zero) * Attraction::work(k, smaller(overlap, zero), scale);
   const Pull<Real> pull = Attraction::at(k, smaller(overlap, zero), scale);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/inline.h"
 #include "core/laws/materials.h"
 
 namespace pastefit {
@@ -9,34 +10,68 @@ inline constexpr double kSurfaceLightness = 3.5;
 
 /// What a contact law needs to know of a pair of surfaces, computed once per pair before a run.
 /// Lengths and forces of the attraction are those of a pair of reference grains; see `Bridge` for other sizes.
-struct PairConstants {
-  double hertz = 0;                  ///< 4/3 E* [Pa]
-  double normal_stiffness = 0;       ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
-  double root_normal_stiffness = 0;  ///< sqrt(2 E*)
-  double tangential_ratio = 0;       ///< S_t / S_n = 4 G*/E*
-  double damping = 0;                ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
-  double tangential_damping = 0;     ///< the same times sqrt(S_t / S_n)
-  double spin_damping_share = 0;     ///< fastest damping of spins over that along the normals: 2.5 sqrt(S_t / S_n)
-  double lost_share = 0;             ///< 1 - e^2: of its energy, in a head-on collision
-  double friction = 0;               ///< Coulomb coefficient
-  double slip_limit = 0;             ///< force of a sliding tangential spring over the repulsion
-  bool friction_of_total = false;    ///< limit mu N with N the total normal force instead of the elastic repulsion
-  double friction_reserve = 1;       ///< share of the law's reserve (`Press::reserve`) that counts as normal force then
-  double rolling_friction = 0;       ///< mu_r
-  double roll_stiffness_share = 0;   ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
-  double roll_damping = 0;           ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  double spin_damping = 0;     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
-  double size_per_radius = 0;  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  double adhesion = 0;         ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
-  double tear_patch = 0;       ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  double tear_gap = 0;         ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  double cohesion = 0;         ///< constant attraction in overlap [N]
-  double bridge_a = 0;         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
-  double bridge_b = 0;       ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
-  double bridge_c = 0;       ///< attraction at touch [N]
-  double rupture_gap = 0;    ///< -d_c [m]
-  double formation_gap = 0;  ///< gap at which a bridge forms [m]
+/// In kernels they are packs, the same number in all lanes.
+template <class Real>
+struct ConstantsOf {
+  Real hertz{0};                   ///< 4/3 E* [Pa]
+  Real normal_stiffness{0};        ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
+  Real root_normal_stiffness{0};   ///< sqrt(2 E*)
+  Real tangential_ratio{0};        ///< S_t / S_n = 4 G*/E*
+  Real damping{0};                 ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
+  Real tangential_damping{0};      ///< the same times sqrt(S_t / S_n)
+  Real spin_damping_share{0};      ///< fastest damping of spins over that along the normals: 2.5 sqrt(S_t / S_n)
+  Real lost_share{0};              ///< 1 - e^2: of its energy, in a head-on collision
+  Real friction{0};                ///< Coulomb coefficient
+  Real slip_limit{0};              ///< force of a sliding tangential spring over the repulsion
+  bool friction_of_total = false;  ///< limit mu N with N the total normal force instead of the elastic repulsion
+  Real friction_reserve{1};        ///< share of the law's reserve (`Press::reserve`) that counts as normal force then
+  Real rolling_friction{0};        ///< mu_r
+  Real roll_stiffness_share{0};    ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
+  Real roll_damping{0};            ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
+  Real spin_damping{0};     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
+  Real size_per_radius{0};  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  Real adhesion{0};         ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
+  Real tear_patch{0};       ///< JKR: contact radius of reference grains at which they are torn apart [m]
+  Real tear_gap{0};         ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
+  Real cohesion{0};         ///< constant attraction in overlap [N]
+  Real bridge_a{0};         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  Real bridge_b{0};         ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
+  Real bridge_c{0};         ///< attraction at touch [N]
+  Real rupture_gap{0};      ///< -d_c [m]
+  Real formation_gap{0};    ///< gap at which a bridge forms [m]
 };
+using PairConstants = ConstantsOf<double>;
+
+/// The same in all lanes.
+template <class Real>
+PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
+  return {Real(k.hertz),
+          Real(k.normal_stiffness),
+          Real(k.root_normal_stiffness),
+          Real(k.tangential_ratio),
+          Real(k.damping),
+          Real(k.tangential_damping),
+          Real(k.spin_damping_share),
+          Real(k.lost_share),
+          Real(k.friction),
+          Real(k.slip_limit),
+          k.friction_of_total,
+          Real(k.friction_reserve),
+          Real(k.rolling_friction),
+          Real(k.roll_stiffness_share),
+          Real(k.roll_damping),
+          Real(k.spin_damping),
+          Real(k.size_per_radius),
+          Real(k.adhesion),
+          Real(k.tear_patch),
+          Real(k.tear_gap),
+          Real(k.cohesion),
+          Real(k.bridge_a),
+          Real(k.bridge_b),
+          Real(k.bridge_c),
+          Real(k.rupture_gap),
+          Real(k.formation_gap)};
+}
 
 /// Grain against grain. `reference_radius_m` is the radius the bridge's numbers belong to.
 /// Source of the elastic constants: Hertz; Mindlin; damping Tsuji et al. in the form of physics conventions

@@ -42,7 +42,7 @@ namespace pastefit {
 /// Square roots and divisions are what this function costs most: two roots and one division, and a root and a division
 /// more for each of sliding and rolling where a contact of the batch yields; what can be divided together is.
 template <class Normal, class Attraction, class Rolling, class Real>
-PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt,
+PASTEFIT_INLINE Action<Real> act(const ConstantsOf<Real>& k, const Meeting<Real>& m, Memory<Real>& memory, Real dt,
                                  Energies energies) {
   const Real zero(0.0), one(1.0), half(0.5), floor(detail::kFloor);
   const bool counted = energies != Energies::none;
@@ -51,16 +51,16 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   const Press<Real> press = Normal::at(k, m.root_radius, m.overlap, memory.root_contact_radius);
   const auto touching = press.touching;
   const Real contact_radius = press.contact_radius;
-  const Real stiffness_n = Real(k.normal_stiffness) * contact_radius;
-  const Real stiffness_t = Real(k.tangential_ratio) * stiffness_n;
+  const Real stiffness_n = k.normal_stiffness * contact_radius;
+  const Real stiffness_t = k.tangential_ratio * stiffness_n;
 
   const Real root_contact_radius = square_root(contact_radius);
-  const Real root_impedance = Real(k.root_normal_stiffness) * m.root_mass * root_contact_radius;  // sqrt(S_n m*)
-  const Real damping_n = Real(k.damping) * root_impedance;
-  const Real damping_t = Real(k.tangential_damping) * root_impedance;
+  const Real root_impedance = k.root_normal_stiffness * m.root_mass * root_contact_radius;  // sqrt(S_n m*)
+  const Real damping_n = k.damping * root_impedance;
+  const Real damping_t = k.tangential_damping * root_impedance;
   const Real own_n = damping_n * m.inverse_mass, own_t = Real(kSurfaceLightness) * damping_t * m.inverse_mass;
   const Real fastest_n = larger(m.neighbour_damping, own_n);
-  const Real fastest_t = larger(Real(k.spin_damping_share) * m.neighbour_damping, own_t);
+  const Real fastest_t = larger(k.spin_damping_share * m.neighbour_damping, own_t);
   const Real brake_n = fused(Real(0.25) * dt, own_n, one) * larger(half * dt * fastest_n, one);
   const Real brake_t = fused(Real(0.25) * dt, own_t, one) * larger(half * dt * fastest_t, one);
 
@@ -79,8 +79,8 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
 
   Action<Real> action;
   const Real radius = m.root_radius * m.root_radius;
-  const Real size_scale = Real(k.size_per_radius) * radius;
-  Real cohesion = Real(k.cohesion) * size_scale * size_scale;
+  const Real size_scale = k.size_per_radius * radius;
+  Real cohesion = k.cohesion * size_scale * size_scale;
   if constexpr (Normal::reaches) cohesion = select(m.overlap > zero, cohesion, zero);  // beyond touch the bridge pulls
   action.push = select(touching, press.force + damper - cohesion, zero);
   action.stiffness = larger(stiffness_n, Real(kSurfaceLightness) * stiffness_t);
@@ -109,27 +109,27 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   }
 
   const Real pressed =
-      k.friction_of_total ? larger(fused(Real(k.friction_reserve), press.reserve, action.push), zero) : press.load;
+      k.friction_of_total ? larger(fused(k.friction_reserve, press.reserve, action.push), zero) : press.load;
 
   const BasicVec3<Real> velocity_t = fused(-approach, m.normal, m.velocity);
   const Real slip_factor = detail::restored(slip_turned);
   const BasicVec3<Real> stretched = fused(slip_factor, slip_turned.vector, dt * velocity_t);
   const Real stretch_square = larger(dot(stretched, stretched), floor);
-  const Real held = detail::cap(stretch_square * stiffness_t * stiffness_t, Real(k.slip_limit) * press.load);
+  const Real held = detail::cap(stretch_square * stiffness_t * stiffness_t, k.slip_limit * press.load);
   const BasicVec3<Real> slip = held * stretched;
   const Real trial_energy = half * stiffness_t * held * held * stretch_square;
   const Real trial_push = Normal::widening(k, radius, trial_energy, inverse_contact_radius);
   const BasicVec3<Real> traction = fused(stiffness_t, slip, damper_t * velocity_t);
   const Real traction_square = larger(dot(traction, traction), floor);
 
-  const Real kept = detail::cap(traction_square, Real(k.friction), pressed, trial_push);
+  const Real kept = detail::cap(traction_square, k.friction, pressed, trial_push);
   action.traction = -kept * traction;
   memory.slip = select(touching, kept, zero) * slip;
   const Real slip_energy = kept * kept * trial_energy, slip_push = kept * kept * trial_push;
   action.push = action.push + slip_push;
-  const Real old_stiffness_n = Real(k.normal_stiffness) * old_contact_radius;
+  const Real old_stiffness_n = k.normal_stiffness * old_contact_radius;
   if (counted) {
-    const Real old_stiffness_t = Real(k.tangential_ratio) * old_stiffness_n;
+    const Real old_stiffness_t = k.tangential_ratio * old_stiffness_n;
     const Real old_slip_energy = half * old_stiffness_t * (slip_turned.square + slip_turned.lost);
     const Real old_slip_push =
         Normal::widening(k, radius, old_slip_energy, one / larger(old_contact_radius, Real(detail::kNoWidth)));
@@ -161,7 +161,7 @@ PASTEFIT_INLINE Action<Real> act(const PairConstants& k, const Meeting<Real>& m,
   rolling.root_impedance = root_impedance;
   rolling.brake = brake_t;
   rolling.inverse_brakes = inverse_brakes;
-  rolling.limit = Real(k.rolling_friction) * (pressed + slip_push) * radius;
+  rolling.limit = k.rolling_friction * (pressed + slip_push) * radius;
   Rolling::act(k, rolling, dt, counted, memory.roll, action);
   memory.root_contact_radius = root_contact_radius;
   return action;

@@ -28,10 +28,12 @@ PASTEFIT_INLINE Turned<Real> turned(const BasicVec3<Real>& a, const BasicVec3<Re
   return {fused(twist_angle, cross(n, b), b), along * along, larger(dot(b, b), Real(kFloor))};
 }
 
-/// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step.
+/// sqrt(1 + x) to second order: enough for the few hundredths of a degree a contact turns in a step. Bounded, because
+/// the slip of a head-on collision is rounding only, which may lie along the normal as a whole: what is left of it is
+/// nothing to be given a length back.
 template <class Real>
 PASTEFIT_INLINE Real restored(const Turned<Real>& t) {
-  return Real(1.0) + Real(0.5) * t.lost / t.square;
+  return Real(1.0) + Real(0.5) * smaller(t.lost / t.square, Real(1.0));
 }
 
 /// The factor that brings a vector down to `limit`; 1 if it is not longer. Where all contacts of a batch hold, as in a

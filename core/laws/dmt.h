@@ -32,15 +32,15 @@ struct Dmt {
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real touched) {
+  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
     Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
-    const Real pull = select(press.touching, Real(k.adhesion) * root_radius * root_radius, Real(0.0));
+    const Real pull = select(press.touching, k.adhesion * root_radius * root_radius, Real(0.0));
     press.force = press.load - pull;
     press.reserve = Real(2.0) * pull;
     return press;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
     const Real pull = press.load - press.force;
     return (Real(0.4) * press.load - pull) * larger(overlap, Real(0.0));
   }
@@ -49,7 +49,8 @@ struct Dmt {
     return k.adhesion * contact_radius * contact_radius;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real widening(const PairConstants& k, Real radius, Real energy, Real inverse_contact_radius) {
+  PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>& k, Real radius, Real energy,
+                                       Real inverse_contact_radius) {
     return Hertz::widening(k, radius, energy, inverse_contact_radius);
   }
   static double overlap_under(const PairConstants& k, double radius, double load) {

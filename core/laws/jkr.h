@@ -42,7 +42,7 @@ struct Jkr {
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real touched) {
+  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
     const Real zero(0.0), one(1.0), radius = root_radius * root_radius, patch = tear_patch(k, radius);
     const Real left = fused(overlap, radius / (patch * patch), Real(3.0));  // to the end of the contact
     const auto touching = select(touched > zero, left, overlap) > zero;
@@ -52,15 +52,15 @@ struct Jkr {
       const Real square = fused(y, y + Real(2.0), Real(3.0));
       y = y - fused(y - one, square, -(w * square_root(square))) / (Real(2.0) * fused(y, y + one, one));
     }
-    const Real unit = Real(k.adhesion) * radius, cube = y * y * y;
+    const Real unit = k.adhesion * radius, cube = y * y * y;
     const Real load = Real(1.0 / 3) * unit * cube * cube;
     return {touching, select(touching, patch * y * y, zero), select(touching, load - Real(2.0) * unit * cube, zero),
             select(touching, load, zero), select(touching, Real(6.0) * unit, zero)};
   }
   /// f (a_t^2/R*) (2/15 y^10 - 4/3 y^7 + 2 y^4 - 4/5).
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const PairConstants& k, Real radius, const Press<Real>& press, Real) {
-    const Real unit = Real(k.adhesion) * radius, patch = tear_patch(k, radius), a = press.contact_radius;
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>& k, Real radius, const Press<Real>& press, Real) {
+    const Real unit = k.adhesion * radius, patch = tear_patch(k, radius), a = press.contact_radius;
     const Real mean = Real(0.4) * press.load - Real(2.0 / 3) * (press.load - press.force) + Real(2.0) * unit;
     return select(press.touching, (mean * a * a - Real(0.8) * unit * patch * patch) / radius, Real(0.0));
   }
@@ -70,13 +70,14 @@ struct Jkr {
   }
   /// `energy` at d = 0 but for its sign, where y^3 = 4.
   template <class Real>
-  PASTEFIT_INLINE static Real spent(const PairConstants& k, Real radius) {
+  PASTEFIT_INLINE static Real spent(const ConstantsOf<Real>& k, Real radius) {
     const Real patch = tear_patch(k, radius);
-    return Real(8.4195250494473572 * k.adhesion) * patch * patch;
+    return Real(8.4195250494473572) * k.adhesion * patch * patch;
   }
   /// That of Hertz over 1 - y^-3; bounded, because a contact that is torn apart shrinks without bound at its end.
   template <class Real>
-  PASTEFIT_INLINE static Real widening(const PairConstants& k, Real radius, Real energy, Real inverse_contact_radius) {
+  PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>& k, Real radius, Real energy,
+                                       Real inverse_contact_radius) {
     const Real shrunk = tear_patch(k, radius) * inverse_contact_radius;
     const Real stable = larger(Real(1.0) - shrunk * square_root(shrunk), Real(0.1));
     return Hertz::widening(k, radius, energy, inverse_contact_radius) / stable;
@@ -97,14 +98,14 @@ struct Jkr {
   /// a_t of a pair. The cube root: s^(5/16) is right to 10 % for sizes that differ by a hundred, and Halley's steps
   /// treble the number of right digits.
   template <class Real>
-  PASTEFIT_INLINE static Real tear_patch(const PairConstants& k, Real radius) {
-    const Real s = Real(k.size_per_radius) * radius, fourth = square_root(square_root(s));
+  PASTEFIT_INLINE static Real tear_patch(const ConstantsOf<Real>& k, Real radius) {
+    const Real s = k.size_per_radius * radius, fourth = square_root(square_root(s));
     Real root = fourth * square_root(square_root(fourth));
     for (int step = 0; step < 3; ++step) {
       const Real cube = root * root * root;
       root = root * (cube + Real(2.0) * s) / (Real(2.0) * cube + s);
     }
-    return Real(k.tear_patch) * root * root;
+    return k.tear_patch * root * root;
   }
 };
 

@@ -54,18 +54,19 @@ struct Hertz {
   static void set(PairConstants&, const ContactModel&, double) {}
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real) {
+  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real) {
     const Real depth = larger(overlap, Real(0.0));
     const Real contact_radius = root_radius * square_root(depth);
-    const Real repulsion = Real(k.hertz) * contact_radius * depth;
+    const Real repulsion = k.hertz * contact_radius * depth;
     return {overlap > Real(0.0), contact_radius, repulsion, repulsion, Real(0.0)};
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
     return Real(0.4) * press.force * overlap;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real widening(const PairConstants&, Real radius, Real energy, Real inverse_contact_radius) {
+  PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>&, Real radius, Real energy,
+                                       Real inverse_contact_radius) {
     return Real(0.5) * energy * radius * inverse_contact_radius * inverse_contact_radius;
   }
   static double overlap_under(const PairConstants& k, double radius, double load) {

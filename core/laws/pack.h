@@ -21,8 +21,10 @@ struct LaneTypes;
   };
 PASTEFIT_LANES(double, long long, 2)
 PASTEFIT_LANES(double, long long, 4)
+PASTEFIT_LANES(double, long long, 8)
 PASTEFIT_LANES(float, int, 4)
 PASTEFIT_LANES(float, int, 8)
+PASTEFIT_LANES(float, int, 16)
 #undef PASTEFIT_LANES
 
 /// W numbers that are computed on together. Only operations that IEEE 754 rounds correctly are offered (+ - * / sqrt,
@@ -64,6 +66,9 @@ PASTEFIT_INLINE Pack<Number, W> select(typename Pack<Number, W>::Mask mask, Pack
 
 template <class Number, int W>
 PASTEFIT_INLINE Pack<Number, W> square_root(Pack<Number, W> a) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(a) == 64 && sizeof(Number) == 4) return Pack<Number, W>(_mm512_sqrt_ps(a.v));
+#endif
 #ifdef __AVX__
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 8) return Pack<Number, W>(_mm256_sqrt_pd(a.v));
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 4) return Pack<Number, W>(_mm256_sqrt_ps(a.v));
@@ -74,6 +79,10 @@ PASTEFIT_INLINE Pack<Number, W> square_root(Pack<Number, W> a) {
 
 template <class Number, int W>
 PASTEFIT_INLINE Pack<Number, W> fused(Pack<Number, W> a, Pack<Number, W> b, Pack<Number, W> c) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(a) == 64 && sizeof(Number) == 8) return Pack<Number, W>(_mm512_fmadd_pd(a.v, b.v, c.v));
+  if constexpr (sizeof(a) == 64 && sizeof(Number) == 4) return Pack<Number, W>(_mm512_fmadd_ps(a.v, b.v, c.v));
+#endif
 #ifdef __FMA__
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 8) return Pack<Number, W>(_mm256_fmadd_pd(a.v, b.v, c.v));
   if constexpr (sizeof(a) == 32 && sizeof(Number) == 4) return Pack<Number, W>(_mm256_fmadd_ps(a.v, b.v, c.v));
@@ -94,6 +103,12 @@ PASTEFIT_INLINE Pack<Number, W> smaller(Pack<Number, W> a, Pack<Number, W> b) {
 /// True in some lane.
 template <class Mask>
 PASTEFIT_INLINE bool any(Mask mask) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(Mask) == 64) {
+    const __m512i lanes = reinterpret_cast<__m512i>(mask);
+    return _mm512_test_epi32_mask(lanes, lanes) != 0;
+  }
+#endif
 #ifdef __AVX__
   if constexpr (sizeof(Mask) == 32) return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
 #endif

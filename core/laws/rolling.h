@@ -55,7 +55,7 @@ struct NoRolling {
   template <class Value>
   static void make(ContactModel&, double, const Value&) {}
   template <class Real>
-  PASTEFIT_INLINE static void act(const PairConstants&, const RollingContact<Real>&, Real, bool, BasicVec3<Real>&,
+  PASTEFIT_INLINE static void act(const ConstantsOf<Real>&, const RollingContact<Real>&, Real, bool, BasicVec3<Real>&,
                                   Action<Real>&) {}
 };
 
@@ -72,10 +72,10 @@ struct SpringDashpotRolling : RollingFriction {
   static constexpr bool remembers = true, turns = true;
 
   template <class Real>
-  PASTEFIT_INLINE static void act(const PairConstants& k, const RollingContact<Real>& c, Real dt, bool counted,
+  PASTEFIT_INLINE static void act(const ConstantsOf<Real>& k, const RollingContact<Real>& c, Real dt, bool counted,
                                   BasicVec3<Real>& memory, Action<Real>& action) {
     const Real zero(0.0), one(1.0), half(0.5);
-    const Real lever = Real(k.rolling_friction) * c.radius;
+    const Real lever = k.rolling_friction * c.radius;
     const Real stiffness = Real(2.25) * c.stiffness_n * lever * lever;
     const BasicVec3<Real> roll = fused(c.softened * c.restored, c.turned.vector, dt * c.spin);
     const Real roll_square = dot(roll, roll);
@@ -83,12 +83,12 @@ struct SpringDashpotRolling : RollingFriction {
     const Real kept = detail::cap(moment_square, c.limit);
     const Real kept_stiffness = kept * stiffness;
     memory = select(c.touching, kept, zero) * roll;
-    const Real dashpot = Real(k.roll_damping) * c.root_impedance * c.radius * c.radius * c.brake * c.inverse_brakes;
+    const Real dashpot = k.roll_damping * c.root_impedance * c.radius * c.radius * c.brake * c.inverse_brakes;
     const Real braking = select(kept < one, zero, dashpot);
     action.moment = -fused(kept_stiffness, roll, braking * c.spin);
-    action.damping = fused(Real(k.spin_damping), c.root_impedance, action.damping);
-    action.stiffness = larger(
-        action.stiffness, fused(Real(kSurfaceLightness), c.stiffness_t, Real(k.roll_stiffness_share) * c.stiffness_n));
+    action.damping = fused(k.spin_damping, c.root_impedance, action.damping);
+    action.stiffness =
+        larger(action.stiffness, fused(Real(kSurfaceLightness), c.stiffness_t, k.roll_stiffness_share * c.stiffness_n));
     if (!counted) return;
     const Real old_stiffness = Real(2.25) * c.old_stiffness_n * lever * lever;
     const Real old_energy = half * old_stiffness * (c.turned.square + c.turned.lost);
@@ -108,7 +108,7 @@ struct ConstantTorqueRolling : RollingFriction {
   static constexpr bool remembers = true, turns = false;
 
   template <class Real>
-  PASTEFIT_INLINE static void act(const PairConstants&, const RollingContact<Real>& c, Real dt, bool counted,
+  PASTEFIT_INLINE static void act(const ConstantsOf<Real>&, const RollingContact<Real>& c, Real dt, bool counted,
                                   BasicVec3<Real>& memory, Action<Real>& action) {
     const Real floor(detail::kFloor);
     const Real spin_square = larger(dot(c.spin, c.spin), floor);

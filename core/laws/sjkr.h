@@ -35,13 +35,13 @@ struct Sjkr {
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const PairConstants& k, Real root_radius, Real overlap, Real touched) {
+  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
     Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
-    press.force = press.load - Real(k.adhesion) * press.contact_radius * press.contact_radius;  // a^2 = R* d
+    press.force = press.load - k.adhesion * press.contact_radius * press.contact_radius;  // a^2 = R* d
     return press;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const PairConstants&, Real, const Press<Real>& press, Real overlap) {
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
     const Real pull = press.load - press.force;
     return (Real(0.4) * press.load - Real(0.5) * pull) * larger(overlap, Real(0.0));
   }
@@ -50,7 +50,8 @@ struct Sjkr {
     return 0.5 * k.adhesion * square * square / radius;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real widening(const PairConstants& k, Real radius, Real energy, Real inverse_contact_radius) {
+  PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>& k, Real radius, Real energy,
+                                       Real inverse_contact_radius) {
     return Hertz::widening(k, radius, energy, inverse_contact_radius);
   }
   /// In x = sqrt(d) the force is h x^3 - c x^2, by Newton's steps from above, which never pass the root.

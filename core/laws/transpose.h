@@ -4,7 +4,8 @@
 
 namespace pastefit {
 
-/// Between the rows in which a grain lies in memory, four doubles each, and packs with a lane for each contact.
+/// Between the rows in which a grain lies in memory, four or eight numbers each, and packs with a lane for each
+/// contact.
 
 /// Transposes W packs of W lanes in place: what was lane b of pack a becomes lane a of pack b.
 PASTEFIT_INLINE void transpose(Doubles<2> (&p)[2]) {
@@ -23,16 +24,6 @@ PASTEFIT_INLINE void transpose(Doubles<4> (&p)[4]) {
   p[3].v = _mm256_permute2f128_pd(high01, high23, 0x31);
 }
 #endif
-
-/// Adds four numbers to four doubles.
-PASTEFIT_INLINE void add_to_row(double* row, __m128 quad) {
-#ifdef __AVX__
-  _mm256_store_pd(row, _mm256_add_pd(_mm256_load_pd(row), _mm256_cvtps_pd(quad)));
-#else
-  _mm_store_pd(row, _mm_add_pd(_mm_load_pd(row), _mm_cvtps_pd(quad)));
-  _mm_store_pd(row + 2, _mm_add_pd(_mm_load_pd(row + 2), _mm_cvtps_pd(_mm_movehl_ps(quad, quad))));
-#endif
-}
 
 /// Quads of W rows to packs of their columns, and back.
 PASTEFIT_INLINE void transpose(Singles<4> (&p)[4]) {
@@ -57,6 +48,19 @@ PASTEFIT_INLINE void transpose(Singles<8> (&p)[4]) {
 }
 #endif
 
+#ifdef __AVX512F__
+PASTEFIT_INLINE void transpose(Singles<16> (&p)[4]) {
+  const __m512d low01 = _mm512_castps_pd(_mm512_unpacklo_ps(p[0].v, p[1].v));
+  const __m512d high01 = _mm512_castps_pd(_mm512_unpackhi_ps(p[0].v, p[1].v));
+  const __m512d low23 = _mm512_castps_pd(_mm512_unpacklo_ps(p[2].v, p[3].v));
+  const __m512d high23 = _mm512_castps_pd(_mm512_unpackhi_ps(p[2].v, p[3].v));
+  p[0].v = _mm512_castpd_ps(_mm512_unpacklo_pd(low01, low23));
+  p[1].v = _mm512_castpd_ps(_mm512_unpackhi_pd(low01, low23));
+  p[2].v = _mm512_castpd_ps(_mm512_unpacklo_pd(high01, high23));
+  p[3].v = _mm512_castpd_ps(_mm512_unpackhi_pd(high01, high23));
+}
+#endif
+
 /// The columns of W quads.
 template <int W, class Row>
 PASTEFIT_INLINE void read_quads(Row row, Singles<W> (&columns)[4]) {
@@ -65,40 +69,92 @@ PASTEFIT_INLINE void read_quads(Row row, Singles<W> (&columns)[4]) {
 #ifdef __AVX__
     if constexpr (W == 8) columns[k].v = _mm256_set_m128(_mm_load_ps(row(k + 4)), _mm_load_ps(row(k)));
 #endif
+#ifdef __AVX512F__
+    if constexpr (W == 16) {
+      __m512 quads = _mm512_castps128_ps512(_mm_load_ps(row(k)));
+      quads = _mm512_insertf32x4(quads, _mm_load_ps(row(k + 4)), 1);
+      quads = _mm512_insertf32x4(quads, _mm_load_ps(row(k + 8)), 2);
+      columns[k].v = _mm512_insertf32x4(quads, _mm_load_ps(row(k + 12)), 3);
+    }
+#endif
   }
   transpose(columns);
 }
 
-/// Adds lane l of the four columns to the four doubles at `row(l)`, in the order of the lanes.
-template <int W, class Row>
-PASTEFIT_INLINE void add_quads(Row row, Singles<W> (&columns)[4]) {
-  transpose(columns);
-  for (int lane = 0; lane < 4; ++lane) {
-    if constexpr (W == 4) add_to_row(row(lane), columns[lane].v);
+/// Four columns and four more, on their way back into W rows of eight.
+template <int W>
+struct Columns {
+  Singles<W> first[4], second[4];
+
+  PASTEFIT_INLINE void turn() {
+    transpose(first);
+    transpose(second);
+  }
+  /// Adds, once turned, lane l of the columns to the eight numbers at `row(l)`: lanes `begin` to `begin` + min(W, 8),
+  /// in their order.
+  template <int begin, class Row>
+  PASTEFIT_INLINE void add_to(Row row) const {
+    const auto add = [&](int lane, auto numbers, int from) {
+      float* const sums = row(begin + lane) + from;
+      (decltype(numbers)::load(sums) + numbers).store(sums);
+    };
+    if constexpr (W == 4)
+      for (int k = 0; k < 4; ++k) {
+        add(k, first[k], 0);
+        add(k, second[k], 4);
+      }
 #ifdef __AVX__
-    if constexpr (W == 8) add_to_row(row(lane), _mm256_castps256_ps128(columns[lane].v));
+    if constexpr (W == 8) {
+      for (int k = 0; k < 4; ++k) add(k, Singles<8>(_mm256_permute2f128_ps(first[k].v, second[k].v, 0x20)), 0);
+      for (int k = 0; k < 4; ++k) add(k + 4, Singles<8>(_mm256_permute2f128_ps(first[k].v, second[k].v, 0x31)), 0);
+    }
+#endif
+#ifdef __AVX512F__
+    if constexpr (W == 16) {
+      const __m512i quads =
+          begin == 0 ? _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0) : _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
+      __m512 rows[4];  // k and k + 4
+      for (int k = 0; k < 4; ++k)
+        rows[k] = _mm512_castpd_ps(
+            _mm512_permutex2var_pd(_mm512_castps_pd(first[k].v), quads, _mm512_castps_pd(second[k].v)));
+      for (int k = 0; k < 4; ++k) add(k, Singles<8>(_mm512_castps512_ps256(rows[k])), 0);
+      for (int k = 0; k < 4; ++k) add(k + 4, Singles<8>(_mm512_extractf32x8_ps(rows[k], 1)), 0);
+    }
 #endif
   }
-#ifdef __AVX__
-  if constexpr (W == 8)
-    for (int lane = 0; lane < 4; ++lane) add_to_row(row(lane + 4), _mm256_extractf128_ps(columns[lane].v, 1));
-#endif
-}
+};
 
 /// Vectors from the first of two rows to the second, and the sums of what is beside them, in columns.
 template <int W, class Row>
 PASTEFIT_INLINE void read_differences(Row from, Row to, Doubles<W> (&columns)[4]) {
-  using Mask = typename Doubles<W>::Mask;
-  for (int block = 0; block < 4; block += W) {
-    Mask sign{};
-    for (int k = 0; k < W; ++k) sign[k] = block + k < 3 ? 1LL << 63 : 0;
-    Doubles<W> part[W];
-    for (int lane = 0; lane < W; ++lane) {
-      const Mask turned = reinterpret_cast<Mask>(Doubles<W>::load(from(lane) + block).v) ^ sign;
-      part[lane].v = reinterpret_cast<typename Doubles<W>::Lanes>(turned) + Doubles<W>::load(to(lane) + block).v;
+#ifdef __AVX512F__
+  if constexpr (W == 8) {
+    const Doubles<8> sign(_mm512_set_pd(1, -1, -1, -1, 1, -1, -1, -1));
+    const auto two = [](const double* row, const double* other) {
+      return Doubles<8>(_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(row)), _mm256_load_pd(other), 1));
+    };
+    const auto differences = [&](int lane) {
+      return fused(sign, two(from(lane), from(lane + 2)), two(to(lane), to(lane + 2))).v;
+    };
+    const __m512d part[4] = {differences(0), differences(1), differences(4), differences(5)};
+    const __m512d low[2] = {_mm512_unpacklo_pd(part[0], part[1]), _mm512_unpacklo_pd(part[2], part[3])};
+    const __m512d high[2] = {_mm512_unpackhi_pd(part[0], part[1]), _mm512_unpackhi_pd(part[2], part[3])};
+    columns[0].v = _mm512_shuffle_f64x2(low[0], low[1], 0x88);
+    columns[1].v = _mm512_shuffle_f64x2(high[0], high[1], 0x88);
+    columns[2].v = _mm512_shuffle_f64x2(low[0], low[1], 0xDD);
+    columns[3].v = _mm512_shuffle_f64x2(high[0], high[1], 0xDD);
+    return;
+  }
+#endif
+  if constexpr (W <= 4) {
+    for (int block = 0; block < 4; block += W) {
+      Doubles<W> sign, part[W];
+      for (int k = 0; k < W; ++k) sign.v[k] = block + k < 3 ? -1 : 1;
+      for (int lane = 0; lane < W; ++lane)
+        part[lane] = fused(sign, Doubles<W>::load(from(lane) + block), Doubles<W>::load(to(lane) + block));
+      transpose(part);
+      for (int k = 0; k < W; ++k) columns[block + k] = part[k];
     }
-    transpose(part);
-    for (int k = 0; k < W; ++k) columns[block + k] = part[k];
   }
 }
 
@@ -111,6 +167,12 @@ PASTEFIT_INLINE Singles<8> narrow(Doubles<4> first, Doubles<4> second) {
   return Singles<8>(_mm256_set_m128(_mm256_cvtpd_ps(second.v), _mm256_cvtpd_ps(first.v)));
 }
 #endif
+#ifdef __AVX512F__
+PASTEFIT_INLINE Singles<16> narrow(Doubles<8> first, Doubles<8> second) {
+  const __m512 lower = _mm512_castps256_ps512(_mm512_cvtpd_ps(first.v));
+  return Singles<16>(_mm512_insertf32x8(lower, _mm512_cvtpd_ps(second.v), 1));
+}
+#endif
 
 /// The first or second half of a pack in doubles.
 template <int half>
@@ -121,6 +183,12 @@ PASTEFIT_INLINE Doubles<2> widened(Singles<4> a) {
 template <int half>
 PASTEFIT_INLINE Doubles<4> widened(Singles<8> a) {
   return Doubles<4>(_mm256_cvtps_pd(_mm256_extractf128_ps(a.v, half)));
+}
+#endif
+#ifdef __AVX512F__
+template <int half>
+PASTEFIT_INLINE Doubles<8> widened(Singles<16> a) {
+  return Doubles<8>(_mm512_cvtps_pd(_mm512_extractf32x8_ps(a.v, half)));
 }
 #endif
 

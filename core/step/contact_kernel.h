@@ -24,15 +24,15 @@ class Lanes {
     for (int lane = 0; lane < kWidth; ++lane) offset_[lane] = std::int64_t{grain[lane]} * kRow;
   }
   PASTEFIT_INLINE const Motion& motion(const KernelTask& task, int lane) const {
-    return *reinterpret_cast<const Motion*>(reinterpret_cast<const char*>(task.motion) + offset_[lane]);
+    return *reinterpret_cast<const Motion*>(reinterpret_cast<const char*>(task.motion) + 2 * offset_[lane]);
   }
   PASTEFIT_INLINE Load& load(const KernelTask& task, int lane) const {
     return *reinterpret_cast<Load*>(reinterpret_cast<char*>(task.load) + offset_[lane]);
   }
 
  private:
-  static constexpr std::int64_t kRow = sizeof(Motion);
-  static_assert(sizeof(Load) == kRow);
+  static constexpr std::int64_t kRow = sizeof(Load);
+  static_assert(sizeof(Motion) == 2 * kRow);
   std::int64_t offset_[kWidth];
 };
 
@@ -40,7 +40,7 @@ class Lanes {
 /// d = r - s, small beside both, is (r^2 - s^2)/(r + s) of the exact squares.
 struct Pairing {
   Vector between;  ///< from centre to centre
-  Real distance, overlap;
+  Real distance, inverse_distance, overlap;
   Real reach;  ///< sum of the radii
 };
 
@@ -63,8 +63,10 @@ PASTEFIT_INLINE Pairing pairing(const KernelTask& task, const Lanes& i, const La
   p.between = {narrow(between[0].x, between[1].x), narrow(between[0].y, between[1].y),
                narrow(between[0].z, between[1].z)};
   p.reach = narrow(reach[0], reach[1]);
-  p.distance = square_root(larger(narrow(square[0], square[1]), Real(1e-30)));
-  p.overlap = narrow(beyond[0], beyond[1]) / (p.reach + p.distance);
+  p.distance = square_root(larger(narrow(square[0], square[1]), Real(detail::kFloor)));
+  const Real both = p.reach + p.distance, inverse = Real(1.0) / (p.distance * both);
+  p.inverse_distance = inverse * both;
+  p.overlap = narrow(beyond[0], beyond[1]) * (inverse * p.distance);
   return p;
 }
 
@@ -95,24 +97,31 @@ PASTEFIT_INLINE void store(float (&rows)[3][kBatch], int lane, const Vector& v) 
   v.z.store(rows[2] + lane);
 }
 
-/// Adds to the loads of the pairs, one pair after the other: two lanes may name the same grain, and the order of the
-/// sums is part of the contract of determinism.
-PASTEFIT_INLINE void add_loads(const KernelTask& task, const Lanes& grains, const Vector& force, Real damping) {
-  Real columns[4] = {force.x, force.y, force.z, damping};
-  add_quads([&](int lane) { return &grains.load(task, lane).force.x; }, columns);
-}
-PASTEFIT_INLINE void add_torques(const KernelTask& task, const Lanes& grains, const Vector& torque, Real stiffness) {
-  Real columns[4] = {torque.x, torque.y, torque.z, stiffness};
-  add_quads([&](int lane) { return &grains.load(task, lane).torque.x; }, columns);
+/// Adds to the loads of the pairs, one pair after the other, in eight of the first grains and then in those they meet:
+/// two lanes may name the same grain, and the order of the sums is part of the contract of determinism.
+PASTEFIT_INLINE void add_loads(const KernelTask& task, const Lanes& i, const Lanes& j, const Vector& force,
+                               Real damping, const Vector& torque_i, const Vector& torque_j, Real stiffness) {
+  Columns<kWidth> on_i{{force.x, force.y, force.z, damping}, {torque_i.x, torque_i.y, torque_i.z, stiffness}};
+  Columns<kWidth> on_j{{-force.x, -force.y, -force.z, damping}, {torque_j.x, torque_j.y, torque_j.z, stiffness}};
+  on_i.turn();
+  on_j.turn();
+  const auto row_of = [&](const Lanes& grains) { return [&](int lane) { return grains.load(task, lane).force; }; };
+  on_i.add_to<0>(row_of(i));
+  on_j.add_to<0>(row_of(j));
+  if constexpr (kWidth > 8) {
+    on_i.add_to<8>(row_of(i));
+    on_j.add_to<8>(row_of(j));
+  }
 }
 
 /// The energies of a kernel's contacts, in the lanes of `EnergySums`, kept in registers until all are counted.
 class Tally {
  public:
   PASTEFIT_INLINE void count(EnergySums::Kind kind, int lane, Real value) {
-    Doubles<kHalf>* const lanes = sum_[kind] + lane / kHalf;
+    Doubles<kHalf>* const lanes = sum_[kind] + lane % EnergySums::kLanes / kHalf;
+    Doubles<kHalf>& second = kWidth <= EnergySums::kLanes ? lanes[1] : lanes[0];
     lanes[0] = lanes[0] + widened<0>(value);
-    lanes[1] = lanes[1] + widened<1>(value);
+    second = second + widened<1>(value);
   }
   PASTEFIT_INLINE void count(Energies energies, int lane, const Action<Real>& action) {
     if (energies == Energies::none) return;
@@ -124,14 +133,14 @@ class Tally {
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
-      for (int part = 0; part < 8 / kHalf; ++part) {
+      for (int part = 0; part < EnergySums::kLanes / kHalf; ++part) {
         double* lanes = energy.lane[kind] + part * kHalf;
         (Doubles<kHalf>::load(lanes) + sum_[kind][part]).store(lanes);
       }
   }
 
  private:
-  Doubles<kHalf> sum_[EnergySums::kinds][8 / kHalf];
+  Doubles<kHalf> sum_[EnergySums::kinds][EnergySums::kLanes / kHalf];
 };
 
 /// What a batch remembers, in and out; roll only where the rolling law has memory.
@@ -158,14 +167,14 @@ PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const Memory<Real>& mem
 }
 
 template <class Normal, class Attraction, class Rolling>
-PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& pair, Real dt, const Lanes& i,
+PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
                                   const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
   const Quad velocity_a = velocities(task, i), velocity_b = velocities(task, j);
   const Quad spin_a = spins(task, i), spin_b = spins(task, j);
   const Real radius_a = spin_a.beside, radius_b = spin_b.beside;
 
   Meeting<Real> meeting;
-  meeting.normal = (Real(1.0) / p.distance) * p.between;
+  meeting.normal = p.inverse_distance * p.between;
   meeting.overlap = p.overlap;
   const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
   const Real lever_a = radius_a - half_depth, lever_b = radius_b - half_depth;
@@ -188,15 +197,12 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const PairConstants& p
   const Vector turning = cross(meeting.normal, action.traction);
   const Vector torque_a = fused(lever_a, turning, action.moment);
   const Vector torque_b = fused(lever_b, turning, -action.moment);
-  add_loads(task, i, force, action.damping);
-  add_loads(task, j, -force, action.damping);
-  add_torques(task, i, torque_a, action.stiffness);
-  add_torques(task, j, torque_b, action.stiffness);
+  add_loads(task, i, j, force, action.damping, torque_a, torque_b, action.stiffness);
 }
 
 /// Pairs that do not touch: attraction along the line of centres.
 template <class Attraction, class Batch>
-PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& pair, Real scale, const Lanes& i,
+PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real scale, const Lanes& i,
                                    const Lanes& j, const Pairing& p, Batch& c, int lane, Tally& tally) {
   const Real zero(0.0);
   const Real overlap = p.overlap;
@@ -207,11 +213,10 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const PairConstants& 
   tally.count(EnergySums::bridges, lane, spent);
   if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
-  const Vector force = (pull.force / p.distance) * p.between, none{zero, zero, zero};
-  add_loads(task, i, force, zero);
-  add_loads(task, j, -force, zero);
-  add_torques(task, i, none, pull.slope);
-  add_torques(task, j, none, pull.slope);
+  // Written like the normal of a contact times the pull: the bits do not depend on which of the two a pair is taken
+  // for.
+  const Vector force = pull.force * (p.inverse_distance * p.between), none{zero, zero, zero};
+  add_loads(task, i, j, force, zero, none, none, pull.slope);
 }
 
 /// Whether a pair touches, or did so at the last step and has yet to forget it. Where none does, a contact exerts
@@ -239,7 +244,7 @@ PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& ba
 
 template <class Normal, class Attraction, class Rolling>
 void pair_kernel(const KernelTask& task) {
-  const PairConstants pair = task.pair;
+  const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
   const Real dt(task.dt);
   Tally tally;
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k) {
@@ -254,8 +259,8 @@ void pair_kernel(const KernelTask& task) {
         act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, i, j, p, batch, lane, tally);
       } else if constexpr (Attraction::present) {
         const Real root_radius = Real::load(batch.root_radius + lane);
-        attract_pairs<Attraction>(task, pair, Real(pair.size_per_radius) * root_radius * root_radius, i, j, p, batch,
-                                  lane, tally);
+        attract_pairs<Attraction>(task, pair, pair.size_per_radius * (root_radius * root_radius), i, j, p, batch, lane,
+                                  tally);
       }
     }
   }
@@ -264,7 +269,7 @@ void pair_kernel(const KernelTask& task) {
 
 template <class Attraction>
 void bridge_kernel(const KernelTask& task) {
-  const PairConstants pair = task.pair;
+  const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
   Tally tally;
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k)
     for (int lane = 0; lane < kBatch; lane += kWidth) {
@@ -278,7 +283,7 @@ void bridge_kernel(const KernelTask& task) {
 
 template <class Normal, class Attraction, class Rolling>
 void wall_kernel(const KernelTask& task) {
-  const PairConstants pair = task.pair;
+  const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
   const Real dt(task.dt);
   Tally tally;
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k)

@@ -20,11 +20,12 @@ struct Stretch {
   std::int32_t begin, near, end;
 };
 
-/// Energies of a step, summed in eight lanes by the contact's place in its batch, so that every instruction set sums
-/// alike.
+/// Energies of a step, summed in eight lanes by the contact's place in its half of a batch, so that every instruction
+/// set sums alike.
 struct alignas(64) EnergySums {
   enum Kind { normal_damping, sliding, rolling, bridges, stored, kinds };
-  double lane[kinds][8] = {};
+  static constexpr int kLanes = 8;
+  double lane[kinds][kLanes] = {};
   void forget(Kind kind) {
     for (double& value : lane[kind]) value = 0;
   }

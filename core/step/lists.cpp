@@ -8,10 +8,11 @@ namespace pastefit {
 namespace {
 
 constexpr double kStepsPerSelection = 18;
-constexpr double kSmallestLeeway = 0.005;  // of the mean radius
+constexpr double kSmallestLeeway = 0.02;  // of the mean radius
 constexpr double kLargestLeeway = 0.2;
-constexpr double kNearlyUsed = 0.6;  // of a leeway
-constexpr double kLeastShare = 0.5;  // of the leeway a grain would be given that its skin must have room for
+constexpr double kNearlyUsed = 0.6;      // of a leeway
+constexpr double kRoundedUp = 1 + 1e-6;  // a float is not below it
+constexpr float kLeastShare = 0.5;       // of the leeway a grain would be given that its skin must have room for
 
 }  // namespace
 
@@ -39,6 +40,7 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
     wall_leeway_ = std::clamp(wall_speed * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
     wall_way_ = 0;
   }
+  note_ways();
   const Deepest deepest = select_pairs();
   select_at_walls(walls_due || relisted);
   std::fill(strayed_.begin(), strayed_.end(), false);
@@ -50,8 +52,8 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
 void Lists::take_along() {
   const std::vector<Block>& blocks = world_.pairs.blocks;
   const auto nearly = [&](std::int32_t i) {
-    const Vec3 way = world_.particles.motion[i].position - leeway_.rooms[i].from;
-    return dot(way, way) > kNearlyUsed * kNearlyUsed * leeway_.rooms[i].distance * leeway_.rooms[i].distance;
+    const Room& room = leeway_.rooms[i];
+    return norm(world_.particles.motion[i].position - vector_of(room.from)) > kNearlyUsed * room.distance;
   };
   team_.each(static_cast<int>(blocks.size()), [&](int b, int) {
     for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !strayed_[b]; ++i) strayed_[b] = nearly(i);
@@ -69,9 +71,15 @@ void Lists::list_candidates() {
   Particles& particles = world_.particles;
   rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_);
   listed_.resize(particles.count());
-  for (std::int32_t i = 0; i < particles.count(); ++i) listed_[i] = particles.motion[i].position;
+  for (std::int32_t i = 0; i < particles.count(); ++i) put(particles.motion[i].position, listed_[i].at);
   leeway_.rooms.resize(particles.count());
-  leeway_.own.assign(particles.count(), 0.0);
+  rounding_ = 0;
+  for (std::int32_t i = 0; i < particles.count(); ++i) {
+    constexpr double kUnit = 1.0 / (1 << 24);  // the relative error of a float
+    const double farthest = norm(particles.motion[i].position) + skin_;
+    rounding_ = std::max(rounding_, kUnit * farthest);
+  }
+  leeway_.own.assign(particles.count(), 0);
   strayed_.assign(world_.pairs.blocks.size(), true);
   if (sleepers_) sleepers_->take_place(world_);
   valid_ = true;
@@ -86,15 +94,18 @@ bool Lists::give_leeway(double duration) {
   team_.each(blocks, [&](int b, int) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      leeway_.own[i] = sleeps(i) ? 0 : std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
-      leeway_.rooms[i] = {motion[i].position, std::max(leeway_.own[i], least)};
+      const double own = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
+      leeway_.own[i] = sleeps(i) ? 0 : static_cast<float>(own);
+      put(motion[i].position, leeway_.rooms[i].from);
+      leeway_.rooms[i].distance = static_cast<float>(sleeps(i) ? least : own);
     }
   });
   in_two_rounds(team_, blocks, [&](int b, int) {
     const bool first = strayed_[b], second = b + 1 < blocks && strayed_[b + 1];
     if (!first && !second) return;
     const Block& block = pairs.blocks[b];
-    block.candidates.each(block.grains, [&](std::int32_t, std::int32_t i, std::int32_t j) {
+    block.candidates.each(block.grains, [&](Candidates::Pair pair, std::int32_t i, std::int32_t) {
+      const std::int32_t j = pair.grain();
       const auto make_room = [&](std::int32_t grain, std::int32_t other) {
         leeway_.rooms[grain].distance = std::max(leeway_.rooms[grain].distance, leeway_.own[other]);
       };
@@ -107,13 +118,26 @@ bool Lists::give_leeway(double duration) {
   team_.each(blocks, [&](int b, int) {
     if (!strayed_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
-      const double left = 0.5 * skin_ - norm(motion[i].position - listed_[i]);
-      double& distance = leeway_.rooms[i].distance;
+      const double used = norm(motion[i].position - vector_of(listed_[i].at)) + 2 * rounding_;
+      const auto left = static_cast<float>(0.5 * skin_ - used);
+      float& distance = leeway_.rooms[i].distance;
       if (!(left >= kLeastShare * distance)) enough[b] = false;
       distance = std::min(distance, left);
     }
   });
   return std::find(enough.begin(), enough.end(), false) == enough.end();
+}
+
+/// A grain of a block that keeps its rooms is on its way already, and may turn back.
+void Lists::note_ways() {
+  leeway_.way.resize(leeway_.rooms.size());
+  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+    for (std::int32_t i = world_.pairs.blocks[b].grains; i < world_.pairs.blocks[b].grains_end; ++i) {
+      const Room& room = leeway_.rooms[i];
+      const double gone = norm(world_.particles.motion[i].position - vector_of(room.from));
+      leeway_.way[i] = static_cast<float>((room.distance + gone) * kRoundedUp);
+    }
+  });
 }
 
 Deepest Lists::select_pairs() {

@@ -2,6 +2,7 @@
 
 #include "core/step/sleepers.h"
 #include "core/team.h"
+#include "core/world/selection.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -27,19 +28,24 @@ class Lists {
   /// For `Journal`. All else is scratch.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(leeway_.rooms, leeway_.own, listed_, strayed_, valid_, wall_leeway_, wall_way_);
+    archive(leeway_.rooms, leeway_.own, rounding_, listed_, strayed_, valid_, wall_leeway_, wall_way_);
   }
 
   /// A grain of the block is not in its room any more.
   void note_strayed(std::size_t block) { strayed_[block] = true; }
 
  private:
+  struct Listed {
+    float at[3];  ///< [m]
+  };
+
   void take_along();
   void let_sleep();
   void list_candidates();
   /// Gives the grains of the strayed blocks a new leeway; false if one has too little of its skin left.
   bool give_leeway(double duration);
   Deepest select_pairs();
+  void note_ways();
   void select_at_walls(bool everywhere);
 
   World& world_;
@@ -48,8 +54,9 @@ class Lists {
   Sleepers* sleepers_;
   std::vector<Selection> selections_;  ///< one for each member of the team
   Leeway leeway_;
-  std::vector<Vec3> listed_;   ///< where the grains were when the candidates were listed
-  std::vector<char> strayed_;  ///< blocks to be chosen for anew (not bool: threads write side by side)
+  std::vector<Listed> listed_;  ///< where the grains were when the candidates were listed
+  double rounding_ = 0;         ///< by which those places are off at most [m]
+  std::vector<char> strayed_;   ///< blocks to be chosen for anew (not bool: threads write side by side)
   bool valid_ = false;
   double wall_leeway_ = 0;  ///< way of a wall that the selected contacts allow for [m]
   double wall_way_ = 0;     ///< bound on what has been used of it [m]

@@ -26,6 +26,10 @@ PASTEFIT_INLINE Row with_beside(Row row, double beside) {
   return select(Row::Mask{-1, -1, -1, 0}, row, Row(beside));
 }
 
+PASTEFIT_INLINE Row widened(const float* quad) {
+  return Row(__builtin_convertvector(Singles<4>::load(quad).v, Row::Lanes));
+}
+
 PASTEFIT_INLINE void round(Row row, float* quad) {
   Singles<4>(__builtin_convertvector(row.v, Singles<4>::Lanes)).store(quad);
 }
@@ -72,10 +76,9 @@ Moved move_grains(const MoveTask& task) {
     Motion& motion = task.motion[i];
     double* const linear = &task.velocity[i].linear.x;
     double* const angular = &task.velocity[i].angular.x;
-    double* const force = &task.load[i].force.x;
-    double* const torque = &task.load[i].torque.x;
+    Load& acting = task.load[i];
     const double inverse_mass = task.velocity[i].inverse_mass, inverse_inertia = task.velocity[i].inverse_inertia;
-    const Row lightness(inverse_mass), load = Row::load(torque);
+    const Row lightness(inverse_mass), load = widened(acting.torque);
 
     // Beside the torque the stiffness, and beside the velocity its damping rate, the sum of c over the mass and over
     // the room that the springs leave.
@@ -83,7 +86,7 @@ Moved move_grains(const MoveTask& task) {
     stiffest = larger(stiffness, stiffest);
     const Row room = larger(Row(1.0) - springs * stiffness, least);
     const Row velocity_before = vector_of(Row::load(linear));
-    const Row kicked = velocity_before + kick * lightness / room * Row::load(force);
+    const Row kicked = velocity_before + kick * lightness / room * widened(acting.force);
     const Row velocity_after = kept_row * (kicked - fall);
     const Row v = vector_of(velocity_after);
     with_beside(v, inverse_mass).store(linear);
@@ -96,12 +99,11 @@ Moved move_grains(const MoveTask& task) {
     with_beside(w, inverse_inertia).store(angular);
     round(with_beside(w, motion.radius), motion.spin);
 
-    Row(0.0).store(force);
-    Row(0.0).store(torque);
+    acting = {};
 
-    const Room& allowed = task.rooms[i];
-    const Doubles<2> square = squares(place - Row::load(&allowed.from.x), v);
-    const Doubles<2>::Lanes limits{allowed.distance * allowed.distance, kRunawaySpeed * kRunawaySpeed};
+    const Row allowed = widened(task.rooms[i].from);
+    const Doubles<2> square = squares(place - allowed, v);
+    const Doubles<2>::Lanes limits{allowed.v[3] * allowed.v[3], kRunawaySpeed * kRunawaySpeed};
     within &= square <= Doubles<2>(limits);
     largest = larger(square, largest);
     if (task.drag > 0) {

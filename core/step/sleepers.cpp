@@ -23,13 +23,15 @@ double squared(double value) {
 bool is_balanced(const World& world, std::int32_t i, double share) {
   const Load& load = world.particles.load[i];
   const double weight = world.particles.mass(i) * world.gravity, radius = world.particles.motion[i].radius;
-  const Vec3 left = load.force - Vec3{0, 0, weight};
-  return dot(left, left) < squared(share * weight) && dot(load.torque, load.torque) < squared(share * weight * radius);
+  const Vec3 left = vector_of(load.force) - Vec3{0, 0, weight}, torque = vector_of(load.torque);
+  return dot(left, left) < squared(share * weight) && dot(torque, torque) < squared(share * weight * radius);
 }
 
 void add(Load& load, const Load& other) {
-  load.force += other.force;
-  load.torque += other.torque;
+  for (int c = 0; c < 3; ++c) {
+    load.force[c] += other.force[c];
+    load.torque[c] += other.torque[c];
+  }
   load.damping += other.damping;
   load.stiffness += other.stiffness;
 }
@@ -102,8 +104,9 @@ bool Sleepers::balance(World& world, std::size_t block) {
         continue;
       }
       // Held up by just its weight it stays where it is, but for the last bit of the speed it is given in a step.
-      load.force = {0, 0, particles.mass(i) * world.gravity};
-      load.torque = {};
+      load = {.force = {0, 0, static_cast<float>(particles.mass(i) * world.gravity)},
+              .damping = load.damping,
+              .stiffness = load.stiffness};
       set_velocity(particles, i, {}, {});
       ++asleep_[block];
     } else if (look) {

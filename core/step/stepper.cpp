@@ -255,11 +255,13 @@ void Stepper::add_loads(const Wall& wall, const WallContacts& touching, const Co
     const std::int32_t i = touching.contacts.first(k);
     Load& load = world_.particles.load[i];
     const Vec3 force = taken(batch.force, lane);
-    load.force += force;
-    load.torque += taken(batch.moment, lane);
+    for (int c = 0; c < 3; ++c) {
+      load.force[c] += batch.force[c][lane];
+      load.torque[c] += batch.moment[c][lane];
+    }
     load.damping += batch.damping[lane];
     // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
-    load.stiffness += 0.5 * batch.stiffness[lane];
+    load.stiffness += 0.5F * batch.stiffness[lane];
     sum.force += -force;
     const Motion& grain = world_.particles.motion[i];
     const Vec3 arm = grain.position + (grain.radius - batch.overlap[lane]) * taken(batch.normal, lane) - wall.pivot;
@@ -288,9 +290,9 @@ void Stepper::look_at_energy(double dt) {
     const Load& load = particles.load[i];
     const Velocity& velocity = particles.velocity[i];
     const double m = 1 / velocity.inverse_mass, inertia = 1 / velocity.inverse_inertia;
-    Vec3 v = velocity.linear + (half_kick / m) * load.force;
+    Vec3 v = velocity.linear + (half_kick / m) * vector_of(load.force);
     v.z -= half_kick * world_.gravity;
-    const Vec3 w = velocity.angular + (half_kick / inertia) * load.torque;
+    const Vec3 w = velocity.angular + (half_kick / inertia) * vector_of(load.torque);
     ledger_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
     ledger_.height += m * world_.gravity * motion.position.z;
   }

@@ -4,9 +4,9 @@
 
 namespace pastefit {
 
-/// Pairs are kept and worked on in batches of this many, each value of a batch in one cache line: a kernel reads one
-/// stream of memory, and whole lines of it. Lists end with pairs of the dummy grain with itself.
-inline constexpr int kBatch = 8;
+/// Pairs are kept and worked on in batches of this many, each value of a batch a cache line: a kernel reads one stream
+/// of memory, and whole lines of it. Lists end with pairs of the dummy grain with itself.
+inline constexpr int kBatch = 16;
 
 /// Pairs that touch or may touch before the next selection, 56 bytes a pair. What they remember from step to step is
 /// explained with `Memory` in core/laws/meeting.h.

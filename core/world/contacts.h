@@ -83,12 +83,16 @@ class ContactList : public BatchList<ContactBatch> {
   float root_radius(std::int32_t k) const { return batches[k / kBatch].root_radius[k % kBatch]; }
   float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
   bool touched(std::int32_t k) const { return batches[k / kBatch].root_contact_radius[k % kBatch] > 0; }
+  /// Whether it is more than two grains that have met only now.
+  bool remembers(std::int32_t k) const { return touched(k) || bridge(k) > 0; }
 };
 
 class BridgeList : public BatchList<BridgeBatch> {
  public:
   void add(std::int32_t i, std::int32_t j, float size_scale, float alive);
   void pad(std::int32_t dummy);
+  std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
+  std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
   float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
 };
 

@@ -1,57 +1,15 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "core/team.h"
+#include "core/world/candidates.h"
 #include "core/world/contacts.h"
 #include "core/world/domain.h"
 #include "core/world/particles.h"
-#include "core/world/walls.h"
 
 namespace pastefit {
-
-/// Pairs near enough that they may meet before the list is made again, of a run of grains: one grain after the other,
-/// so that a pair need not name its first one.
-class Candidates {
- public:
-  void clear();
-  /// A pair of the grain at hand with grain `j`.
-  void add(std::int32_t j, std::int32_t place);
-  /// Goes on to the next grain.
-  void end_grain() { ends_.push_back(static_cast<std::int32_t>(second_.size())); }
-
-  /// Calls `look(c, i, j)` for all pairs; the run begins with grain `first`.
-  template <class Look>
-  void each(std::int32_t first, const Look& look) const {
-    std::int32_t c = 0, i = first;
-    for (const std::int32_t end : ends_) {
-      for (; c < end; ++c) look(c, i, second_[c]);
-      ++i;
-    }
-  }
-
-  /// The second grain of the pair some way after this one, or of the last: to be fetched in time.
-  std::int32_t ahead(std::int32_t c) const { return second_[std::min<std::size_t>(c + kAhead, second_.size() - 1)]; }
-
-  /// Where a pair's memory is kept in the lists of its block: contact k (k), bridge k (-2 - k), nowhere (kNone).
-  std::int32_t place(std::int32_t c) const { return place_[c]; }
-  void set_place(std::int32_t c, std::int32_t place) { place_[c] = place; }
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(ends_, second_, place_);
-  }
-  static constexpr std::int32_t kNone = -1;
-  static std::int32_t place_of_bridge(std::int32_t k) { return -2 - k; }
-  static std::int32_t bridge_at(std::int32_t place) { return -2 - place; }
-
- private:
-  static constexpr int kAhead = 12;
-
-  std::vector<std::int32_t> ends_;  ///< by grain
-  std::vector<std::int32_t> second_, place_;
-};
 
 /// Contacts of a block's grains with one wall, in the order of the grains.
 struct WallContacts {
@@ -130,39 +88,5 @@ struct AttractionReach {
 /// repeats, grains are put back into it.
 void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
              double skin);
-
-/// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
-/// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
-struct Leeway {
-  std::vector<Room> rooms;
-  std::vector<double> own;  ///< what each grain by itself would be given; nothing, if it is asleep [m]
-};
-
-/// The deepest overlap of two grains over the smaller radius, and one of them.
-struct Deepest {
-  double overlap = 0;
-  std::int32_t grain = -1;
-};
-
-/// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
-struct Selection {
-  ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
-  BridgeList bridges, dormant_bridges;
-  std::vector<std::int32_t> near_candidates, dormant_candidates;
-
-  void clear();
-  void pad(std::int32_t dummy);  ///< but for `at_wall`
-};
-
-/// Chooses from a block's candidates the pairs that act or may act while no grain moves beyond its leeway: contacts
-/// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
-/// for padding.
-Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
-                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
-
-/// Lists the block's grains that touch a wall or may do so while they stay within their leeway, and the wall within its
-/// own [m].
-void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
-                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway);
 
 }  // namespace pastefit

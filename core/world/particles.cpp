@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kFarAway = 1e6;  // [m]; the dummy never comes near a grain
 
-void put(const Vec3& v, float (&rounded)[3]) {
-  rounded[0] = static_cast<float>(v.x);
-  rounded[1] = static_cast<float>(v.y);
-  rounded[2] = static_cast<float>(v.z);
-}
-
 template <class T>
 void permute(std::vector<T>& values, const std::vector<std::int32_t>& order) {
   const std::vector<T> before(values);

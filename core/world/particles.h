@@ -25,18 +25,18 @@ struct alignas(64) Velocity {
   double inverse_inertia = 0;  ///< of a solid sphere, 2.5/(m r^2) [1/(kg m^2)]
 };
 
-/// What the contacts of a step add up to on a grain: one cache line, 64 bytes. Hot; zero between steps.
-struct alignas(64) Load {
-  Vec3 force;            ///< [N]
-  double damping = 0;    ///< sum of c_n of the contacts [N s/m]
-  Vec3 torque;           ///< [N m]
-  double stiffness = 0;  ///< sum of k, 3.5 k_t of the contacts [N/m]
+/// What the contacts of a step add up to on a grain: half a cache line, 32 bytes. Hot; zero between steps.
+struct alignas(32) Load {
+  float force[3] = {};   ///< [N]
+  float damping = 0;     ///< sum of c_n of the contacts [N s/m]
+  float torque[3] = {};  ///< [N m]
+  float stiffness = 0;   ///< sum of k, 3.5 k_t of the contacts [N/m]
 };
 
-/// Where a grain may be while the lists of its block hold: no farther from here than this. 32 bytes. Hot.
-struct alignas(32) Room {
-  Vec3 from;            ///< [m]
-  double distance = 0;  ///< [m]
+/// Where a grain may be while the lists of its block hold: no farther from here than this. 16 bytes. Hot.
+struct alignas(16) Room {
+  float from[3] = {};  ///< [m]
+  float distance = 0;  ///< [m]
 };
 
 /// Spheres as a structure of arrays, kept in spatial order. One more element than grains: the last one is a dummy far

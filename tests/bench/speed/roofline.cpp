@@ -90,7 +90,7 @@ volatile float unknown = 1;  // to the compiler, which else computes constant ch
     for (std::int64_t n = 0; n < rounds; ++n)                                  \
       for (type & chain : x) chain = add(mul(chain, factor), term);            \
     for (int k = 1; k < 16; ++k) x[0] = add(x[0], x[k]);                       \
-    float out[8];                                                              \
+    float out[16];                                                             \
     store(out, x[0]);                                                          \
     return out[0];                                                             \
   }                                                                            \
@@ -101,10 +101,15 @@ volatile float unknown = 1;  // to the compiler, which else computes constant ch
     for (std::int64_t n = 0; n < rounds; ++n)                                  \
       for (int k = 0; k < 8; ++k) x[k] = k < 5 ? root(x[k]) : div(top, x[k]);  \
     for (int k = 1; k < 8; ++k) x[0] = add(x[0], x[k]);                        \
-    float out[8];                                                              \
+    float out[16];                                                             \
     store(out, x[0]);                                                          \
     return out[0];                                                             \
   }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in GCC's own header (GCC bug 105593)
+PASTEFIT_PEAKS(avx512, "avx512f", __m512, _mm512_set1_ps, _mm512_add_ps, _mm512_mul_ps, _mm512_sqrt_ps, _mm512_div_ps,
+               _mm512_storeu_ps)
+#pragma GCC diagnostic pop
 PASTEFIT_PEAKS(avx2, "avx2", __m256, _mm256_set1_ps, _mm256_add_ps, _mm256_mul_ps, _mm256_sqrt_ps, _mm256_div_ps,
                _mm256_storeu_ps)
 PASTEFIT_PEAKS(sse2, "sse2", __m128, _mm_set1_ps, _mm_add_ps, _mm_mul_ps, _mm_sqrt_ps, _mm_div_ps, _mm_storeu_ps)
@@ -142,9 +147,9 @@ double triad_bytes_per_second() {
 MachineLimits measure_machine() {
   MachineLimits m;
   const KernelTable& kernels = kernels_of_this_processor();
-  m.lanes = &kernels == &sse2::kernels ? 4 : 8;
-  const auto simple = m.lanes == 8 ? avx2_simple : sse2_simple;
-  const auto roots = m.lanes == 8 ? avx2_roots : sse2_roots;
+  m.lanes = &kernels == &sse2::kernels ? 4 : &kernels == &avx2::kernels ? 8 : 16;
+  const auto simple = m.lanes == 16 ? avx512_simple : m.lanes == 8 ? avx2_simple : sse2_simple;
+  const auto roots = m.lanes == 16 ? avx512_roots : m.lanes == 8 ? avx2_roots : sse2_roots;
   m.instruction_set = kernels.instruction_set;
   m.gflop_s = 1e-9 * rate(simple, 10'000'000, 32.0 * m.lanes);
   m.roots_gop_s = 1e-9 * rate(roots, 1'000'000, 8.0 * m.lanes);
@@ -157,7 +162,7 @@ ContactCost cost_of_contact(bool cohesive) {
   count_geometry();
   const Meeting<Counted> meeting{};
   Memory<Counted> memory{};
-  const PairConstants pair = grain_pair(scene_material(cohesive), kSceneRadius);
+  const auto pair = in_lanes<Counted>(grain_pair(scene_material(cohesive), kSceneRadius));
   if (cohesive)
     act<Hertz, PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
   else

@@ -168,7 +168,10 @@ TEST_CASE("a settled bed sleeps wholly, stays where it is, and weighs on its flo
     INFO((sticky ? "sticky, differs by " : "dry, differs by ")
          << largest_distance(bed.places(), awake.places()) / kRadius << " R");
     CHECK(bed.stepper->sleeping() == bed.world.particles.count());
-    CHECK(largest_distance(bed.places(), before) < 1e-12 * kRadius);
+    // What holds a sleeper up is its weight in 24 bits: the rest moves it by g dt t.
+    const double drift = kGravity * bed.stepper->time_step() * 0.5 / (1 << 24);
+    CHECK(largest_distance(bed.places(), before) <= drift);
+    CHECK(drift < 1e-6 * kRadius);
     CHECK(largest_distance(bed.places(), awake.places()) < kLayers * give_of_a_sleeper(bed));
     const double carried = -bed.world.walls[kFloor].force.z;
     CHECK(carried == Approx(-awake.world.walls[kFloor].force.z).epsilon(0.01));

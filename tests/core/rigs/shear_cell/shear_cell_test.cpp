@@ -69,19 +69,29 @@ TEST_CASE("the bed carries the lid's load while it is sheared, and passes on fro
 }
 
 TEST_CASE("granules that do not stick resist shear in proportion to the load, and those that stick by more") {
+  // From one packing to the next the stress of so small a cell scatters by more than its own error says.
+  constexpr int kPackings = 8;
+  double once = 0, ratio = 0, square = 0;
   ShearCell test = small_cell(0);
-  const Outcome once = sheared(test);
-  const double friction = value_of(once, "shear.stress_pa") / test.normal_stress_pa;
-  CHECK(friction > 0.2);
-  CHECK(friction < 0.8);
-  CHECK(value_of(once, "shear.peak_stress_pa") >= value_of(once, "shear.stress_pa"));
-  test.normal_stress_pa *= 2;
-  const Outcome twice = sheared(test);
-  const double noise =
-      3 * std::hypot(2 * value_of(once, "shear.stress_error_pa"), value_of(twice, "shear.stress_error_pa"));
-  CHECK(value_of(twice, "shear.stress_pa") == Approx(2 * value_of(once, "shear.stress_pa")).margin(noise));
+  const double pressed = test.normal_stress_pa;
+  for (int packing = 0; packing < kPackings; ++packing) {
+    test.packing_seed = 1 + packing;
+    test.normal_stress_pa = pressed;
+    const Outcome simple = sheared(test);
+    CHECK(value_of(simple, "shear.peak_stress_pa") >= value_of(simple, "shear.stress_pa"));
+    test.normal_stress_pa = 2 * pressed;
+    const double r = value_of(sheared(test), "shear.stress_pa") / value_of(simple, "shear.stress_pa");
+    once += value_of(simple, "shear.stress_pa") / kPackings;
+    ratio += r / kPackings;
+    square += r * r / kPackings;
+  }
+  const double error = std::sqrt((square - ratio * ratio) / (kPackings - 1));
+  CHECK(ratio == Approx(2).margin(3 * error));
+  CHECK(error < 0.15);
+  CHECK(once / pressed > 0.2);
+  CHECK(once / pressed < 0.8);
   const Outcome sticky = sheared(small_cell(1.5));
-  CHECK(value_of(sticky, "shear.stress_pa") > 1.2 * value_of(once, "shear.stress_pa"));
+  CHECK(value_of(sticky, "shear.stress_pa") > 1.2 * once);
 }
 
 // Right after the filling next to nothing has been put in by the lid: the audit has to know what the fall put in.

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/world/domain.h"
+#include "core/world/particles.h"
+
+namespace pastefit {
+
+/// Pairs near enough that they may meet before the list is made again, of a run of grains: one grain after the other,
+/// so that a pair need not name its first one. 4 bytes a pair.
+class Candidates {
+ public:
+  /// In which of its block's lists a pair is kept, in all of them in the order of the candidates.
+  enum Kept : std::uint32_t { nowhere, touching, near, dormant, bridge, dormant_bridge, kinds };
+
+  /// A pair's second grain, and where the pair is kept.
+  class Pair {
+   public:
+    explicit Pair(std::int32_t grain, Kept kept = nowhere)
+        : bits_(static_cast<std::uint32_t>(grain) | kept << kShift) {}
+    Pair() = default;  ///< for vectors
+    std::int32_t grain() const { return static_cast<std::int32_t>(bits_ & ((1U << kShift) - 1)); }
+    Kept kept() const { return static_cast<Kept>(bits_ >> kShift); }
+    void keep(Kept kept) { *this = Pair(grain(), kept); }
+
+   private:
+    static constexpr int kShift = 29;  // half a billion grains
+    std::uint32_t bits_ = 0;
+  };
+
+  void clear();
+  /// A pair of the grain at hand.
+  void add(Pair pair) { pairs_.push_back(pair); }
+  /// Goes on to the next grain.
+  void end_grain() { ends_.push_back(static_cast<std::int32_t>(pairs_.size())); }
+
+  /// Calls `look(pair, i, ahead)` for all pairs; the run begins with grain `first`. `ahead` is the second grain of the
+  /// pair some way after this one, or of the last: to be fetched in time.
+  template <class Look>
+  void each(std::int32_t first, const Look& look) {
+    each(*this, first, look);
+  }
+  template <class Look>
+  void each(std::int32_t first, const Look& look) const {
+    each(*this, first, look);
+  }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(ends_, pairs_);
+  }
+
+ private:
+  static constexpr std::size_t kAhead = 12;
+
+  template <class Self, class Look>
+  static void each(Self& self, std::int32_t first, const Look& look) {
+    const std::size_t last = self.pairs_.size() - 1;
+    std::int32_t i = first;
+    std::size_t c = 0;
+    for (const std::int32_t end : self.ends_) {
+      for (; c < static_cast<std::size_t>(end); ++c)
+        look(self.pairs_[c], i, self.pairs_[std::min(c + kAhead, last)].grain());
+      ++i;
+    }
+  }
+
+  std::vector<std::int32_t> ends_;  ///< by grain
+  std::vector<Pair> pairs_;
+};
+
+/// Finds the grains within reach of a grain among some that were gathered, four at a time. It looks in single
+/// precision, from the middle of the grains' box, and a millionth of the box farther than it is asked to: it may find
+/// too many.
+class Vicinity {
+ public:
+  /// `farthest`: gap between grains of one radius over that radius, for pairs as 2 R*; `skin` [m] besides.
+  Vicinity(const Particles& particles, const Domain& domain, double farthest, double skin);
+
+  /// Begins anew with no grains.
+  void clear() { count_ = 0; }
+  /// Gathers the grains `begin` <= j < `end`.
+  void gather(std::int32_t begin, std::int32_t end);
+  /// Calls `found(j)` for those that are near grain `i`, of the gathered ones without the first `from`.
+  template <class Found>
+  void find(std::int32_t i, std::int32_t from, const Found& found) {
+    find_lanes(i, from);
+    for (std::int32_t k = 0; k < found_; ++k) found(near_[k]);
+  }
+
+ private:
+  enum Column { x, y, z, radius, columns };
+  static constexpr int kLanes = 4;
+
+  void find_lanes(std::int32_t i, std::int32_t from);
+
+  Domain domain_;
+  double gap_, skin_;
+  std::array<std::vector<float>, columns> all_, gathered_;
+  std::vector<std::int32_t> grain_;  ///< of the gathered ones
+  std::vector<std::int32_t> near_;
+  std::int32_t count_ = 0, found_ = 0;
+};
+
+}  // namespace pastefit

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/world/neighbours.h"
+#include "core/world/walls.h"
+
+namespace pastefit {
+
+/// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
+/// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
+struct Leeway {
+  std::vector<Room> rooms;
+  std::vector<float> way;  ///< how far each grain may still go from where it is, across its room if need be [m]
+  std::vector<float> own;  ///< what each grain by itself would be given; nothing, if it is asleep [m]
+};
+
+/// The deepest overlap of two grains over the smaller radius, and one of them.
+struct Deepest {
+  double overlap = 0;
+  std::int32_t grain = -1;
+};
+
+/// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
+struct Selection {
+  ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
+  BridgeList bridges, dormant_bridges;
+
+  void clear();
+  void pad(std::int32_t dummy);  ///< but for `at_wall`
+};
+
+/// Chooses from a block's candidates the pairs that act or may act while no grain leaves its room: contacts
+/// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
+/// for padding.
+Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
+                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
+
+/// Lists the block's grains that touch a wall or may do so while they stay in their rooms, and the wall within its
+/// leeway [m].
+void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
+                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway);
+
+}  // namespace pastefit
