@@ -68,7 +68,7 @@ PASTEFIT_INLINE Vec3 vector_of(const float (&components)[3]) {
 }
 
 /// Rounded to single precision.
-PASTEFIT_INLINE void put(const Vec3& v, float (&components)[3]) {
+PASTEFIT_INLINE void put_rounded(const Vec3& v, float (&components)[3]) {
   components[0] = static_cast<float>(v.x);
   components[1] = static_cast<float>(v.y);
   components[2] = static_cast<float>(v.z);

@@ -164,8 +164,9 @@ bool ObjectReader::pairs(std::string_view key, std::vector<std::array<double, 2>
       good = false;
       continue;
     }
-    const bool both = check_number(place(key) + entry + "[0]", pair[0], first) &
-                      check_number(place(key) + entry + "[1]", pair[1], second);
+    const bool one = check_number(place(key) + entry + "[0]", pair[0], first);
+    const bool other = check_number(place(key) + entry + "[1]", pair[1], second);
+    const bool both = one && other;  // the faults of both are told
     good = good && both;
     if (!both) continue;
     read.push_back(pair.get<std::array<double, 2>>());

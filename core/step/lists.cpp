@@ -16,8 +16,8 @@ constexpr float kLeastShare = 0.5;       // of the leeway a grain would be given
 
 }  // namespace
 
-Lists::Lists(World& world, double skin, Team& team, Sleepers* sleepers)
-    : world_(world), skin_(skin), team_(team), sleepers_(sleepers) {
+Lists::Lists(World& world, double skin, Team& team, Sleepers* sleepers, StageClock* clock)
+    : world_(world), skin_(skin), team_(team), sleepers_(sleepers), clock_(clock) {
   selections_.resize(team.size());
 }
 
@@ -26,12 +26,9 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   const bool walls_due = wall_way_ > wall_leeway_;
   if (valid_ && !walls_due && std::find(strayed_.begin(), strayed_.end(), true) == strayed_.end()) return {};
   const double duration = dt * kStepsPerSelection;
-  if (valid_) {
-    take_along();
-    let_sleep();
-  }
-  const bool relisted = !valid_ || !give_leeway(duration);
+  const bool relisted = !valid_ || !goes_on(duration);
   if (relisted) {
+    const Timed timed(clock_, StageClock::list);
     list_candidates();
     give_leeway(duration);
   }
@@ -40,11 +37,20 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
     wall_leeway_ = std::clamp(wall_speed * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
     wall_way_ = 0;
   }
+  const Timed timed(clock_, StageClock::select);
   note_ways();
   const Deepest deepest = select_pairs();
   select_at_walls(walls_due || relisted);
   std::fill(strayed_.begin(), strayed_.end(), false);
   return deepest;
+}
+
+/// Prepares to choose from the candidates as they are; false if that would not do.
+bool Lists::goes_on(double duration) {
+  const Timed timed(clock_, StageClock::select);
+  take_along();
+  let_sleep();
+  return give_leeway(duration);
 }
 
 /// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour
@@ -71,7 +77,7 @@ void Lists::list_candidates() {
   Particles& particles = world_.particles;
   rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_);
   listed_.resize(particles.count());
-  for (std::int32_t i = 0; i < particles.count(); ++i) put(particles.motion[i].position, listed_[i].at);
+  for (std::int32_t i = 0; i < particles.count(); ++i) put_rounded(particles.motion[i].position, listed_[i].at);
   leeway_.rooms.resize(particles.count());
   rounding_ = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
@@ -96,7 +102,7 @@ bool Lists::give_leeway(double duration) {
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
       const double own = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
       leeway_.own[i] = sleeps(i) ? 0 : static_cast<float>(own);
-      put(motion[i].position, leeway_.rooms[i].from);
+      put_rounded(motion[i].position, leeway_.rooms[i].from);
       leeway_.rooms[i].distance = static_cast<float>(sleeps(i) ? least : own);
     }
   });

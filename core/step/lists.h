@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/step/sleepers.h"
+#include "core/step/stage_clock.h"
 #include "core/team.h"
 #include "core/world/selection.h"
 #include "core/world/world.h"
@@ -14,7 +15,7 @@ namespace pastefit {
 class Lists {
  public:
   /// `skin`: of the candidates [m]. `sleepers`: none where no grain may sleep.
-  Lists(World& world, double skin, Team& team, Sleepers* sleepers);
+  Lists(World& world, double skin, Team& team, Sleepers* sleepers, StageClock* clock = nullptr);
 
   /// To be called after the world was changed from outside.
   void forget() { valid_ = false; }
@@ -39,6 +40,7 @@ class Lists {
     float at[3];  ///< [m]
   };
 
+  bool goes_on(double duration);
   void take_along();
   void let_sleep();
   void list_candidates();
@@ -52,6 +54,7 @@ class Lists {
   double skin_;
   Team& team_;
   Sleepers* sleepers_;
+  StageClock* clock_;
   std::vector<Selection> selections_;  ///< one for each member of the team
   Leeway leeway_;
   std::vector<Listed> listed_;  ///< where the grains were when the candidates were listed

@@ -5,6 +5,7 @@
 namespace pastefit {
 
 struct KernelTable;
+struct StageClock;
 
 /// How steps are taken.
 struct StepOptions {
@@ -20,6 +21,7 @@ struct StepOptions {
   /// motion, bit for bit, and only the other kinds of failure are seen.
   bool ledger = true;
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
+  StageClock* clock = nullptr;           ///< what the stages of a step take; with one thread only
 };
 
 /// When a specimen counts as at rest: the root mean square speed of its grains is below a bound, and no length of its

@@ -74,7 +74,7 @@ Stepper::Stepper(World& world, const StepOptions& options)
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
       team_(options.threads),
       sleepers_(options.sleep ? std::make_optional<Sleepers>() : std::nullopt),
-      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr),
+      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr, options.clock),
       wall_batches_(team_.size()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
@@ -182,14 +182,21 @@ void Stepper::act_on_pairs(int b) {
   KernelTask mine = task(world_.grain_pair, b);
   mine.contacts = block.contacts.batches.data();
   mine.stretch = {0, block.contacts.near / kBatch, block.contacts.awake / kBatch};
-  pairs(mine);
+  {
+    const Timed timed(options_.clock, StageClock::pair);
+    pairs(mine);
+  }
   mine.bridges = block.bridges.batches.data();
   mine.stretch = {0, 0, block.bridges.awake / kBatch};
-  if (block.bridges.awake > 0) bridges(mine);
+  if (block.bridges.awake > 0) {
+    const Timed timed(options_.clock, StageClock::bridge);
+    bridges(mine);
+  }
   if (sleepers_) sleepers_->hold(world_, b, mine, pairs, bridges);
 }
 
 void Stepper::act_on_walls(int b, int member) {
+  const Timed timed(options_.clock, StageClock::wall);
   for (std::size_t w = 0; w < world_.walls.size(); ++w)
     if (world_.pairs.blocks[b].walls[w].count > 0) act_on_wall(w, b, wall_batches_[member]);
 }
@@ -317,6 +324,7 @@ void Stepper::follow(const Ledger& before) {
 }
 
 void Stepper::move_block(int b, double dt) {
+  const Timed timed(options_.clock, StageClock::move);
   Particles& particles = world_.particles;
   const Block& block = world_.pairs.blocks[b];
   moved_[b] = kernels_.move({particles.motion.data(), particles.velocity.data(), particles.load.data(), lists_.rooms(),

@@ -43,8 +43,8 @@ void set_velocity(Particles& particles, std::int32_t i, const Vec3& linear, cons
   Motion& motion = particles.motion[i];
   particles.velocity[i].linear = linear;
   particles.velocity[i].angular = angular;
-  put(linear, motion.velocity);
-  put(angular, motion.spin);
+  put_rounded(linear, motion.velocity);
+  put_rounded(angular, motion.spin);
 }
 
 void provide_dummies(Particles& particles, std::size_t count) {

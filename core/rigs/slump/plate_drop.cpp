@@ -19,11 +19,7 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 class Drop {
  public:
   Drop(const SlumpTest& test, World world, const Ledger& before, const RunOptions& options)
-      : test_(test),
-        options_(options),
-        world_(std::move(world)),
-        runner_(world_, options, posture_of_heap),
-        table_(world_.walls[kTable]) {
+      : test_(test), world_(std::move(world)), runner_(world_, options, posture_of_heap), table_(world_.walls[kTable]) {
     runner_.follow(before);
     runner_.remember(stopped_);
   }
@@ -87,7 +83,6 @@ class Drop {
   }
 
   const SlumpTest& test_;
-  const RunOptions& options_;
   World world_;
   Runner runner_;
   Wall& table_;

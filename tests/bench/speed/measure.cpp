@@ -192,10 +192,14 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
   contenders[0].run = [&](TimedEngine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
       const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger, kernels_called(options.kernels));
-      return {{"seconds", run.seconds},
-              {"advised_step_s", run.advised_step_s},
-              {"contacts_per_grain", run.contacts},
-              {"bridges_per_grain", run.bridges}};
+      Json said{{"seconds", run.seconds},
+                {"advised_step_s", run.advised_step_s},
+                {"contacts_per_grain", run.contacts},
+                {"bridges_per_grain", run.bridges}};
+      const double grain_steps = static_cast<double>(scene.steps) * run.grains;
+      for (int stage = 0; stage < StageClock::stages; ++stage)
+        said[std::string(StageClock::names[stage]) + "_ns"] = 1e9 * run.stages.seconds[stage] / grain_steps;
+      return said;
     });
   };
   std::vector<std::string> missing;

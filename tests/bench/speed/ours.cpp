@@ -49,13 +49,16 @@ OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger, const KernelTable& k
   options.fixed_step_s = kSceneStep;
   options.ledger = ledger;
   options.kernels = &kernels;
+  OurRun run;
+  options.clock = &run.stages;
   Stepper stepper(world, options);
   take_steps(stepper, scene.warm_steps);
   if (scene.container == Container::mould) world.walls[1].velocity = {0, 0, kLiftSpeed};
+  run.stages = {};
   const double start = process_seconds();
   take_steps(stepper, scene.steps);
-  OurRun run;
   run.seconds = process_seconds() - start;
+  run.grains = world.particles.count();
   run.advised_step_s = stepper.smallest_advised_step();
   for (const Block& block : world.pairs.blocks) {
     run.contacts += static_cast<double>(block.contacts.count) / world.particles.count();

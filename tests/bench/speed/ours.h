@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/step/kernels.h"
+#include "core/step/stage_clock.h"
 #include "core/world/world.h"
 #include "tests/bench/speed/scene.h"
 
@@ -10,7 +11,9 @@ namespace pastefit {
 
 /// What our engine did with a scene.
 struct OurRun {
-  double seconds = 0;         ///< of the processor, over the timed steps
+  double seconds = 0;  ///< of the processor, over the timed steps
+  StageClock stages;   ///< of the same steps
+  double grains = 0;
   double advised_step_s = 0;  ///< the largest step our engine would have taken, at the worst moment
   double contacts = 0;        ///< a grain, at the end: pairs worked on in full
   double bridges = 0;         ///< a grain, at the end: pairs that only attract each other

@@ -27,8 +27,8 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-std::string csv_key(const std::string& machine, const SceneResult& r) {
-  return '"' + machine + "\"," + r.scene + ',' + text("%.0f", r.grains) + ',' + text("%.0f", r.steps) + ',';
+std::string scene_key(const SceneResult& r) {
+  return r.scene + ',' + text("%.0f", r.grains) + ',' + text("%.0f", r.steps) + ',';
 }
 
 std::string row_of(const SceneResult& r, const TimedEngine& e) {
@@ -122,24 +122,41 @@ nlohmann::ordered_json json_of(const std::vector<SceneResult>& results) {
   return {{"format", "pastefit-bench-1"}, {"machine", machine_name()}, {"scenes", scenes}};
 }
 
-std::vector<std::string> slow_downs(const std::filesystem::path& csv, const std::vector<SceneResult>& results) {
-  std::map<std::string, double> last;  // seconds by machine, scene, grains, steps, engine
+std::vector<Comparison> compared_with(const std::filesystem::path& csv, const std::vector<SceneResult>& results) {
+  struct Line {
+    std::string machine;
+    double seconds;
+  };
+  std::map<std::string, std::map<std::string, Line>>
+      last;  // by scene, grains and steps; by machine, "" for the last one
   std::ifstream file(csv);
   for (std::string line; std::getline(file, line);) {
-    const std::size_t engine = line.find(",ours,");
-    if (engine != std::string::npos) last[line.substr(0, engine + 1)] = std::strtod(line.c_str() + engine + 6, nullptr);
+    const std::size_t scene = line.rfind("\","), engine = line.find(",ours,");
+    if (!line.starts_with('"') || scene == std::string::npos || engine == std::string::npos) continue;
+    const Line read{line.substr(1, scene - 1), std::strtod(line.c_str() + engine + 6, nullptr)};
+    if (!(read.seconds > 0)) continue;
+    auto& lines = last[line.substr(scene + 2, engine - scene - 1)];
+    lines[read.machine] = lines[""] = read;
   }
-  std::vector<std::string> found;
+  std::vector<Comparison> comparisons;
   for (const SceneResult& r : results) {
     if (!r.ours().measured() || r.ours().name != "ours") continue;
-    const auto before = last.find(csv_key(machine_name(), r));
-    if (before == last.end() || before->second <= 0) continue;
-    const double slower = r.ours().median() / before->second;
-    if (slower > kSlowDown)
-      found.push_back(r.scene + ": " + text("%.0f %% slower", 100 * (slower - 1)) + " than this machine's last line (" +
-                      text("%.3g s now, ", r.ours().median()) + text("%.3g s then)", before->second));
+    const auto lines = last.find(scene_key(r));
+    if (lines == last.end()) continue;
+    const auto own = lines->second.find(machine_name());
+    const Line& then = own != lines->second.end() ? own->second : lines->second.at("");
+    comparisons.push_back({r.scene, then.machine, then.machine == machine_name(), r.ours().median(), then.seconds});
   }
-  return found;
+  return comparisons;
+}
+
+std::string sentence_of(const Comparison& c) {
+  return c.scene + ": " + text("%.3g s, ", c.now_s) + text("%.2f times ", c.now_s / c.then_s) +
+         text("the %.3g s on record for ", c.then_s) + (c.same_machine ? "this machine" : "another one, " + c.machine);
+}
+
+bool is_slow_down(const Comparison& c) {
+  return c.same_machine && c.now_s > kSlowDown * c.then_s;
 }
 
 Faults append_csv(const std::filesystem::path& csv, const std::vector<SceneResult>& results) {
@@ -150,7 +167,7 @@ Faults append_csv(const std::filesystem::path& csv, const std::vector<SceneResul
   for (const SceneResult& r : results)
     for (const TimedEngine& e : r.engines) {
       if (!e.measured()) continue;
-      content += csv_key(machine_name(), r) + e.name + ',' + text("%.6g,", e.median());
+      content += '"' + machine_name() + "\"," + scene_key(r) + e.name + ',' + text("%.6g,", e.median());
       if (r.steps > 0) content += text("%.6g", r.particle_steps_per_s(e));
       content += ',';
       if (r.grains > 0) content += text("%.0f", e.peak_bytes / r.grains);

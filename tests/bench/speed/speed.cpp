@@ -30,7 +30,7 @@ struct Asked {
   std::vector<int> steps;
   MeasureOptions options;
   bool scaling = false, roofline = false;
-  std::string json, csv;
+  std::string json, csv, against;
 };
 
 Faults validate(const Asked& asked) {
@@ -87,9 +87,12 @@ int run(const Asked& asked) {
     std::printf("%s\n", json.dump(2).c_str());
   else if (!asked.json.empty())
     faults = write_atomically(asked.json, json.dump(2) + "\n");
+  if (!asked.against.empty())
+    for (const Comparison& comparison : compared_with(asked.against, results)) show(sentence_of(comparison) + "\n");
   if (!asked.csv.empty()) {
-    for (const std::string& sentence : slow_downs(asked.csv, results))
-      std::fprintf(stderr, "pastefit-bench: %s\n", sentence.c_str());
+    for (const Comparison& comparison : compared_with(asked.csv, results))
+      if (is_slow_down(comparison))
+        std::fprintf(stderr, "pastefit-bench: slower: %s\n", sentence_of(comparison).c_str());
     for (const Fault& fault : append_csv(asked.csv, results)) faults.push_back(fault);
   }
   if (!faults.empty()) {
@@ -126,6 +129,8 @@ int main(int argc, char** argv) {
   app.add_flag("--scaling", asked.scaling, "boxes of 1,000 to 1,000,000 grains: cost of a grain's step");
   app.add_flag("--roofline", asked.roofline, "bytes and operations of a contact against what the machine can do");
   app.add_option("--json", asked.json, "file for the results; -: standard output");
+  app.add_option("--against", asked.against, "file of --csv: says how many times as long ours takes as its last line")
+      ->check(CLI::ExistingFile);
   app.add_option("--csv", asked.csv, "file to which a line for each engine is added; slow-downs are reported");
   try {
     app.parse(argc, argv);
