@@ -6,6 +6,7 @@
 #include <string>
 
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/base/freed_memory.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
   int status = 70;
   try {
     pastefit::guard_standard_streams();
+    pastefit::keep_freed_memory();
     status = pastefit::after_output(pastefit::run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());

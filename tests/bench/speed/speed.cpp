@@ -9,6 +9,7 @@
 #include <string>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/freed_memory.h"
 #include "core/step/kernels.h"
 #include "tests/bench/speed/report.h"
 #include "tests/bench/speed/roofline.h"
@@ -107,6 +108,7 @@ int run(const Asked& asked) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();  // as the program does
   Asked asked;
   CLI::App app{"Measures speed and memory, side by side with other engines.", "pastefit-bench"};
   std::string scenes = "scenes:";
