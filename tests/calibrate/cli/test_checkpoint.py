@@ -33,6 +33,15 @@ class Checkpoint(Desk):
             out, err = process.communicate(timeout=60)
         return subprocess.CompletedProcess(command, process.returncode, out, err)
 
+    def stopped_midway(self):
+        """One that was stopped half-way, by the clock of a whole run beside it."""
+        wall_s = json.loads(run(*self.simulate()).stdout)["run"]["wall_s"]
+        for _ in range(20):
+            result = self.stopped(0.5 * wall_s + 0.1)
+            if result.returncode == 1:
+                return result
+        return result
+
     def answer(self, result):
         self.assertEqual(result.returncode, 0, result.stderr)
         outcome = json.loads(result.stdout)
@@ -63,7 +72,7 @@ class Checkpoint(Desk):
         self.assertFalse(self.file.exists())
 
     def test_a_file_of_another_run_or_program_a_damaged_one_and_one_that_is_none_are_faults(self):
-        self.fails(self.stopped(1.0), 1)
+        self.fails(self.stopped_midway(), 1)
         good = self.file.read_bytes()
         self.fails(run(*self.simulate("--checkpoint", self.file, "--seed", "9")), 2, "run.checkpoint",
                    "is of another run", "seed")
