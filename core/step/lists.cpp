@@ -37,7 +37,7 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
     wall_leeway_ = std::clamp(wall_speed * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
     wall_way_ = 0;
   }
-  const Timed timed(clock_, StageClock::select);
+  const Timed timed(clock_, StageClock::choice);
   note_ways();
   const Deepest deepest = select_pairs();
   select_at_walls(walls_due || relisted);
@@ -47,7 +47,7 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
 
 /// Prepares to choose from the candidates as they are; false if that would not do.
 bool Lists::goes_on(double duration) {
-  const Timed timed(clock_, StageClock::select);
+  const Timed timed(clock_, StageClock::choice);
   take_along();
   let_sleep();
   return give_leeway(duration);

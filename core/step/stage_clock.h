@@ -9,7 +9,7 @@ namespace pastefit {
 /// How long each stage of the steps took [s], for benches; asked for in `StepOptions`.
 /// Requirement: one thread.
 struct StageClock {
-  enum Stage { list, select, pair, bridge, wall, move, stages };
+  enum Stage { list, choice, pair, bridge, wall, move, stages };
   static constexpr std::array<std::string_view, stages> names{"list", "select", "pair", "bridge", "wall", "move"};
   std::array<double, stages> seconds{};
 };

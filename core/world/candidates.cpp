@@ -38,7 +38,7 @@ Vicinity::Vicinity(const Particles& particles, const Domain& domain, double fart
 
 void Vicinity::gather(std::int32_t begin, std::int32_t end) {
   const std::int32_t count = count_ + end - begin;
-  const auto room = static_cast<std::size_t>(count + kLanes);  // the last lanes are read, not looked at
+  const auto room = static_cast<std::size_t>(count) + kLanes;  // the last lanes are read, not looked at
   if (grain_.size() < room) {
     for (std::vector<float>& column : gathered_) column.resize(2 * room, 1.0F);
     grain_.resize(2 * room);
