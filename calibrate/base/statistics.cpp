@@ -1,6 +1,7 @@
 #include "calibrate/base/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -23,6 +24,13 @@ double rounding(const Sample& first, const Sample& second) {
 double widening(int readings) {
   constexpr double kOutside = 0.05, kNormalQuantile = 1.959963984540054;
   return readings > 1 ? quantile(readings - 1, kOutside) / kNormalQuantile : 1;
+}
+
+ProbabilityInterval binomial_interval(int count, int trials) {
+  constexpr double kBeyondEachEnd = 0.025;
+  using Binomial = boost::math::binomial;
+  return {Binomial::find_lower_bound_on_p(trials, count, kBeyondEachEnd),
+          Binomial::find_upper_bound_on_p(trials, count, kBeyondEachEnd)};
 }
 
 Sample sample_of(std::span<const double> values) {

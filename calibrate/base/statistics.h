@@ -35,6 +35,16 @@ struct WeighedSquare {
 /// squares over that of a chi-square variable of one degree of freedom. Requirement: one at least, weights > 0.
 double usual_variance(std::vector<WeighedSquare> squares);
 
+/// Ends of an interval for a probability.
+struct ProbabilityInterval {
+  double lower = 0, upper = 1;
+};
+
+/// The 95 % interval of Clopper and Pearson (Biometrika 26 (1934) 404) for the probability of what happened `count`
+/// times in `trials`: the quantiles 0.025 of Beta(k, n - k + 1) and 0.975 of Beta(k + 1, n - k). It holds the truth at
+/// least that often. Requirements: 0 <= count <= trials, trials >= 1.
+ProbabilityInterval binomial_interval(int count, int trials);
+
 /// How much wider than a known one a deviation has to be taken that was estimated from so many readings, so that their
 /// mean lies within 1.96 of its standard errors of the truth with a probability of 0.95:
 ///     t(0.975; n - 1)/1.96.

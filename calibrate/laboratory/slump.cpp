@@ -6,6 +6,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/base/rounded.h"
+#include "calibrate/base/statistics.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/specimen_json.h"
@@ -194,10 +195,12 @@ std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs)
   if (runs.size() == 1)
     return format("the heap sheared off: its top shifted by %.0f mm, more than %g mm; the standards reject such a test",
                   *runs[0].find("step1.lateral_shift_mm"), limit_mm);
+  const ProbabilityInterval share = binomial_interval(sheared, sheared + whole);
   return format(
-             "%d of %zu packings sheared off (top shifted by more than %g mm), which the standards reject: "
-             "height after step 1 %.1f mm with them",
-             sheared, runs.size(), limit_mm, all_mm / (sheared + whole)) +
+             "%d of %zu packings sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than "
+             "%g mm), "
+             "which the standards reject: height after step 1 %.1f mm with them",
+             sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm, all_mm / (sheared + whole)) +
          (whole > 0 ? format(", %.1f mm without", whole_mm / whole) : std::string());
 }
 

@@ -58,3 +58,22 @@ TEST_CASE("readings without scatter may differ by rounding only") {
   CHECK(band_of(fixed, {4, 12.5 + 1e-10, 0}, 1e-3) > 1e-10);
   CHECK(band_of(fixed, {4, 12.5, 0}, 1e-3) < 1e-6);
 }
+
+TEST_CASE("an interval of a share holds the truth in 95 of 100 samples or more, whatever the share") {
+  constexpr int kTrials = 12;
+  for (double truth = 0.005; truth < 1; truth += 0.005) {
+    double covered = 0, chance = std::pow(1 - truth, kTrials);  // of 0 in 12
+    for (int count = 0; count <= kTrials; ++count) {
+      const ProbabilityInterval interval = binomial_interval(count, kTrials);
+      if (interval.lower <= truth && truth <= interval.upper) covered += chance;
+      chance *= (kTrials - count) / (count + 1.0) * truth / (1 - truth);
+    }
+    CAPTURE(truth);
+    CHECK(covered >= 0.95);
+  }
+  // Where nothing or everything happened the interval has a closed form, and one end is certain.
+  CHECK(binomial_interval(0, kTrials).lower == 0);
+  CHECK(binomial_interval(0, kTrials).upper == Approx(1 - std::pow(0.025, 1.0 / kTrials)));
+  CHECK(binomial_interval(kTrials, kTrials).lower == Approx(std::pow(0.025, 1.0 / kTrials)));
+  CHECK(binomial_interval(kTrials, kTrials).upper == 1);
+}
