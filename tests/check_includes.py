@@ -21,8 +21,8 @@ FILES = sorted(file for part in ("core", "calibrate") for file in (SOURCE / part
 SLUMP_FILES = {
     "laboratory/heap_shape.cpp", "laboratory/heap_shape.h", "laboratory/slump.cpp", "laboratory/slump.h",
     "laboratory/slump_drawing.cpp", "laboratory/slump_template.cpp", "laboratory/test.cpp", "laboratory/test.h",
-    "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/lammps.cpp", "exports/lammps_deck.cpp",
-    "exports/lammps_deck.h", "exports/lammps_tables.cpp", "exports/liggghts.cpp", "exports/mercurydpm.cpp",
+    "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
+    "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/lammps_tables.cpp", "exports/liggghts.cpp", "exports/mercurydpm.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",
     "study/parameters.cpp",
 }

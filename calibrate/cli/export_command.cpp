@@ -7,6 +7,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
@@ -35,12 +36,32 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
          " (pastefit export --test NAME).\n\n";
 }
 
-std::string notes_text(const Exporter& exporter, const Card& card, const CardTest& test, const Export& written) {
+/// The heap to expect, and the command that compares that of the other program with it.
+std::string comparison_text(const ExportOptions& options, const Card& card, const CardTest& test,
+                            const std::string& heap) {
+  std::string out;
+  const auto packings = card.confirmation.packings.size();
+  if (packings >= 2 && !test.observables.empty()) {
+    out += format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
+    for (const CardObservable& reading : test.observables)
+      out += format("    %-28s %10.5g +- %.2g\n", reading.name.c_str(), reading.simulated,
+                    reading.simulated_standard_deviation);
+  }
+  out += "\nTo compare the heap of the deck with the card's:\n    pastefit read " +
+         (std::filesystem::path(options.out) / heap).string() + " --card " + options.card;
+  if (!options.test.empty()) out += " --test " + options.test;
+  if (options.packing) out += " --packing " + std::to_string(*options.packing);
+  return out + "\n";
+}
+
+std::string notes_text(const ExportOptions& options, const Exporter& exporter, const Card& card, const CardTest& test,
+                       const Export& written) {
   std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
                     lines_of(choice_text(card, test));
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
+  if (!written.heap.empty()) out += lines_of(comparison_text(options, card, test, written.heap));
   return out;
 }
 
@@ -76,7 +97,7 @@ int export_to_folder(const ExportOptions& options) {
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
   if (!folder.ok()) return report(folder.faults());
   auto files = written.value().files;
-  files.push_back({kNotes, notes_text(*exporter, card.value(), test.value(), written.value())});
+  files.push_back({kNotes, notes_text(options, *exporter, card.value(), test.value(), written.value())});
   for (const auto& file : files) {
     std::error_code ignored;  // what cannot be made cannot be written into
     std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
       {"report", "write the page of a calibration, for a browser", add_report},
       {"rescale", "carry a material card to another grain size", add_rescale},
       {"export", "write a material card's test for another DEM program", add_export},
+      {"read", "compare the heap of an exported deck with the card", add_read},
       {"check", "simulate cards again and compare within the noise", add_check},
       {"verify", "hold the contact laws against closed forms, case by case", add_verify},
       {"help", "say what the program does, or one of its verbs", add_help}};

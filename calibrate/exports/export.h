@@ -52,6 +52,7 @@ struct Export {
   std::vector<ExportFile> files;
   std::vector<std::string> notes;  ///< what the target cannot represent, each with a number; for people
   std::string instructions = {};   ///< how to run it
+  std::string heap = {};           ///< the dump that the deck of the whole test leaves; empty: there is no such deck
 };
 
 /// A target. Errors: a law the target lacks and nothing can stand in for.

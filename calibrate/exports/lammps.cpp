@@ -97,6 +97,7 @@ Result<Export> export_lammps(const ExportScene& scene) {
   out.instructions = kBuild;
   out.files = lammps_deck(scene, laws, out.notes, scene.packing.radii);
   for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});
+  if (scene.slump()) out.heap = "heap.dump";
   return out;
 }
 

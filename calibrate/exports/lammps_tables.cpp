@@ -264,6 +264,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   out.notes = table_losses(scene, load / 10);
   out.files = lammps_deck(scene, laws, out.notes, radii);
   if (attracts) out.files.push_back({"attraction.table", tables});
+  if (scene.slump()) out.heap = "heap.dump";
   return out;
 }
 

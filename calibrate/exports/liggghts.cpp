@@ -304,6 +304,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   if (attracts) out.files.push_back(bridge_curves(scene, fit));
   if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "liggghts"));
   out.instructions = "liggghts -in DECK, which is in.slump or in.two_grains\n";
+  if (scene.slump()) out.heap = "heap.dump";
   return out;
 }
 

@@ -123,7 +123,7 @@ def laws(grains, *walls):
 )PY";
 
 constexpr const char* kSlump = R"PY(# The slump test, step 1. In this folder:   yade -n -x slump.py
-# Writes filled.dump and heap.dump (x y z radius), prints the highest grain.
+# Writes filled.dump and heap.dump (id x y z radius), prints the highest grain.
 import os, sys
 sys.path.insert(0, os.getcwd())
 from pastefit_material import *
@@ -163,9 +163,9 @@ O.dt = TIME_STEP
 
 def dump(name):
     with open(name, 'w') as out:
-        out.write('ITEM: ATOMS x y z radius\n')
-        for i, row in zip(ids, rows):
-            out.write('%.9g %.9g %.9g %.9g\n' % (*O.bodies[i].state.pos, row[3]))
+        out.write('ITEM: NUMBER OF ATOMS\n%d\nITEM: ATOMS id x y z radius\n' % len(ids))
+        for number, (i, row) in enumerate(zip(ids, rows), 1):
+            out.write('%d %.9g %.9g %.9g %.9g\n' % (number, *O.bodies[i].state.pos, row[3]))
 
 O.run(int(0.25 / O.dt), True)
 relax.dead = True
@@ -311,6 +311,7 @@ Result<Export> export_yade(const ExportScene& scene) {
     out.files.push_back(grains_csv(scene));
   }
   out.instructions = "yade -n -x SCRIPT, which is slump.py or two_grains.py\n";
+  if (scene.slump()) out.heap = "heap.dump";
   return out;
 }
 

@@ -71,9 +71,42 @@ class CardCommands(Desk):
             result = run("export", coarse_card(), "--to", target, "--out", out)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("NOTES.txt", result.stdout)
+            if target in ("lammps", "lammps-tables", "liggghts", "yade"):
+                self.assertIn(f"pastefit read {out}/heap.dump --card {coarse_card()}\n", result.stdout)
             self.fails(run("export", coarse_card(), "--to", target, "--out", out), 2, "earlier result")
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
         self.assertFalse((self.folder / "x").exists())
+
+    def test_the_heap_of_a_deck_is_read_beside_the_card(self):
+        out = self.folder / "deck"
+        self.assertEqual(run("export", CARD, "--to", "csv", "--out", out).returncode, 0)
+        rows = [row.split(",") for row in (out / "grains.csv").read_text().split()[1:]]
+
+        def dump(name, rows):
+            lines = [f"{i} {' '.join(row)}\n" for i, row in enumerate(rows, 1)]
+            (out / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" + "".join(lines))
+            return out / name
+
+        standing = dump("heap.dump", rows)
+        self.fails(run("read", standing, "--card", CARD), 2, "filled.dump", "--filled")
+        dump("filled.dump", rows)
+        self.fails(run("read", standing, "--card", coarse_card()), 2, "grains, that of the card")  # another card's
+        result = run("read", standing, "--card", CARD, "--json")
+        self.assertEqual(result.returncode, 1, result.stderr)  # it did not slump
+        answer = json.loads(result.stdout)
+        height = answer["readings"]["step1.height_mm"]
+        self.assertAlmostEqual(height["read"], 300, delta=6)
+        card = json.loads(CARD.read_text())["tests"][0]["observables"]["step1.height_mm"]
+        self.assertEqual(height["simulated"], card["simulated"])
+        self.assertEqual(height["measured"], card["measured"])
+        self.assertGreater(height["noise"], 2 * height["simulated_standard_deviation"])
+        self.assertFalse(height["agrees"])
+        text = run("read", standing, "--card", CARD).stdout
+        self.assertIn("differs", text)
+        self.assertLessEqual(max(map(len, text.splitlines())), 110)
+        bad = dump("bad.dump", [["nan", *rows[0][1:]], *rows[1:]])
+        self.fails(run("read", bad, "--card", self.folder / "none.json"), 2, "bad.dump line 4", "none.json")
+        self.fails(run("read", dump("short.dump", rows[1:]), "--card", CARD), 2, "grains")
 
     def test_of_several_tests_the_one_that_is_named_is_exported_and_simulated(self):
         first, named = self.folder / "first", self.folder / "named"

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/base/statistics.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/exports/export.h"
+#include "calibrate/exports/heap_dump.h"
+
+namespace pastefit {
+
+namespace {
+
+/// Probability to call a heap of the same material another one, a reading.
+constexpr double kReadFalseAlarm = 0.05;
+
+struct ReadOptions {
+  std::vector<std::string> dumps;
+  std::string card, filled, test;
+  std::optional<std::uint64_t> packing;
+  bool json = false;
+};
+
+/// One reading of a dump beside what the card has of it.
+struct HeapReading {
+  std::string name;
+  double read = 0;
+  const CardObservable* of_card = nullptr;  ///< null: the card does not have it
+  std::optional<double> band;               ///< of |read - simulated| by the noise of packings; none: it is unknown
+
+  bool agrees() const { return !band || std::abs(read - of_card->simulated) <= *band; }
+};
+
+std::vector<HeapReading> beside_card(const Observables& readings, const CardTest& test, std::size_t packings) {
+  std::vector<HeapReading> out;
+  for (const Observable& reading : readings.all()) {
+    HeapReading one{reading.name, reading.value, nullptr, std::nullopt};
+    const auto of_card = std::ranges::find(test.observables, reading.name, &CardObservable::name);
+    if (of_card != test.observables.end()) {
+      one.of_card = &*of_card;
+      if (packings >= 2)
+        one.band = band_of({static_cast<int>(packings), of_card->simulated, of_card->simulated_standard_deviation},
+                           {1, reading.value, 0}, kReadFalseAlarm);
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::string reading_table(const std::vector<HeapReading>& readings, std::size_t packings) {
+  std::string out = format("%-27s %10s %17s %17s %10s %8s\n", "Reading", "dump", "card +- scatter", "laboratory +- sd",
+                           "difference", "noise");
+  for (const auto& [name, read, card, band] : readings) {
+    out += format("%-27s %10.5g", name.c_str(), read);
+    if (!card) {
+      out += format(" %17s\n", "not on the card");
+      continue;
+    }
+    out += format(" %17s", format("%.5g +- %.2g", card->simulated, card->simulated_standard_deviation).c_str());
+    out += format(" %17s", card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation).c_str()
+                                          : "not measured");
+    out += format(" %+10.3g %8s", read - card->simulated, band ? format("%.3g", *band).c_str() : "unknown");
+    out += band && std::abs(read - card->simulated) > *band ? "  differs\n" : "\n";
+  }
+  if (packings < 2) return out;
+  return out + format(
+                   "Scatter: standard deviation over the card's %zu packings. Noise: a heap of the\n"
+                   "card's material in another packing differs by less 95 times in 100.\n",
+                   packings);
+}
+
+nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings, bool agrees) {
+  nlohmann::ordered_json out{
+      {"packings", packings}, {"agrees", agrees}, {"readings", nlohmann::ordered_json::object()}};
+  for (const HeapReading& one : readings) {
+    nlohmann::ordered_json& row = out["readings"][one.name];
+    row["read"] = one.read;
+    if (!one.of_card) continue;
+    row["simulated"] = one.of_card->simulated;
+    row["simulated_standard_deviation"] = one.of_card->simulated_standard_deviation;
+    if (one.of_card->measured) {
+      row["measured"] = *one.of_card->measured;
+      row["standard_deviation"] = one.of_card->standard_deviation;
+    }
+    row["difference"] = one.read - one.of_card->simulated;
+    if (one.band) row["noise"] = *one.band;
+    row["agrees"] = one.agrees();
+  }
+  return out;
+}
+
+int read_heap_of(const ReadOptions& options) {
+  Faults faults;
+  const auto append = [&](const auto& result) {
+    if (!result.ok()) faults.insert(faults.end(), result.faults().begin(), result.faults().end());
+  };
+  const auto card = read_card(options.card);
+  append(card);
+  std::vector<Particles> heaps;
+  for (const std::string& file : options.dumps) {
+    auto heap = read_dump(file);
+    append(heap);
+    if (heap.ok()) heaps.push_back(std::move(heap).value());
+  }
+  const auto beside = std::filesystem::path(options.dumps[0]).parent_path() / "filled.dump";
+  auto filled = read_dump(options.filled.empty() ? beside.string() : options.filled);
+  if (!filled.ok() && options.filled.empty())
+    for (Fault fault : filled.faults())
+      faults.push_back(
+          {std::move(fault.where), std::move(fault.what), "the deck writes it beside the heap; give it with --filled"});
+  else
+    append(filled);
+  if (!faults.empty()) return report(faults);
+
+  const auto test = test_to_export(card.value(), options.test);
+  if (!test.ok()) return report(test.faults());
+  const auto read = read_heaps(test.value().test, options.packing, filled.value(), heaps);
+  if (!read.ok()) return report(read.faults());
+
+  const std::size_t packings = card.value().confirmation.packings.size();
+  const auto readings = beside_card(read.value(), test.value(), packings);
+  const bool agrees = std::ranges::all_of(readings, &HeapReading::agrees);
+  if (options.json) {
+    print("%s", json_text(json_of(readings, packings, agrees)).c_str());
+  } else {
+    print("%s", reading_table(readings, packings).c_str());
+    const bool compared = std::ranges::any_of(readings, [](const HeapReading& one) { return one.band.has_value(); });
+    print(!compared ? "The card has no readings of two packings or more to compare with.\n"
+          : agrees  ? "The heap agrees with the card.\n"
+                    : "The heap differs from the card's by more than the noise.\n");
+  }
+  return agrees ? kDone : kFailed;
+}
+
+}  // namespace
+
+Command add_read(CLI::App& verb) {
+  const auto options = std::make_shared<ReadOptions>();
+  verb.add_option("DUMP", options->dumps, "the heap after step 1 (and after step 2), a text dump of the exported deck")
+      ->required()
+      ->expected(1, 2);
+  verb.add_option("--card", options->card, "card from which the deck was exported")->required()->type_name("CARD");
+  verb.add_option("--filled", options->filled,
+                  "dump of the grains as they were filled in; without it filled.dump beside the heap")
+      ->type_name("FILE");
+  verb.add_option("--test", options->test, "the card's test that was exported; without it that of export")
+      ->type_name("NAME");
+  verb.add_option("--packing", options->packing, "seed of the packing that was exported; without it the test's own")
+      ->check(whole_number());
+  verb.add_flag("--json", options->json, "print the readings as JSON");
+  return [options] { return read_heap_of(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,207 @@
+#include "calibrate/exports/heap_dump.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "calibrate/base/fault_text.h"
+#include "core/rigs/slump/packing.h"
+#include "core/rigs/slump/ruler.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr std::size_t kMostDumpFaults = 20;
+constexpr double kFarthest = 1e3;  // [m]; no slump test is larger
+constexpr std::array<std::string_view, 5> kDumpColumns{"id", "x", "y", "z", "radius"};
+const std::string kDumpRemedy = "write it with \"dump ... custom ... id x y z radius\"";
+
+std::vector<std::string_view> columns_of_line(std::string_view line) {
+  std::vector<std::string_view> out;
+  for (std::size_t end = 0;;) {
+    const std::size_t begin = line.find_first_not_of(" \t\r", end);
+    if (begin == std::string_view::npos) return out;
+    end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    out.push_back(line.substr(begin, end - begin));
+  }
+}
+
+/// A snapshot of a dump while it is read line by line.
+class DumpReader {
+ public:
+  explicit DumpReader(const std::string& name) : name_(name) {}
+
+  void take(std::string_view line) {
+    ++line_;
+    if (line.starts_with("ITEM:"))
+      begin_item(line);
+    else if (item_ == Item::count)
+      read_count(line);
+    else if (item_ == Item::grains)
+      read_grain(columns_of_line(line));
+  }
+
+  bool full() const { return faults_.size() >= kMostDumpFaults; }
+
+  Result<Particles> finish() {
+    if (item_ == Item::grains) end_grains();
+    if (!seen_ && faults_.empty())
+      faults_.push_back({name_, "holds no line \"ITEM: ATOMS ...\": it is no text dump of grains", kDumpRemedy});
+    if (!faults_.empty()) return faults_;
+    std::vector<std::size_t> order(grains_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](std::size_t i) { return grains_[i][0]; });
+    std::vector<Vec3> centres;
+    std::vector<double> radii;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const auto& grain = grains_[order[k]];
+      if (k > 0 && grains_[order[k - 1]][0] == grain[0])
+        return Fault{name_, "holds grain " + shown(grain[0]) + " twice", "each grain once in a snapshot"};
+      centres.push_back({grain[1], grain[2], grain[3]});
+      radii.push_back(grain[4]);
+    }
+    return make_particles(centres, radii, 1000);
+  }
+
+ private:
+  enum class Item { other, count, grains };
+
+  void fault(const std::string& what, const std::string& remedy) {
+    if (!full()) faults_.push_back({name_ + " line " + std::to_string(line_), what, remedy});
+  }
+
+  void begin_item(std::string_view line) {
+    if (item_ == Item::grains) end_grains();
+    const auto words = columns_of_line(line);
+    item_ = Item::other;
+    if (line.starts_with("ITEM: NUMBER OF ATOMS")) item_ = Item::count;
+    if (line.starts_with("ITEM: TIMESTEP")) count_.reset();
+    if (!line.starts_with("ITEM: ATOMS")) return;
+    item_ = Item::grains;
+    seen_ = true;
+    grains_.clear();
+    columns_ = words.size() - 2;
+    for (std::size_t i = 0; i < kDumpColumns.size(); ++i) {
+      const auto at = std::ranges::find(words.begin() + 2, words.end(), kDumpColumns[i]);
+      if (at == words.end())
+        fault("lacks the column " + std::string(kDumpColumns[i]), kDumpRemedy);
+      else
+        places_[i] = static_cast<std::size_t>(at - words.begin()) - 2;
+    }
+    readable_ = faults_.empty();
+  }
+
+  void read_count(std::string_view line) {
+    const auto words = columns_of_line(line);
+    std::size_t count = 0;
+    if (words.size() != 1 ||
+        std::from_chars(words[0].data(), words[0].data() + words[0].size(), count).ptr != words[0].end())
+      fault("is no number of atoms", "a whole number");
+    else
+      count_ = count;
+  }
+
+  void read_grain(const std::vector<std::string_view>& words) {
+    if (!readable_ || words.empty()) return;
+    if (words.size() != columns_)
+      return fault("holds " + std::to_string(words.size()) + " columns, the header " + std::to_string(columns_),
+                   "a dump that was written to its end");
+    std::array<double, kDumpColumns.size()> grain{};
+    for (std::size_t i = 0; i < grain.size(); ++i) {
+      const std::string_view word = words[places_[i]];
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), grain[i]);
+      const std::string column(kDumpColumns[i]);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(grain[i]))
+        return fault(column + " is " + in_quotes(word), "a finite number");
+      if (i == 0 && (grain[i] < 1 || grain[i] != std::floor(grain[i]) || grain[i] > 1e15))
+        return fault("id is " + in_quotes(word), "a whole number from 1");
+      if (i > 0 && std::abs(grain[i]) > kFarthest)
+        return fault(column + " is " + in_quotes(word), "metres, at most 1000 from the origin");
+    }
+    if (grain[4] <= 0) return fault("radius is " + shown(grain[4]), "a radius above 0, in metres");
+    grains_.push_back(grain);
+  }
+
+  void end_grains() {
+    if (!readable_ || full()) return;
+    if (grains_.empty() && faults_.empty()) fault("holds no grain", "a dump of the heap");
+    if (count_ && faults_.empty() && *count_ != grains_.size())
+      fault("ends after " + std::to_string(grains_.size()) + " grains of " + std::to_string(*count_),
+            "a dump that was written to its end");
+  }
+
+  const std::string& name_;
+  std::size_t line_ = 0, columns_ = 0;
+  Item item_ = Item::other;
+  bool seen_ = false, readable_ = false;
+  std::optional<std::size_t> count_;
+  std::array<std::size_t, kDumpColumns.size()> places_{};
+  std::vector<std::array<double, kDumpColumns.size()>> grains_;
+  Faults faults_;
+};
+
+}  // namespace
+
+Result<Particles> parse_dump(std::string_view text, const std::string& name) {
+  DumpReader reader(name);
+  while (!text.empty() && !reader.full()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    reader.take(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return reader.finish();
+}
+
+Result<Particles> read_dump(const std::filesystem::path& file) {
+  const std::string name = printable(file.string());
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return Fault{name, "there is no such file", "check the path"};
+  if (!std::filesystem::is_regular_file(status))
+    return Fault{name, "is no regular file", "a text dump of LAMMPS, LIGGGHTS or the Yade script"};
+  const auto size = std::filesystem::file_size(file, error);
+  if (error || size > kLargestDump)
+    return Fault{name, "is larger than " + std::to_string(kLargestDump >> 20) + " MB", "a dump of the last heap alone"};
+  std::ifstream in(file, std::ios::binary);
+  std::string text(size, '\0');
+  if (!in || !in.read(text.data(), static_cast<std::streamsize>(size)))
+    return Fault{name, "cannot be read", "check its permissions"};
+  return parse_dump(text, name);
+}
+
+Result<Observables> read_heaps(const Test& test, std::optional<std::uint64_t> packing_seed, const Particles& filled,
+                               std::span<const Particles> heaps) {
+  const auto* const slump = std::get_if<SlumpTest>(&test);
+  if (!slump) return Fault{"the card's test", "is no slump test: there is no heap to read", "a slump test with --test"};
+  SlumpTest exported = *slump;
+  exported.packing_seed = packing_seed.value_or(exported.packing_seed);
+  Faults faults;
+  for (const Particles& heap : heaps)
+    if (heap.count() != filled.count())
+      faults.push_back({"dumps",
+                        "hold " + std::to_string(filled.count()) + " grains in the mould and " +
+                            std::to_string(heap.count()) + " in the heap",
+                        "give the dump of the same run with --filled; grains must not be lost"});
+  const auto packing = fill_mould(exported);
+  if (packing->failure) faults.push_back({"the mould of the card", packing->failure->message, "another --packing"});
+  const auto expected = static_cast<double>(packing->centres.size());
+  const auto count = static_cast<double>(filled.count());
+  if (!packing->failure && std::abs(count - expected) > 0.1 * expected)
+    faults.push_back({"the filled mould", "holds " + shown(count) + " grains, that of the card " + shown(expected),
+                      "give the card from which the deck was exported"});
+  if (!faults.empty()) return faults;
+  const Ruler ruler(exported, packing->roughness_m, filled);
+  Observables readings;
+  for (std::size_t step = 0; step < heaps.size(); ++step)
+    ruler.read(heaps[step], "step" + std::to_string(step + 1), readings);
+  return readings;
+}
+
+}  // namespace pastefit
