@@ -1,37 +1,87 @@
+#include <numbers>
+
+#include "calibrate/base/format.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/parameter_table.h"
+#include "calibrate/verify/force_curve.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr const char* kJkrInstructions = R"(
-How to use this in EDEM
-1. Base model Hertz-Mindlin with JKR: shear modulus G = E/(2 (1 + nu)), Poisson's ratio, restitution, static friction and
-   surface energy from the table above. EDEM's JKR is this law, surface_energy_j_m2 its surface energy; it lets go a third
-   of a percent of the distance sooner.
-2. Rolling friction: the standard model of EDEM is a torque against the spin.
-3. Walls: surface_energy_j_m2 times the wall's cohesion_factor.
-4. Grains: grains.csv is a filled mould at rest; import it as particle positions.
-Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
-)";
+double shear_modulus_pa(double youngs_modulus, double poissons_ratio) {
+  return youngs_modulus / (2 * (1 + poissons_ratio));
+}
 
-constexpr const char* kEdemInstructions = R"(
-How to use this in EDEM
-1. Base model Hertz-Mindlin (no slip): shear modulus G = E/(2 (1 + nu)), Poisson's ratio, restitution, static friction
-   from the table above. EDEM's damping is the same function of the restitution.
-2. Rolling friction: the standard model of EDEM is a torque against the spin, not a spring and dashpot; with the small
-   coefficients of pastes the difference is small, but it is one.
-3. The attraction: EDEM has no such bridge. force.csv is the curve; a physics plug-in (API contact model) that
-   interpolates it, scaled by s for other pairs of sizes, carries the law. Its contact radius has to exceed the radius
-   of the grains by half of |d_c|.
-   Without a plug-in, the nearest built-in model is Hertz-Mindlin with JKR. It has no attraction across a gap before
-   touch. Choose its surface energy gamma for the same force at touch: gamma = 3 c/(8 pi R*), and run a slump test
-   before you trust it.
-4. Grains: grains.csv, if there is one, is a filled mould at rest; import it as particle positions.
-Nothing of this has been run in EDEM: pastefit's tests have no licence for it.
-)";
+std::string grains_in_edem(const ContactModel& contact) {
+  return format("shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g,\n   static friction %.6g",
+                1e-6 * shear_modulus_pa(contact.youngs_modulus_pa, contact.poissons_ratio), contact.poissons_ratio,
+                contact.restitution, contact.friction);
+}
+
+std::string rolling_in_edem(const ContactModel& contact) {
+  if (contact.rolling == RollingModel::none || contact.rolling_friction == 0) return "2. Rolling friction: none.\n";
+  std::string out =
+      format("2. Rolling friction: %.6g. EDEM's standard model is a torque against the spin", contact.rolling_friction);
+  if (contact.rolling == RollingModel::spring_dashpot)
+    out +=
+        "; the card has a\n   spring and a dashpot with the same largest moment. Run a test before you trust the "
+        "difference";
+  return out + ".\n";
+}
+
+/// `surface_energy` is that of two grains.
+std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
+  std::string out = "3. Walls:\n";
+  for (const auto& [name, wall] : walls_of(scene.test))
+    out += format(
+        "   %s: shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g, static friction %.6g,\n"
+        "   rolling friction %.6g, surface energy %.6g J/m2\n",
+        name.c_str(), 1e-6 * shear_modulus_pa(wall.youngs_modulus_pa, wall.poissons_ratio), wall.poissons_ratio,
+        wall.restitution, wall.friction, wall.rolling_friction, wall.cohesion_factor * surface_energy);
+  return out;
+}
+
+constexpr const char* kEdemEnd =
+    "Grains: grains.csv, if there is one, is a filled mould at rest; import it as particle positions.\n"
+    "Nothing of this has been run in EDEM: pastefit's tests have no licence for it.\n";
+
+std::string jkr_instructions(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  return "\nHow to use this in EDEM\n1. Base model Hertz-Mindlin with JKR: " + grains_in_edem(contact) +
+         format(
+             ", surface energy %.6g J/m2.\n   EDEM's JKR is this law; it lets go a third of a percent of the distance "
+             "sooner.\n",
+             contact.surface_energy_j_m2) +
+         rolling_in_edem(contact) + walls_in_edem(scene, contact.surface_energy_j_m2) + kEdemEnd;
+}
+
+/// Surface energy of JKR that attracts two mean grains at touch by this force, 8/3 pi gamma R*, R* = R/2.
+double jkr_energy_of_touch(double force, double radius) {
+  return 3 * force / (4 * std::numbers::pi * radius);
+}
+
+std::string bridge_instructions(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const double touch = attraction_n(contact, scene.mean_pair(), 0);
+  const double energy = jkr_energy_of_touch(touch, scene.radius_m());
+  std::string out = "\nHow to use this in EDEM\n1. Base model Hertz-Mindlin (no slip): " + grains_in_edem(contact) +
+                    ".\n   EDEM's damping is the same function of the restitution.\n" + rolling_in_edem(contact) +
+                    walls_in_edem(scene, energy);
+  if (touch > 0)
+    out += format(
+               "4. The attraction: EDEM has no such bridge. force.csv is the curve; a physics plug-in (API contact\n"
+               "   model) that interpolates it, scaled by s for other pairs of sizes, carries the law. Its contact\n"
+               "   radius has to exceed the radius of the grains by %.6g mm, half of the rupture gap.\n",
+               500 * bridge_gaps(contact, scene.mean_pair()).rupture_m) +
+           format(
+               "   Without a plug-in, the nearest built-in model is Hertz-Mindlin with JKR with a surface energy of\n"
+               "   %.6g J/m2, which attracts two grains at touch by the same force, %.6g N. It has no attraction\n"
+               "   across a gap before touch: run a test before you trust it.\n",
+               energy, touch);
+  return out + kEdemEnd;
+}
 
 }  // namespace
 
@@ -42,12 +92,12 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
   if (sticks) known.attraction = {BridgeShape::none};  // a plug-in takes the place of EDEM's own JKR
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (sticks)
-    return Export{law_files(scene, {{"edem.txt", laws_in_words(scene) + kJkrInstructions}}),
+    return Export{law_files(scene, {{"edem.txt", laws_in_words(scene) + jkr_instructions(scene)}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   return Export{
-      law_files(scene, {{"edem.txt", laws_in_words(scene) + kEdemInstructions}}),
+      law_files(scene, {{"edem.txt", laws_in_words(scene) + bridge_instructions(scene)}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
 }
 

@@ -280,13 +280,31 @@ ExportFile bridge_curves(const ExportScene& scene, const SoulieFit& fit) {
   return {"curves.csv", text};
 }
 
+/// What LIGGGHTS 3.8.0 refuses when a deck starts (`0.05 < coefficientRestitution <= 1 required`).
+Faults beyond_limits(const ExportScene& scene) {
+  constexpr double kLeastRestitution = 0.05;
+  Faults faults;
+  const auto check = [&](const std::string& place, double restitution, const std::string& remedy) {
+    if (restitution <= kLeastRestitution)
+      faults.push_back({place,
+                        format("is %g; LIGGGHTS takes a restitution above %g only", restitution, kLeastRestitution),
+                        "calibrate with " + remedy + ", or export to another target"});
+  };
+  check("test.contact.restitution", scene.contact().restitution, "\"restitution\" 0.06 or more");
+  for (const auto& [name, wall] : walls_of(scene.test))
+    check("test." + name + "_wall.restitution", wall.restitution, "a wall of restitution 0.06 or more");
+  return faults;
+}
+
 }  // namespace
 
 Result<Export> export_liggghts(const ExportScene& scene) {
   const ContactModel& card = scene.contact();
   KnownLaws known{"LIGGGHTS", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr}, kAllRolling};
   if (card.normal != NormalLaw::hertz) known.attraction = {BridgeShape::none};  // it has one cohesion at a time
-  if (Faults faults = unknown_laws(card, known); !faults.empty()) return faults;
+  Faults faults = unknown_laws(card, known);
+  for (Fault& fault : beyond_limits(scene)) faults.push_back(std::move(fault));
+  if (!faults.empty()) return faults;
   const double radius = scene.radius_m();
   const ContactModel contact = with_nearest_law(card, NormalLaw::sjkr, radius);
   const GrainPair pair = scene.mean_pair();

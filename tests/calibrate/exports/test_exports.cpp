@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "calibrate/exports/export.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/exports/parameter_table.h"
 #include "calibrate/exports/soulie.h"
 #include "calibrate/laboratory/names.h"
@@ -196,4 +197,58 @@ TEST_CASE("LIGGGHTS's bridge is fitted: a bridge of its own kind is found again"
   CHECK(fit.bridge.rupture_gap_m() == Approx(reach).epsilon(0.01));
   CHECK(fit.bridge.surface_tension_n_m == Approx(2.5).epsilon(0.03));
   CHECK(fit.difference.largest < 0.05);
+}
+
+TEST_CASE("a restitution that LIGGGHTS refuses is refused at export, of grains and walls") {
+  SlumpTest material = slump_of_paste();
+  material.contact.restitution = 0.02;
+  material.table_wall.restitution = 0.05;
+  const auto written = export_liggghts(scene(material));
+  REQUIRE_FALSE(written.ok());
+  REQUIRE(written.faults().size() == 2);
+  CHECK(written.faults()[0].where == "test.contact.restitution");
+  CHECK_THAT(written.faults()[0].what, Catch::Contains("0.02") && Catch::Contains("above 0.05"));
+  CHECK(written.faults()[1].where == "test.table_wall.restitution");
+  material.contact.restitution = material.table_wall.restitution = 0.06;
+  CHECK(export_liggghts(scene(material)).ok());
+}
+
+TEST_CASE("the notes for EDEM give numbers: shear modulus, and the surface energy of the same force at touch") {
+  SlumpTest material = slump_of_paste();
+  material.contact.youngs_modulus_pa = 2e6;
+  material.contact.poissons_ratio = 0.3;
+  const auto text = text_of(export_edem_notes(scene(material)).value());
+  CHECK_THAT(text, Catch::Contains("shear modulus 0.769231 MPa"));
+  CHECK_THAT(text, !Catch::Contains("small coefficients") && !Catch::Contains("E/(2 (1 + nu))"));
+  const std::string before = "surface energy of\n   ";
+  REQUIRE(text.find(before) != std::string::npos);
+  ContactModel jkr = material.contact;
+  jkr.bridge.shape = BridgeShape::none;
+  jkr.normal = NormalLaw::jkr;
+  jkr.surface_energy_j_m2 = std::stod(text.substr(text.find(before) + before.size()));
+  CHECK(sticking_of(jkr, 0.5 * kRadius).at_touch_n == Approx(attraction_n(material.contact, kPair, 0)).epsilon(1e-4));
+}
+
+TEST_CASE("the deck with LAMMPS's DMT says that its friction is of the net force") {
+  SlumpTest material = slump_of_paste();
+  material.contact.bridge.shape = BridgeShape::none;
+  material.contact.normal = NormalLaw::dmt;
+  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  for (const auto basis : {FrictionBasis::total, FrictionBasis::elastic}) {
+    material.contact.friction_basis = basis;
+    CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()),
+               Catch::Contains("LAMMPS's of the net force. Two grains that only stick hold 0 N in the deck"));
+  }
+  material.contact.friction_basis = FrictionBasis::net;
+  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("The card's friction"));
+}
+
+TEST_CASE("the deck for LAMMPS as it stands says how much lower heaps of dry grains that roll are") {
+  SlumpTest material = slump_of_paste();
+  material.contact.bridge.shape = BridgeShape::none;
+  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  material.contact.rolling_friction = 0.1;
+  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), Catch::Contains("lower in the deck"));
+  material.contact.rolling_friction = 0;
+  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("lower in the deck"));
 }
