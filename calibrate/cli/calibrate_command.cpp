@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
@@ -15,14 +17,10 @@
 #include "calibrate/cli/progress_line.h"
 #include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
-#include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/search/coarse_rung.h"
-#include "calibrate/search/evaluator.h"
-#include "calibrate/search/memory.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy.h"
 #include "calibrate/store/program.h"
@@ -34,7 +32,7 @@ namespace pastefit {
 
 namespace {
 
-struct CalibrateOptions {
+struct CalibrateArguments {
   std::string study;
   std::string out;
   bool resume = false;
@@ -57,17 +55,10 @@ std::vector<std::string> results_of(const Study& study) {
   return with_store(std::move(files));
 }
 
-std::vector<std::string> names_of(const std::vector<StudyReading>& readings, bool fitted_only) {
+std::vector<std::string> fitted_readings(const Study& study) {
   std::vector<std::string> names;
-  for (const auto& reading : readings)
-    if (!fitted_only || reading.weight > 0) names.push_back(reading.name);
-  return names;
-}
-
-std::vector<std::string> free_names(const Study& study) {
-  std::vector<std::string> names;
-  for (const auto& parameter : study.parameters)
-    if (parameter.free) names.push_back(parameter.name);
+  for (const auto& reading : readings_of(study))
+    if (reading.weight > 0) names.push_back(reading.name);
   return names;
 }
 
@@ -114,7 +105,8 @@ std::string notes_on_readings(const Study& study) {
 /// Card, summary, curves and page, to the folder and to the person. Only a confirmed material is what was asked for.
 /// Who interrupts gets the page with what was seen until then.
 int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
-            const CalibrateOptions& options, const OutputFolder& folder, const std::atomic<bool>& stop, Looks& looks) {
+            const CalibrateArguments& options, const OutputFolder& folder, const std::atomic<bool>& stop,
+            Looks& looks) {
   const auto summary = summary_of(card, inference ? words_of(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
@@ -131,114 +123,97 @@ int deliver(const Card& card, const std::optional<Inference>& inference, const S
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
 
-int calibrate(const CalibrateOptions& options) {
-  const auto read = read_study(options.study);
-  if (!read.ok()) return report(read.faults());
-  const auto& study = read.value();
-  auto search_options = study.search;
-  if (options.budget > 0) search_options.budget_simulations = options.budget;
-  if (options.seed) search_options.seed = *options.seed;
-  auto for_the_search = search_options;
-  for_the_search.budget_simulations -= hold_out_simulations(study, search_options);
-  const auto fitted_tests = static_cast<int>(tests_of(study, false).size());
-  if (auto faults = validate(for_the_search, free_count(study), fitted_tests); !faults.empty()) {
-    faults = in_file(std::move(faults), options.study);
-    // What the option says instead of the file is the option's fault.
-    for (Fault& fault : faults)
-      if (options.budget > 0 && fault.where.ends_with("search.budget_simulations")) fault.where = "--budget";
-    return report(faults);
-  }
+/// The study with what the options say instead of its file.
+Result<Study> study_to_calibrate(const CalibrateArguments& options) {
+  auto read = read_study(options.study);
+  if (!read.ok()) return read;
+  SearchOptions& search = read.value().search;
+  if (options.budget > 0) search.budget_simulations = options.budget;
+  if (options.seed) search.seed = *options.seed;
+  return read;
+}
 
-  if (const auto faults = validate_memory(study, options.threads); !faults.empty())
-    return report(in_file(faults, options.study));
-  const Study coarse_study = with_coarse_grains(study);
-  if (search_options.coarse_first) {
-    const auto why = [&](std::size_t test) { return why_of_that_size(study.tests[test].lab.test); };
-    const auto fitted = tests_of(study, false);
-    if (std::ranges::none_of(fitted, [&](std::size_t test) { return why(test).empty(); }))
-      return report({{options.study + ": search.coarse_first", std::string(why(fitted.front())), "leave it out"}});
-    const std::vector<double> middle(static_cast<std::size_t>(free_count(study)), 0.5);
-    for (const StudyTest& test : coarse_study.tests)
-      if (const auto faults = validate_in_file_words(test_with(test.lab.test, values_at(coarse_study, middle), 1));
-          !faults.empty())
-        return report({{options.study + ": search.coarse_first", "with coarse grains: " + faults.front().what,
-                        "leave it out, or take smaller grains"}});
-  }
+/// What keeps the study from being calibrated. What the option says instead of the file is the option's fault.
+Faults faults_of(const Study& study, const CalibrateOptions& how, const CalibrateArguments& options) {
+  auto faults = in_file(validate(study, how), options.study);
+  for (Fault& fault : faults)
+    if (options.budget > 0 && fault.where.ends_with("search.budget_simulations")) fault.where = "--budget";
+  return faults;
+}
 
-  const std::atomic<bool>& stop = listen_for_stop();
-  const auto budget = search_options.budget_simulations;
+Result<OutputFolder> open_folder(const Study& study, const CalibrateArguments& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
-  auto folder = OutputFolder::open(options.out, results_of(study), earlier,
-                                   kSpace + static_cast<std::uintmax_t>(budget) * kSpaceOfEvaluation);
-  if (!folder.ok()) return report(folder.faults());
-  if (options.force) folder.value().clear(results_of(study));
-  auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
-  if (!store.ok()) return report(store.faults());
-  if (const auto faults = strangers_in(study, store.value(), folder.value().file(kStore)); !faults.empty())
-    return report(faults);
+  const auto budget = static_cast<std::uintmax_t>(study.search.budget_simulations);
+  auto folder = OutputFolder::open(options.out, results_of(study), earlier, kSpace + budget * kSpaceOfEvaluation);
+  if (folder.ok() && options.force) folder.value().clear(results_of(study));
+  return folder;
+}
 
+/// What a person is told before anything runs.
+void say_what_is_known(const Study& study, const Store& store, const std::string& file) {
   note("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
-       budget, store.value().size());
-  for (const auto& remark : store.value().remarks())
-    note("%s: %s.\n", folder.value().file(kStore).c_str(), remark.c_str());
-  note("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store.value()).c_str(),
-       warning_before(free_count(study), prior_count(study), names_of(readings_of(study), true)).c_str());
-  const int each = static_cast<int>(tests_of(study, false).size());
-  const int examination = search_options.examination_simulations * each + hold_out_simulations(study, search_options);
-  ProgressLine line({budget, search_options.screening * each, search_options.confirmation_packings * each, examination},
-                    misfit_unit_of(study));
-  LivePage page(options.out);
-  EvaluatorOptions evaluator;
-  evaluator.threads = options.threads;
-  evaluator.budget = budget;
-  evaluator.wall_budget_s = options.wall_budget_s;
-  evaluator.core_budget_s = options.core_budget_s;
-  evaluator.stop = &stop;
-  evaluator.observer = [&](const EvaluationCounts& counts) { line.show(counts); };
-  Looks looks;
-  evaluator.onlooker = &looks;
-  SimulationObjective objective(study, store.value(), evaluator);
-  evaluator.observer = {};
-  evaluator.onlooker = nullptr;
-  SimulationObjective coarse(coarse_study, store.value(), evaluator);
-  const auto calibration = search(
-      objective, for_the_search,
-      [&](const Progress& progress) {
-        line.show(progress);
-        page.show(study, store.value());
-      },
-      names_of(readings_of(study), false), free_names(study), search_options.coarse_first ? &coarse : nullptr);
-  const bool found = calibration.best.point.size() > 0 && !calibration.best.failed;
-  std::optional<Inference> inference;
-  if (found) line.show(Progress{"examination", 0, budget, calibration.best.miss, ""});
-  if (found) predict_hold_outs(study, calibration, objective);
-  // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
-  if (found && calibration.status != CalibrationStatus::out_of_reach && !stop)
-    inference = examine(study, objective, store.value(), calibration, search_options.examination_simulations,
-                        search_options.seed);
-  line.end();
+       study.search.budget_simulations, store.size());
+  for (const auto& remark : store.remarks()) note("%s: %s.\n", file.c_str(), remark.c_str());
+  note("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store).c_str(),
+       warning_before(free_count(study), prior_count(study), fitted_readings(study)).c_str());
+}
 
-  if (const auto faults = objective.store_faults(); !faults.empty()) return report(faults, kFailed);
-  const auto counts = objective.counts();
-  if (!found) {
-    std::fprintf(stderr, "pastefit: no material to report: %s\n", calibration.reason.c_str());
-    for (const auto& [reason, count] : counts.failures)
-      std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
-    std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.value().file(kStore).c_str());
-    (void)write_page(options.out, findings_without_card(study, store.value()));
-    return kFailed;
-  }
-  auto card = card_of(study, calibration, search_options, store.value(), counts, options.study);
-  if (inference) card.inference = card_inference(*inference);
-  return deliver(card, inference, store.value(), options, folder.value(), stop, looks);
+WorkAhead work_ahead(const Study& study) {
+  const SearchOptions& search = study.search;
+  const int each = static_cast<int>(tests_of(study, false).size());
+  return {search.budget_simulations, search.screening * each, search.confirmation_packings * each,
+          search.examination_simulations * each + hold_out_simulations(study, search)};
+}
+
+/// What is said where no candidate could be simulated; the page has what was seen.
+int say_why_not(const CalibrationResult& result, const Study& study, const Store& store, const std::string& file,
+                const std::string& out) {
+  std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
+  for (const auto& [reason, count] : result.counts.failures)
+    std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
+  std::fprintf(stderr, "The evaluations are kept in %s.\n", file.c_str());
+  (void)write_page(out, findings_without_card(study, store));
+  return kFailed;
+}
+
+int run_calibrate(const CalibrateArguments& options) {
+  const auto read = study_to_calibrate(options);
+  if (!read.ok()) return report(read.faults());
+  const Study& study = read.value();
+  CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
+  if (const auto faults = faults_of(study, how, options); !faults.empty()) return report(faults);
+
+  const std::atomic<bool>& stop = listen_for_stop();
+  how.stop = &stop;
+  const auto folder = open_folder(study, options);
+  if (!folder.ok()) return report(folder.faults());
+  const std::string file = folder.value().file(kStore);
+  auto store = Store::open(file, {program_identity(), inputs_of(study)});
+  if (!store.ok()) return report(store.faults());
+  if (const auto faults = strangers_in(study, store.value(), file); !faults.empty()) return report(faults);
+
+  say_what_is_known(study, store.value(), file);
+  ProgressLine line(work_ahead(study), misfit_unit_of(study));
+  LivePage page(options.out);
+  Looks looks;
+  const auto show = [&](const Progress& progress) {
+    line.show(progress);
+    if (progress.phase != "examination") page.show(study, store.value());
+  };
+  const auto count = [&](const EvaluationCounts& counts) { line.show(counts); };
+  const auto result = calibrate(study, store.value(), how, {show, count, &looks});
+  line.end();
+  if (!result.ok()) return report(result.faults(), kFailed);
+  if (!result.value().card) return say_why_not(result.value(), study, store.value(), file, options.out);
+  return deliver(*result.value().card, result.value().inference, store.value(), options, folder.value(), stop, looks);
 }
 
 }  // namespace
 
 Command add_calibrate(CLI::App& verb) {
-  const auto options = std::make_shared<CalibrateOptions>();
+  const auto options = std::make_shared<CalibrateArguments>();
   verb.add_option("STUDY", options->study, "study file")->required();
   verb.add_option("--out", options->out, "folder for " + kCard + ", " + kSummary + ", " + kPage + " and " + kStore)
       ->required()
@@ -259,7 +234,7 @@ Command add_calibrate(CLI::App& verb) {
       ->check(positive_number());
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
       ->check(whole_number());
-  return [options] { return calibrate(*options); };
+  return [options] { return run_calibrate(*options); };
 }
 
 }  // namespace pastefit
