@@ -7,8 +7,10 @@
 #include "calibrate/base/rounded.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/law_curves.h"
+#include "calibrate/report/reservations.h"
 #include "calibrate/report/search_history.h"
 #include "calibrate/report/summary.h"
+#include "calibrate/report/type_in_table.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"
@@ -179,6 +181,18 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
   return out;
 }
 
+ordered_json type_in_of(const Card& card) {
+  auto groups = ordered_json::array();
+  for (const TypeInGroup& group : type_in_table(card)) {
+    auto rows = ordered_json::array();
+    for (const TypeInRow& row : group.rows)
+      rows.push_back(
+          {{"quantity", row.quantity}, {"value", typed(row.value)}, {"unit", row.unit}, {"remark", row.remark}});
+    groups.push_back({{"title", group.title}, {"rows", std::move(rows)}});
+  }
+  return groups;
+}
+
 ordered_json inference_of(const Inference& inference) {
   ordered_json out{{"words", what_is_determined(inference)}, {"simulations", inference.simulations}};
   for (std::size_t i = 0; i < inference.fitted.size(); ++i)
@@ -246,9 +260,14 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
   if (findings.study) out["title"] = findings.study->title;
   if (findings.card) {
     const Card& card = *findings.card;
-    out["verdict"] = {{"words", verdict_of(card)},        {"meets_laboratory", card.confirmation.meets_laboratory},
-                      {"status", card.search.status},     {"misfit", card.confirmation.misfit},
-                      {"fresh", card.confirmation.fresh}, {"packings", card.confirmation.packings}};
+    out["verdict"] = {{"words", verdict_of(card)},
+                      {"reservations", reservations_on(card)},
+                      {"meets_laboratory", card.confirmation.meets_laboratory},
+                      {"status", card.search.status},
+                      {"misfit", card.confirmation.misfit},
+                      {"fresh", card.confirmation.fresh},
+                      {"packings", card.confirmation.packings}};
+    out["type_in"] = type_in_of(card);
     out["parameters"] = parameters_of(findings);
     out["interval_level"] = card.inference.level;
     out["radius_mm"] = 1e3 * card.material.grains.radius_m;

@@ -32,7 +32,7 @@ class CardCommands(Desk):
         for file in sorted(CARD.parent.glob("*.json")):
             result = run("show", file)
             self.assertEqual(result.returncode, 0, result.stderr)
-            for words in ("Contact law in SI", "What the readings leave open", "Fitted in", "Baseline of checks"):
+            for words in ("Type this into your DEM program", "density of a grain", "What the readings leave open", "Fitted in", "Baseline of checks"):
                 self.assertIn(words, result.stdout)
 
     def test_bad_cards_are_bad_input_for_every_verb_and_nothing_is_written(self):

@@ -7,12 +7,14 @@ import { provenancePart } from "./provenance.js";
 import { readingsPart } from "./readings.js";
 import { searchPart } from "./search.js";
 import { testsPart } from "./tests.js";
+import { typeInPart } from "./type_in.js";
 import { missingPart, verdictPart } from "./verdict.js";
 
 const always = () => true, withCard = (content) => content.tests !== undefined;
 const parts = [
   ["", verdictPart, always],
   ["", missingPart, always],
+  ["Numbers to type in", typeInPart, withCard],
   ["Material", parametersPart, withCard],
   ["Readings", readingsPart, withCard],
   ["Test", testsPart, withCard],

@@ -2,12 +2,12 @@
 import { element } from "./dom.js";
 import { duration, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
 
-const signs = { meets: ["\u2713", "The material meets the laboratory"], open: ["?", "Not certain"], fails: ["\u2717", "The material does not meet the laboratory"], none: ["\u2026", "No answer yet"], goes: ["\u2026", "The calibration is under way"] };
+const signs = { meets: ["\u2713", "The material meets the laboratory"], reserved: ["!", "The material meets the laboratory, with reservations"], open: ["?", "Not certain"], fails: ["\u2717", "The material does not meet the laboratory"], none: ["\u2026", "No answer yet"], goes: ["\u2026", "The calibration is under way"] };
 
-/// "meets", "open", "fails", "goes" or "none".
+/// "meets", "reserved", "open", "fails", "goes" or "none".
 export function verdictKind({ verdict, under_way }) {
   if (!verdict) return under_way ? "goes" : "none";
-  if (verdict.meets_laboratory) return "meets";
+  if (verdict.meets_laboratory) return verdict.reservations?.length > 0 ? "reserved" : "meets";
   return verdict.misfit <= 1 || !verdict.fresh ? "open" : "fails";
 }
 
@@ -15,7 +15,7 @@ function facts({ verdict, search, parameters, interval_level: level }) {
   const list = [];
   if (verdict) {
     const told = number(verdict.misfit * search.misfit_asked, 3);
-    list.push([`${told} ${search.misfit_unit}`, `largest difference from the laboratory; asked for ${number(search.misfit_asked, 3)}`]);
+    list.push([`${told} ${search.misfit_unit}`, `largest difference from the laboratory; allowed: ${number(search.misfit_asked, 3)}`]);
     const packings = verdict.packings.length === 1 ? "random packing" : "random packings";
     list.push([String(verdict.packings.length), verdict.fresh ? `${packings} that the search had not seen` : `${packings}, which the search had seen`]);
     const open = parameters.filter((one) => one.not_identified).length, free = parameters.filter((one) => one.free).length;
@@ -39,6 +39,7 @@ function answers({ verdict, parameters = [], tests = [], interval_level: level }
   const off = (one) => Math.abs(one.simulated - one.measured) > one.tolerance;
   const fitted = (test, one) => !test.hold_out && one.weight > 0;
   const list = [
+    ["Reservations", verdict.reservations ?? []],
     ["Fitted", level > 0 ? told.map((one) => `${value(one)} (${number(100 * level, 3)} %: ${number(one.interval[0], 3)} to ${number(one.interval[1], 3)})`) : free.map(value)],
     ["Met", readings((test, one) => fitted(test, one) && !off(one))],
     ["Missed", readings((test, one) => fitted(test, one) && off(one))],

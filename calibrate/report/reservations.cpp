@@ -1,0 +1,55 @@
+#include "calibrate/report/reservations.h"
+
+#include <cmath>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+std::vector<Observables> runs_of(const CardTest& test) {
+  std::vector<Observables> runs;
+  for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
+  return runs;
+}
+
+void add_marginal_readings(const CardTest& test, std::size_t packings, std::vector<std::string>& out) {
+  for (const CardObservable& one : test.observables) {
+    if (!one.measured || one.weight <= 0 || test.hold_out || packings < 2) continue;
+    const double off = std::abs(one.simulated - *one.measured);
+    const double error = one.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
+    if (off > one.tolerance || off + error <= one.tolerance) continue;
+    out.push_back(reading_name(test, one.name) + " is off by " + plain(off) + " +- " + plain(error, 2) + " of the " +
+                  plain(one.tolerance) + " allowed");
+  }
+}
+
+/// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
+void add_bounds(const Material& material, std::vector<std::string>& out) {
+  constexpr double near = 0.01;
+  for (const Parameter& one : material.parameters) {
+    if (!one.free || !has_parameter(material.contact, one.name)) continue;
+    const bool logarithmic = one.scale == Scale::logarithmic;
+    const auto along = [&](double value) { return logarithmic ? std::log(value) : value; };
+    const double share = (along(one.value) - along(one.lower)) / (along(one.upper) - along(one.lower));
+    if (share > near && share < 1 - near) continue;
+    out.push_back(one.name + " " + plain(one.value) + " is at its " + (share <= near ? "lower" : "upper") + " bound");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> reservations_on(const Card& card) {
+  std::vector<std::string> out;
+  for (const CardTest& test : card.tests)
+    if (const std::string remarks = remarks_on(test.test, runs_of(test)); !remarks.empty())
+      out.push_back(heading_of(test) + remarks);
+  for (const CardTest& test : card.tests) add_marginal_readings(test, card.confirmation.packings.size(), out);
+  add_bounds(card.material, out);
+  return out;
+}
+
+}  // namespace pastefit

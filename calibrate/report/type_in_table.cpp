@@ -1,0 +1,144 @@
+#include "calibrate/report/type_in_table.h"
+
+#include <algorithm>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/laboratory/names.h"
+#include "core/laws/constants.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double mega = 1e-6, milli = 1e3;
+
+double shear_modulus(double youngs_modulus, double poissons_ratio) {
+  return youngs_modulus / (2 * (1 + poissons_ratio));
+}
+
+std::string name_for_people(NormalLaw law) {
+  switch (law) {
+    case NormalLaw::hertz:
+      return "Hertz-Mindlin";
+    case NormalLaw::jkr:
+      return "Hertz-Mindlin with JKR adhesion";
+    default:
+      return "normal law " + word_of(law, normal_laws);
+  }
+}
+
+/// With the types of Ai et al. (Powder Technology 206 (2011) 269) and the short names that manuals use.
+std::string name_for_people(RollingModel model) {
+  return model == RollingModel::constant_torque ? "constant torque (CDT, type A)" : "spring-dashpot (EPSD, type C)";
+}
+
+TypeInGroup grains_to_type(const Material& material) {
+  const GrainSizes& grains = material.grains;
+  const ContactModel& contact = material.contact;
+  TypeInGroup group{"Grains", {{"radius", milli * grains.radius_m, "mm", ""}}};
+  if (grains.distribution != SizeDistribution::mono) {
+    group.rows.front().remark = "mean; " + word_of(grains.distribution, size_distributions) + " distribution";
+    group.rows.push_back({"smallest radius", milli * grains.smallest_m, "mm", ""});
+    group.rows.push_back({"largest radius", milli * grains.largest_m, "mm", ""});
+    if (grains.distribution == SizeDistribution::normal)
+      group.rows.push_back({"deviation of radii", milli * grains.standard_deviation_m, "mm", ""});
+  }
+  if (material.grain_density_kg_m3)
+    group.rows.push_back({"density of a grain", *material.grain_density_kg_m3, "kg/m3",
+                          "for a bulk of " + typed(material.bulk_density_kg_m3) + " kg/m3"});
+  group.rows.push_back({"Young's modulus", mega * contact.youngs_modulus_pa, "MPa", ""});
+  group.rows.push_back(
+      {"shear modulus", mega * shear_modulus(contact.youngs_modulus_pa, contact.poissons_ratio), "MPa", ""});
+  group.rows.push_back({"Poisson's ratio", contact.poissons_ratio, "", ""});
+  return group;
+}
+
+TypeInGroup grain_on_grain(const ContactModel& contact) {
+  TypeInGroup group{"Grain on grain: " + name_for_people(contact.normal),
+                    {{"restitution", contact.restitution, "", ""}, {"sliding friction", contact.friction, "", ""}}};
+  if (contact.rolling != RollingModel::none)
+    group.rows.push_back({"rolling friction", contact.rolling_friction, "", name_for_people(contact.rolling)});
+  if (contact.surface_energy_j_m2 > 0)
+    group.rows.push_back({"surface energy", contact.surface_energy_j_m2, "J/m2", "half the work of adhesion"});
+  if (contact.cohesion_energy_density_pa > 0)
+    group.rows.push_back({"cohesion energy density", contact.cohesion_energy_density_pa, "J/m3", "SJKR"});
+  return group;
+}
+
+TypeInGroup grain_on(const Surface& surface, const ContactModel& contact, bool attracts) {
+  const WallContact& wall = surface.contact;
+  TypeInGroup group{"Grain on " + std::string(surface.name),
+                    {{"restitution", wall.restitution, "", ""}, {"sliding friction", wall.friction, "", ""}}};
+  if (contact.rolling != RollingModel::none) group.rows.push_back({"rolling friction", wall.rolling_friction, "", ""});
+  if (attracts) group.rows.push_back({"share of the attraction", wall.cohesion_factor, "", "that acts on it"});
+  group.rows.push_back({"its Young's modulus", mega * wall.youngs_modulus_pa, "MPa", ""});
+  group.rows.push_back({"its Poisson's ratio", wall.poissons_ratio, "", ""});
+  return group;
+}
+
+TypeInGroup attraction_of(const Material& material) {
+  const ContactModel& contact = material.contact;
+  const Bridge& bridge = contact.bridge;
+  const double radius = material.grains.radius_m, at_touch = attraction_at_touch(bridge, radius);
+  const bool polynomial = bridge.shape == BridgeShape::polynomial;
+  TypeInGroup group{"Attraction across a gap: " + (polynomial ? "a d^2 + b d + c, overlap d from d_c to 0"
+                                                              : word_of(bridge.shape, bridge_shapes)),
+                    {}};
+  if (polynomial) {
+    group.rows.push_back({"a", bridge.a_n_m2, "N/m2", ""});
+    group.rows.push_back({"b", bridge.b_n_m, "N/m", ""});
+  }
+  if (bridge.shape == BridgeShape::capillary) {
+    group.rows.push_back({"liquid volume of a bridge", 1e9 * bridge.liquid_volume_m3, "mm3", ""});
+    group.rows.push_back({"surface tension", bridge.surface_tension_n_m, "N/m", ""});
+    group.rows.push_back({"contact angle", bridge.contact_angle_rad, "rad", ""});
+  }
+  group.rows.push_back({"c", at_touch, "N", "attraction at touch"});
+  group.rows.push_back({"d_c", -milli * rupture_gap(bridge, radius), "mm", "rupture (negative: a gap)"});
+  group.rows.push_back(
+      {"offset", milli * bridge.offset_m, "mm",
+       bridge.formation == BridgeFormation::film ? "liquid shell of a grain" : "not used: forms at touch"});
+  group.rows.push_back({"cohesion", contact.cohesion_n.value_or(at_touch), "N", "constant attraction in overlap"});
+  return group;
+}
+
+}  // namespace
+
+std::string typed(double value) {
+  constexpr int digits = 5;
+  return plain(value, digits);
+}
+
+std::vector<TypeInGroup> type_in_table(const Card& card) {
+  const ContactModel& contact = card.material.contact;
+  const bool bridges = contact.bridge.shape != BridgeShape::none;
+  const bool attracts = bridges || contact.normal != NormalLaw::hertz;
+  std::vector<TypeInGroup> groups{grains_to_type(card.material), grain_on_grain(contact)};
+  if (bridges) groups.push_back(attraction_of(card.material));
+  for (const CardTest& one : card.tests) {
+    Test test = one.test;
+    for (const Surface& surface : surfaces_of(test)) {
+      TypeInGroup group = grain_on(surface, contact, attracts);
+      const auto same = [&](const TypeInGroup& known) { return known.title == group.title; };
+      if (std::ranges::none_of(groups, same)) groups.push_back(std::move(group));
+    }
+  }
+  return groups;
+}
+
+std::string type_in_lines(const Card& card) {
+  std::string out = "Type this into your DEM program (numbers hold for grains of this size)\n";
+  for (const TypeInGroup& group : type_in_table(card)) {
+    out += "  " + group.title + "\n";
+    for (const TypeInRow& row : group.rows) {
+      const std::string remark = row.remark.empty() ? "" : "  " + row.remark;
+      out += format("    %-24s %10s %-6s", row.quantity.c_str(), typed(row.value).c_str(), row.unit.c_str());
+      while (remark.empty() && out.back() == ' ') out.pop_back();
+      out += remark + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "calibrate/card/card.h"
+#include "calibrate/report/reservations.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/report/type_in_table.h"
+#include "tests/calibrate/folder.h"
+
+using namespace pastefit;
+
+namespace {
+
+Card shipped(const std::string& name) {
+  auto read = read_card(std::string(PASTEFIT_SOURCE_DIR) + "/data/cards/" + name + ".json");
+  REQUIRE(read.ok());
+  return std::move(read).value();
+}
+
+const TypeInRow& row_of(const std::vector<TypeInGroup>& groups, const std::string& title, const std::string& quantity) {
+  const auto group = std::ranges::find_if(groups, [&](const auto& one) { return one.title.starts_with(title); });
+  REQUIRE(group != groups.end());
+  const auto row = std::ranges::find(group->rows, quantity, &TypeInRow::quantity);
+  REQUIRE(row != group->rows.end());
+  return *row;
+}
+
+/// A card of which nothing but what a test changes speaks against it.
+Card without_reservations() {
+  Card card = shipped("concrete-mix-79");
+  for (auto& parameter : card.material.parameters) parameter.free = false;
+  for (auto& run : card.tests[0].baseline.runs) run.observables.set("step1.lateral_shift_mm", 5);
+  for (auto& one : card.tests[0].observables)
+    if (one.measured) one.simulated = *one.measured;
+  return card;
+}
+
+}  // namespace
+
+TEST_CASE("what a person types in holds the density of a grain, which is not that of the material") {
+  const Card card = shipped("concrete-mix-79");
+  const auto groups = type_in_table(card);
+  const TypeInRow& density = row_of(groups, "Grains", "density of a grain");
+  CHECK(density.value == card.material.grain_density_kg_m3);
+  CHECK(density.value > 1.3 * card.material.bulk_density_kg_m3);
+  CHECK_THAT(density.remark, Catch::Contains("2349.2 kg/m3"));
+}
+
+TEST_CASE("what a person types in is complete: moduli, each pair of surfaces, and the bridge") {
+  const Card card = shipped("concrete-mix-79");
+  const auto groups = type_in_table(card);
+  const ContactModel& contact = card.material.contact;
+  CHECK(row_of(groups, "Grains", "radius").value == Approx(1e3 * card.material.grains.radius_m));
+  CHECK(row_of(groups, "Grains", "shear modulus").value ==
+        Approx(1e-6 * contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio))));
+  CHECK(row_of(groups, "Grain on grain", "sliding friction").value == contact.friction);
+  CHECK(row_of(groups, "Grain on grain", "rolling friction").value == contact.rolling_friction);
+  const auto& slump = std::get<SlumpTest>(card.tests[0].test);
+  CHECK(row_of(groups, "Grain on table", "sliding friction").value == slump.table_wall.friction);
+  CHECK(row_of(groups, "Grain on table", "rolling friction").value == slump.table_wall.rolling_friction);
+  CHECK(row_of(groups, "Grain on mould", "sliding friction").value == slump.mould_wall.friction);
+  CHECK(row_of(groups, "Attraction across a gap", "a").value == contact.bridge.a_n_m2);
+  CHECK(row_of(groups, "Attraction across a gap", "d_c").value == Approx(1e3 * contact.bridge.d_c_m));
+  CHECK(row_of(groups, "Attraction across a gap", "cohesion").value == Approx(contact.cohesion_n.value()));
+}
+
+TEST_CASE("grains without attraction have no bridge to type in, and grains of several sizes their range") {
+  Card card = shipped("concrete-mix-79");
+  card.material.contact.bridge.shape = BridgeShape::none;
+  card.material.grains = {SizeDistribution::uniform, 0.008, 0, 0.006, 0.01};
+  const auto groups = type_in_table(card);
+  CHECK(std::ranges::none_of(groups, [](const auto& one) { return one.title.starts_with("Attraction"); }));
+  CHECK(row_of(groups, "Grains", "largest radius").value == Approx(10));
+}
+
+TEST_CASE("numbers have the digits that a person types") {
+  CHECK(typed(0.29999999999999999) == "0.3");
+  CHECK(typed(2047.8940470323016) == "2047.9");
+  CHECK(typed(-8.000000000000001) == "-8");
+}
+
+TEST_CASE("a terminal of 80 columns holds every line of what is typed in") {
+  std::string lines = type_in_lines(shipped("concrete-mix-79"));
+  for (std::size_t end; (end = lines.find('\n')) != std::string::npos; lines.erase(0, end + 1)) CHECK(end <= 80);
+}
+
+TEST_CASE("a verdict has no reservation where nothing speaks against the card") {
+  const Card card = without_reservations();
+  CHECK(reservations_on(card).empty());
+  CHECK_THAT(verdict_of(card), !Catch::Contains("reservation"));
+}
+
+TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal reading are reservations of the verdict") {
+  Card card = without_reservations();
+  card.tests[0].baseline.runs[0].observables.set("step1.lateral_shift_mm", 55);
+  auto& strength = card.material.parameters[0];
+  strength.free = true;
+  strength.lower = strength.value;
+  strength.upper = 10 * strength.value;
+  for (auto& one : card.tests[0].observables)
+    if (one.name == "step1.height_mm") one.simulated = *one.measured + 0.95 * one.tolerance;
+  const auto reservations = reservations_on(card);
+  REQUIRE(reservations.size() == 3);
+  CHECK_THAT(reservations[0], Catch::Contains("1 of 8 packings sheared off"));
+  CHECK_THAT(reservations[1], Catch::Contains("step1.height_mm is off by") && Catch::Contains("of the 7.5 allowed"));
+  CHECK_THAT(reservations[2], Catch::Contains("strength_pa") && Catch::Contains("lower bound"));
+  CHECK_THAT(verdict_of(card), Catch::Contains("meets the laboratory, with reservations"));
+  const std::string summary = summary_of(card);
+  for (const std::string& one : reservations) CHECK_THAT(summary, Catch::Contains("Reservation: " + one));
+}
+
+TEST_CASE("the readings of a single packing have no error") {
+  Card card = without_reservations();
+  card.confirmation.packings = {1};
+  for (auto& one : card.tests[0].observables) one.simulated_standard_deviation = 0;
+  CHECK_THAT(summary_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("one run"));
+  CHECK_THAT(verdict_of(card), Catch::Contains("one packing"));
+}
