@@ -30,7 +30,28 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::string kind_of_special_file(const std::filesystem::path& path) {
+  std::error_code error;
+  switch (std::filesystem::symlink_status(path, error).type()) {
+    case std::filesystem::file_type::directory:
+      return "a folder";
+    case std::filesystem::file_type::symlink:
+      return "a symbolic link";
+    case std::filesystem::file_type::block:
+    case std::filesystem::file_type::character:
+      return "a device";
+    case std::filesystem::file_type::fifo:
+      return "a FIFO";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    default:
+      return "";
+  }
+}
+
 Faults write_atomically(const std::filesystem::path& file, std::string_view content) {
+  if (const std::string special = kind_of_special_file(file); !special.empty())
+    return {{file.string(), "is " + special + ", and only a regular file is replaced", "choose another name"}};
   const auto beside = std::filesystem::path(file.string() + "." + std::to_string(::getpid()) + ".part");
   const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   bool written = descriptor >= 0 && write_all(descriptor, content) && ::fsync(descriptor) == 0;

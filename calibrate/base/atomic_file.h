@@ -1,14 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/result.h"
 
 namespace pastefit {
 
+/// What a path names that is no regular file: "a folder", "a symbolic link", "a device", "a FIFO", "a socket"; empty
+/// for a regular file, or where there is nothing. A link is not followed.
+std::string kind_of_special_file(const std::filesystem::path& path);
+
 /// Replaces the file by this content, whole or not at all: written beside it, forced to the disk, renamed over it.
-/// Errors: the folder cannot be written or the disk is full; the old file is then as it was.
+/// Only a regular file is replaced: a program that runs as root must not turn a device into a file.
+/// Errors: something that is no regular file has the name, the folder cannot be written or the disk is full; what was
+/// there is then as it was.
 Faults write_atomically(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace pastefit

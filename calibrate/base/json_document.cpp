@@ -134,6 +134,10 @@ std::optional<json> read_json(const std::filesystem::path& file, Faults& faults)
                       "check the path"});
     return std::nullopt;
   }
+  if (!std::filesystem::is_regular_file(file, error) && !std::filesystem::is_directory(file, error)) {
+    faults.push_back({file.string(), "is no regular file", "write its content to a file, and give that"});
+    return std::nullopt;
+  }
   std::ifstream stream(file, std::ios::binary);
   std::string text;
   std::array<char, 65536> block;

@@ -102,6 +102,16 @@ std::string notes_on_readings(const Study& study) {
   return out;
 }
 
+/// The answer as JSON where there is no card to print.
+nlohmann::ordered_json without_material(const CalibrationResult& result) {
+  auto failures = nlohmann::ordered_json::object();
+  for (const auto& [reason, count] : result.counts.failures) failures[std::string(name_of(reason))] = count;
+  return {{"status", name_of(result.search.status)},
+          {"reason", result.search.reason},
+          {"simulations", result.search.simulations},
+          {"failures", failures}};
+}
+
 /// Card, summary, curves and page, to the folder and to the person. Only a confirmed material is what was asked for.
 /// Who interrupts gets the page with what was seen until then.
 int deliver(const Card& card, const std::optional<Inference>& inference, const Store& store,
@@ -169,12 +179,13 @@ WorkAhead work_ahead(const Study& study) {
 
 /// What is said where no candidate could be simulated; the page has what was seen.
 int say_why_not(const CalibrationResult& result, const Study& study, const Store& store, const std::string& file,
-                const std::string& out) {
+                const CalibrateArguments& options) {
   std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
   for (const auto& [reason, count] : result.counts.failures)
     std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
   std::fprintf(stderr, "The evaluations are kept in %s.\n", file.c_str());
-  (void)write_page(out, findings_without_card(study, store));
+  if (options.json) print("%s", json_text(without_material(result)).c_str());
+  (void)write_page(options.out, findings_without_card(study, store));
   return kFailed;
 }
 
@@ -206,7 +217,7 @@ int run_calibrate(const CalibrateArguments& options) {
   const auto result = calibrate(study, store.value(), how, {show, count, &looks});
   line.end();
   if (!result.ok()) return report(result.faults(), kFailed);
-  if (!result.value().card) return say_why_not(result.value(), study, store.value(), file, options.out);
+  if (!result.value().card) return say_why_not(result.value(), study, store.value(), file, options);
   return deliver(*result.value().card, result.value().inference, store.value(), options, folder.value(), stop, looks);
 }
 

@@ -67,7 +67,7 @@ int status_of(const std::vector<CheckedFile>& checked) {
 
 int check_all(const CheckCommand& options) {
   if (!options.junit.empty())
-    if (const auto faults = output_file_faults("--junit", options.junit, options.force); !faults.empty())
+    if (const auto faults = output_faults("--junit", options.junit, options.force); !faults.empty())
       return report(faults);
   std::optional<Lab> lab;
   if (!options.against.empty()) {
@@ -85,12 +85,12 @@ int check_all(const CheckCommand& options) {
     } else {
       one.check = lab ? check_against(card.value(), *lab, options.check) : check(card.value(), options.check);
     }
-    if (!options.json) print("%s", text_of(one).c_str());
+    if (!options.json && !is_standard_output(options.junit)) print("%s", text_of(one).c_str());
     checked.push_back(std::move(one));
   }
-  if (options.json) print("%s", json_text(to_json(checked)).c_str());
+  if (options.json && !is_standard_output(options.junit)) print("%s", json_text(to_json(checked)).c_str());
   if (!options.junit.empty())
-    if (const auto faults = write_atomically(options.junit, junit_of(checked)); !faults.empty())
+    if (const auto faults = write_output(options.junit, junit_of(checked)); !faults.empty())
       return report(faults, kFailed);
   return status_of(checked);
 }
@@ -111,7 +111,8 @@ Command add_check(CLI::App& verb) {
                                   "judge the cards by this laboratory file instead of by their own baseline")
                       ->type_name("LAB");
   auto* json = verb.add_flag("--json", options->json, "print the answers as JSON");
-  auto* junit = verb.add_option("--junit", options->junit, "write the answers as JUnit XML")->type_name("FILE");
+  auto* junit = verb.add_option("--junit", options->junit, "write the answers as JUnit XML; -: standard output")
+                    ->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE")->needs(junit);
   auto* rebaseline = verb.add_flag("--rebaseline", options->rebaseline,
                                    "take what the engine gives now as the cards' baseline, and record why")

@@ -36,8 +36,7 @@ int rescale(const RescaleOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
   if (!options.out.empty())
-    if (const auto faults = output_file_faults("--out", options.out, options.force); !faults.empty())
-      return report(faults);
+    if (const auto faults = output_faults("--out", options.out, options.force); !faults.empty()) return report(faults);
   const double radius = options.radius_mm / 1e3, old_radius = card.value().material.grains.radius_m;
   auto result = rescaled(card.value(), radius);
   if (!result.ok()) return report(result.faults());
@@ -50,10 +49,10 @@ int rescale(const RescaleOptions& options) {
     if (!result.ok()) return report(result.faults(), kFailed);
   }
   const std::string card_text = json_text(to_json(result.value()));
-  print("%s", options.json ? card_text.c_str() : text_of(result.value()).c_str());
+  if (!is_standard_output(options.out)) print("%s", options.json ? card_text.c_str() : text_of(result.value()).c_str());
   if (options.out.empty()) return kDone;
-  if (const auto faults = write_atomically(options.out, card_text); !faults.empty()) return report(faults, kFailed);
-  note("wrote %s\n", options.out.c_str());
+  if (const auto faults = write_output(options.out, card_text); !faults.empty()) return report(faults, kFailed);
+  if (!is_stream(options.out)) note("wrote %s\n", options.out.c_str());
   return kDone;
 }
 
@@ -66,7 +65,7 @@ Command add_rescale(CLI::App& verb) {
       ->required()
       ->check(number_from(0.01, 1000))
       ->type_name("MM");
-  verb.add_option("--out", options->out, "file for the new card")->type_name("FILE");
+  verb.add_option("--out", options->out, "file for the new card; -: standard output")->type_name("FILE");
   verb.add_flag("--force", options->force, "replace FILE");
   verb.add_flag("--json", options->json, "print the new card itself");
   verb.add_option("--packings", options->packings,

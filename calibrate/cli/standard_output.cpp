@@ -65,6 +65,7 @@ void guard_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0)  // for standard output: so that writing to it fails
       static_cast<void>(::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond a limit on file sizes writing fails, which is told
 }
 
 int after_output(int status) {

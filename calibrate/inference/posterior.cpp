@@ -24,7 +24,7 @@ class Population {
       : log_likelihood_(log_likelihood),
         random_(seed, "posterior"),
         members_(screening_points(dimension, count, seed)) {
-    for (const UnitPoint& member : members_) values_.push_back(log_likelihood_(member));
+    for (const UnitPoint& member : members_) values_.push_back(likelihood_at(member));
   }
 
   std::vector<UnitPoint> run() {
@@ -40,6 +40,12 @@ class Population {
 
  private:
   double draw() { return random_.uniform(drawn_++); }
+
+  /// What is not a number is as unlikely as can be.
+  double likelihood_at(const UnitPoint& point) const {
+    const double value = log_likelihood_(point);
+    return std::isfinite(value) ? value : -1e300;
+  }
 
   std::vector<double> weights(double step) const {
     const double most = *std::ranges::max_element(values_);
@@ -106,7 +112,7 @@ class Population {
         for (double& normal : normals) normal = random_normal();
         UnitPoint candidate = members_[i] + width * spread * normals;
         for (double& x : candidate) x = reflected(x);
-        const double value = log_likelihood_(candidate);
+        const double value = likelihood_at(candidate);
         if (std::log(std::max(draw(), 1e-300)) > power * (value - values_[i])) continue;
         members_[i] = std::move(candidate);
         values_[i] = value;

@@ -55,14 +55,18 @@ Result<RunState> Checkpoint::read() const {
   const auto fault = [&](std::string what, std::string remedy) {
     return Fault{file_.string(), std::move(what), std::move(remedy)};
   };
+  if (!std::filesystem::is_regular_file(file_, error)) return fault("is no regular file", "the name of a file");
   std::ifstream in(file_, std::ios::binary);
-  std::ostringstream content;
-  if (!in || !(content << in.rdbuf()))
-    return fault(std::string("cannot be read: ") + std::strerror(errno), "a file that can be read");
-  const std::string whole = std::move(content).str();
-  std::string_view left = whole;
-  if (next_line(left) != kFormat)
+  if (!in) return fault(std::string("cannot be read: ") + std::strerror(errno), "a file that can be read");
+  // The first line is read by itself, so that no other file is taken into memory.
+  std::string whole(kFormat.size() + 1, '\0');
+  if (!in.read(whole.data(), static_cast<std::streamsize>(whole.size())) || whole != kFormat + "\n")
     return fault("is no checkpoint of pastefit", "name another file, which it would replace");
+  std::ostringstream content;
+  content << in.rdbuf();
+  whole += std::move(content).str();
+  std::string_view left = whole;
+  next_line(left);
   const std::string_view program = next_line(left), run = next_line(left);
   if (program != program_identity())
     return fault("was written by " + printable(std::string(program)) + ", this is " + program_identity(),

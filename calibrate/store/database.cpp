@@ -1,21 +1,57 @@
 #include "calibrate/store/database.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cctype>
 #include <memory>
 #include <stdexcept>
 
 namespace pastefit {
 
-Database::Database(const std::filesystem::path& file) {
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-  const int status = sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr);
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+bool can_be_written(const std::filesystem::path& file) {
+  return ::access(file.c_str(), W_OK) == 0 && ::access(folder_of(file).c_str(), W_OK) == 0;
+}
+
+/// As a URI, with every byte that could mean something else in one as %XX. `immutable`: SQLite, which would make files
+/// beside it otherwise, makes none.
+std::string immutable_uri(const std::filesystem::path& file) {
+  constexpr const char* digits = "0123456789ABCDEF";
+  std::string uri = "file:";
+  for (const unsigned char byte : std::filesystem::absolute(file).string()) {
+    if (std::isalnum(byte) || byte == '/')
+      uri += static_cast<char>(byte);
+    else
+      uri += {'%', digits[byte / 16], digits[byte % 16]};
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& file, DatabaseUse use) {
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(file)))
+    throw std::runtime_error("it is a symbolic link");
+  const bool immutable = use == DatabaseUse::read && !can_be_written(file);
+  const int flags = immutable ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX
+                              : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+  const std::string name = immutable ? immutable_uri(file) : file.string();
+  const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
   if (status != SQLITE_OK) {
     const std::string message = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
     sqlite3_close(handle_);
     throw std::runtime_error(message);
   }
   sqlite3_busy_timeout(handle_, 2000);
+  // The file may be anybody's: what its schema says runs no function, and nothing but rows is written.
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }
 
 Database::~Database() {

@@ -10,10 +10,14 @@ namespace pastefit {
 
 using Row = std::vector<std::string>;
 
+/// `read`: the file is not changed where it cannot be, as in a folder that is read-only.
+enum class DatabaseUse { read, write };
+
 /// A connection to an SQLite file that closes itself. Errors of SQLite travel as `std::runtime_error`.
+/// A symbolic link is not followed: what it points to, or would make, is somewhere else.
 class Database {
  public:
-  explicit Database(const std::filesystem::path& file);
+  explicit Database(const std::filesystem::path& file, DatabaseUse use = DatabaseUse::write);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
   ~Database();

@@ -1,6 +1,7 @@
 #include "calibrate/store/store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -71,6 +72,18 @@ void create(Database& database, const StoreIdentity& identity) {
 
 const std::string kStartAnew = "choose another output folder, or start anew with --force";
 
+/// True if there is nothing but the tables of a store: a view or a trigger in their place is somebody's program.
+bool has_own_schema(Database& database) {
+  std::vector<std::string> tables;
+  for (const Row& row : database.run("SELECT type, name FROM sqlite_master ORDER BY name")) {
+    if (row.at(0) == "table")
+      tables.push_back(row.at(1));
+    else if (row.at(0) != "index" || !row.at(1).starts_with("sqlite_autoindex_"))
+      return false;
+  }
+  return tables == std::vector<std::string>{"evaluations", "identity", "inputs", "set_aside"};
+}
+
 /// What keeps a non-empty database from being a store.
 Faults defects(Database& database, const std::string& file) {
   if (database.number("PRAGMA application_id") != kApplicationId)
@@ -80,6 +93,9 @@ Faults defects(Database& database, const std::string& file) {
              "has schema version " + std::to_string(version) + ", this program reads version " +
                  std::to_string(kSchemaVersion),
              "resume with the program that wrote it; or " + kStartAnew}};
+  if (!has_own_schema(database))
+    return {
+        {file, "holds other tables or views than a store of evaluations", "restore it from a copy; or " + kStartAnew}};
   if (const auto verdict = database.run("PRAGMA quick_check(1)").at(0).at(0); verdict != "ok")
     return {{file, "is damaged: " + verdict, "restore it from a copy; or " + kStartAnew}};
   return {};
@@ -130,6 +146,19 @@ std::vector<std::string> changes_of(const std::string& before, const std::string
   return places;
 }
 
+/// Throws std::invalid_argument for what no simulation can have stored. Readings are in mm, Pa, kg or shares, none of
+/// which comes near the bound; beyond it squares of them would not be finite.
+void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
+  constexpr double largest_reading = 1e15;
+  const auto outside = [](double value, double bound) { return !std::isnan(value) && std::abs(value) > bound; };
+  for (const Observable& one : evaluation.observables.all())
+    if (outside(one.value, largest_reading)) throw std::invalid_argument(one.name + " is no reading");
+  for (const double coordinate : evaluation.point)
+    if (!(coordinate >= 0 && coordinate <= 1)) throw std::invalid_argument("the point is outside of the bounds");
+  for (const double value : evaluation.values)
+    if (!std::isfinite(value)) throw std::invalid_argument("a parameter is not finite");
+}
+
 StoredEvaluation evaluation_of(const Row& row) {
   StoredEvaluation out;
   out.key = row.at(1);
@@ -143,6 +172,7 @@ StoredEvaluation evaluation_of(const Row& row) {
   out.run = run_from_json(run);
   if (const auto sketch = run.find("sketch"); sketch != run.end()) out.sketch = sketch_from_json(*sketch);
   out.wall_s = number_from_json(run.at("wall_s"));
+  refuse_what_nothing_stored(out);
   return out;
 }
 
@@ -156,8 +186,8 @@ std::string evaluation_key(std::string_view program, const Test& test) {
 /// Everything is held in memory too: a search asks for known points often, and a damaged row shows when the store is
 /// opened instead of in the middle of a run. A record is about 2 kB.
 struct Store::State {
-  State(const std::filesystem::path& path, StoreIdentity who)
-      : file(path.string()), identity(std::move(who)), database(path) {}
+  State(const std::filesystem::path& path, StoreIdentity who, DatabaseUse use)
+      : file(path.string()), identity(std::move(who)), database(path, use) {}
 
   std::string file;
   StoreIdentity identity;
@@ -179,14 +209,23 @@ struct Store::State {
         damaged.push_back(row.at(0));
         continue;
       }
-      sequence = std::stoll(row.at(0));
-      auto evaluation = evaluation_of(row);
+      StoredEvaluation evaluation;
+      try {
+        evaluation = evaluation_of(row);
+        sequence = std::stoll(row.at(0));
+      } catch (const std::exception&) {  // whole, but not what a simulation stores
+        damaged.push_back(row.at(0));
+        continue;
+      }
       index.emplace(evaluation.key, evaluations.size());
       evaluations.push_back(std::move(evaluation));
     }
     const int known = static_cast<int>(evaluations.size() + damaged.size()) + database.number(kCountSetAside);
     const auto added = database.run("SELECT value FROM identity WHERE name = 'evaluations'");
-    written = std::stoi(added.at(0).at(0));
+    if (added.empty() || added[0][0].empty() || added[0][0].size() > 9 ||
+        added[0][0].find_first_not_of("0123456789") != std::string::npos)
+      throw std::runtime_error("its number of evaluations is missing or damaged");
+    written = std::stoi(added[0][0]);
     if (known != written)
       remarks.push_back("of " + std::to_string(written) + " evaluations that were written, " + std::to_string(known) +
                         " are there");
@@ -194,10 +233,10 @@ struct Store::State {
     for (const auto& one : damaged) numbers += (numbers.empty() ? "" : ", ") + one;
     if (!damaged.empty())
       remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + numbers);
-    const auto last = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1").at(0);
-    if (!agrees(last)) throw std::runtime_error("its record of the study is damaged");
-    epoch = std::stoi(last.at(0));
-    return last.at(1);
+    const auto inputs = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1");
+    if (inputs.empty() || !agrees(inputs[0])) throw std::runtime_error("its record of the study is missing or damaged");
+    epoch = std::stoi(inputs[0].at(0));
+    return inputs[0].at(1);
   }
 
   /// Moves what is damaged out of the way of what is simulated in its place.
@@ -220,7 +259,7 @@ Store::~Store() = default;
 Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity& identity) {
   try {
     const bool was_there = std::filesystem::exists(file);
-    auto state = std::make_unique<State>(file, identity);
+    auto state = std::make_unique<State>(file, identity, DatabaseUse::write);
     auto& database = state->database;
     const bool fresh =
         database.number("SELECT count(*) FROM sqlite_master") == 0 && database.number("PRAGMA user_version") == 0;
@@ -249,7 +288,7 @@ Result<Store> Store::read(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     return Fault{file.string(), "there is no such file", "the folder of a calibration"};
   try {
-    auto state = std::make_unique<State>(file, StoreIdentity{});
+    auto state = std::make_unique<State>(file, StoreIdentity{}, DatabaseUse::read);
     if (auto faults = defects(state->database, file.string()); !faults.empty()) return faults;
     state->identity = {program_of(state->database), state->load()};
     return Store(std::move(state));
