@@ -47,8 +47,8 @@ std::string comparison_text(const ExportOptions& options, const Card& card, cons
       out += format("    %-28s %10.5g +- %.2g\n", reading.name.c_str(), reading.simulated,
                     reading.simulated_standard_deviation);
   }
-  out += "\nTo compare the heap of the deck with the card's:\n    pastefit read " +
-         (std::filesystem::path(options.out) / heap).string() + " --card " + options.card;
+  out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
+         std::filesystem::absolute(options.card).string();
   if (!options.test.empty()) out += " --test " + options.test;
   if (options.packing) out += " --packing " + std::to_string(*options.packing);
   return out + "\n";

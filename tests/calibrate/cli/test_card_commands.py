@@ -72,7 +72,7 @@ class CardCommands(Desk):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("NOTES.txt", result.stdout)
             if target in ("lammps", "lammps-tables", "liggghts", "yade"):
-                self.assertIn(f"pastefit read {out}/heap.dump --card {coarse_card()}\n", result.stdout)
+                self.assertIn(f"pastefit read heap.dump --card {coarse_card()}\n", result.stdout)
             self.fails(run("export", coarse_card(), "--to", target, "--out", out), 2, "earlier result")
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
         self.assertFalse((self.folder / "x").exists())
