@@ -191,19 +191,22 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
   return half;
 }
 
-/// The recommended candidate, then simulated ones that meet the laboratory as well, then predicted ones.
+/// The recommended candidate, then simulated ones that meet the laboratory as well, then ones that are predicted to.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                           const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
                                           int count) {
   const Evidence& evidence = model.evidence();
   const double as_well = std::max(1.0, model.miss(recommended));
-  std::vector<UnitPoint> simulated;
-  for (const UnitPoint& point : evidence.points)
-    if (model.miss(point) <= as_well) simulated.push_back(point);
+  const auto meeting = [&](const std::vector<UnitPoint>& candidates) {
+    std::vector<UnitPoint> chosen;
+    for (const UnitPoint& point : candidates)
+      if (model.miss(point) <= as_well) chosen.push_back(point);
+    return chosen;
+  };
   const auto size = static_cast<std::size_t>(count);
   std::vector<UnitPoint> points{recommended};
-  spread_out(points, simulated, size, neighbourhood);
-  spread_out(points, better_half(model, sample), size);
+  spread_out(points, meeting(evidence.points), size, neighbourhood);
+  spread_out(points, meeting(better_half(model, sample)), size);
   std::vector<EquivalentMaterial> family;
   for (const UnitPoint& point : points) {
     EquivalentMaterial member;

@@ -110,7 +110,7 @@ std::string intervals(const Inference& inference) {
 
 /// A column for each material, so that five of them fit a window of 80 columns.
 std::string family(const Inference& inference) {
-  std::string out = "Materials that meet these readings as well; recommended is the first" +
+  std::string out = "Materials expected to fit these readings as well as the first, the recommended one" +
                     (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n";
   std::size_t widest = 0;
   for (const ParameterInterval& one : inference.intervals) widest = std::max(widest, one.name.size());
@@ -124,6 +124,7 @@ std::string family(const Inference& inference) {
     row(inference.intervals[k].name, [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
   for (std::size_t k = 0; k < inference.fitted.size(); ++k)
     row(inference.fitted[k], [&](const EquivalentMaterial& member) { return plain(member.readings[k], 4); });
+  row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.miss, 2); });
   row("known from",
       [](const EquivalentMaterial& member) { return std::string(member.simulated ? "simulated" : "predicted"); });
   return out;

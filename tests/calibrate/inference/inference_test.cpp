@@ -50,6 +50,7 @@ Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40, double
 const Law first_alone{"step1.height_mm", [](const UnitPoint& x) { return 100 * x[0]; }, 50};
 const Law sum_of_both{"step1.height_mm", [](const UnitPoint& x) { return 100 * (x[0] + x[1]); }, 100};
 const Law second_alone{"step1.spread_mm", [](const UnitPoint& x) { return 100 * x[1]; }, std::nullopt};
+const Law other_difference{"step1.spread_mm", [](const UnitPoint& x) { return 100 * (x[0] - x[1]); }, 0, 25};
 const UnitPoint middle = UnitPoint::Constant(2, 0.5);
 
 }  // namespace
@@ -153,6 +154,14 @@ TEST_CASE("two parameters that only their sum shows are each wide, narrow if the
     CHECK(member.values[0] + member.values[1] == Approx(1).margin(0.1));
   REQUIRE(inference.family.size() == 5);
   CHECK(std::abs(inference.family[1].values[0] - 0.5) > 0.3);
+}
+
+TEST_CASE("no material is named that is expected to miss by more than what it is named beside") {
+  // Three readings that contradict each other, as a height, a spread and a shift do: half of a broad sample misses.
+  const Inference inference = infer(evidence_for({sum_of_both, other_difference}, 12), middle);
+  const double limit = std::max(1.0, inference.family.front().miss);
+  for (const EquivalentMaterial& member : inference.family) CHECK(member.miss <= limit);
+  CHECK_THAT(words_of(inference), Catch::Contains("expected to fit these readings as well as the first"));
 }
 
 TEST_CASE("the measurement that would tell them apart is named first, with what it would leave") {
