@@ -102,7 +102,7 @@ std::string verdict_on_fitted(const Card& card) {
   const auto packings = confirmation.packings.size();
   const std::string largest =
       "largest error " +
-      (unit.tolerance_mm ? unit.words(confirmation.misfit, "%.2f") + " of " + unit.words(1, "%.2f")
+      (unit.tolerance_mm ? unit.words(confirmation.misfit, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"
                          : format("%.2f of its tolerance", confirmation.misfit)) +
       (packings == 1 ? " (one packing, its scatter is unknown)" : format(" (mean of %zu packings)", packings));
   if (confirmation.meets_laboratory)

@@ -112,7 +112,7 @@ class CommandLine(Desk):
         self.assertNotIn("\r", result.stderr)
         for word in ("screening", "simulations", "card.json"):
             self.assertIn(word, result.stderr)
-        for word in ("strength_pa", "c_n", "step1.height_mm", "laboratory"):
+        for word in ("strength_pa", "attraction at touch", "step1.height_mm", "laboratory"):
             self.assertIn(word, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
         jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
@@ -241,7 +241,7 @@ class CommandLine(Desk):
     def test_the_summary_says_what_the_data_determine_and_the_card_keeps_it(self):
         result = self.calibrates(self.study(budget=16, screening=6))
         self.assertIn("5 parameters are free, and 1 fitted reading fixes at most 1 combination", result.stderr)
-        for words in ("What the readings say", "What to measure next", "Materials that meet these readings as well"):
+        for words in ("What the readings say", "What to measure next", "Materials expected to fit these readings"):
             self.assertIn(words, (self.out / "summary.txt").read_text())
         card = json.loads((self.out / "card.json").read_text())
         named = set(card.get("not_identified", {})) | set(card.get("intervals", {}).get("parameters", {}))
