@@ -14,8 +14,10 @@ import unittest
 
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 README = (SOURCE / "README.md").read_text()
-READMES = [file for file in SOURCE.glob("**/README.md") if not {"build", "out", "node_modules"} & set(file.relative_to(SOURCE).parts)]
-MOST_LINES = 200  # of the main one
+MANUAL = "\n\n".join(page.read_text() for page in sorted((SOURCE / "calibrate/manual").glob("*.md")))
+PAGES = [*SOURCE.glob("**/README.md"), *SOURCE.glob("calibrate/manual/*.md"), *SOURCE.glob("tests/results/*.md")]
+READMES = [file for file in dict.fromkeys(PAGES) if not {"build", "out", "node_modules"} & set(file.relative_to(SOURCE).parts)]
+MOST_LINES = 120  # of the main one
 
 
 def help_of(*verb):
@@ -23,8 +25,8 @@ def help_of(*verb):
 
 
 def rows(first_column):
-    """Rows of the README's table with this first column, as lists of cells."""
-    table = README.split(f"\n| {first_column} |", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
+    """Rows of the manual's table with this first column, as lists of cells."""
+    table = MANUAL.split(f"\n| {first_column} |", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
     return [[cell.strip() for cell in row.strip("|").split("|")] for row in table]
 
 
@@ -108,7 +110,7 @@ class Readme(unittest.TestCase):
                 self.assertEqual("step 1 only" in cells[1], steps == ["step1"], name)
                 self.assertEqual(cells[1].startswith("step 2"), steps == ["step2"], name)
                 told |= {f"{step}.{name}" for step in steps}
-        told |= set(re.findall(r"In a laboratory file: `([\w.]+)`", README))
+        told |= set(re.findall(r"In a laboratory file: `([\w.]+)`", MANUAL))
         told |= {key for cells in rows("test") for key in re.findall(r"`(\w+\.\w+)`", cells[-1])}
         self.assertEqual(told, keys)
 
