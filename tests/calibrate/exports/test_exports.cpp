@@ -252,3 +252,25 @@ TEST_CASE("the deck for LAMMPS as it stands says how much lower heaps of dry gra
   material.contact.rolling_friction = 0;
   CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("lower in the deck"));
 }
+
+TEST_CASE("liquid and surface energy become parameters by the formulas of the manual") {
+  const double tension = 0.072, volume = 2e-9, root = std::cbrt(volume);
+  SlumpTest material = slump_of_paste();
+  auto values = usual_values();
+  const auto set = [&](std::string_view name, double value) {
+    const auto kinds = parameter_kinds();
+    const auto at = std::ranges::find(kinds, name, &ParameterKind::name);
+    REQUIRE(at != kinds.end());
+    values[static_cast<std::size_t>(at - kinds.begin())] = value;
+  };
+  set("strength_pa", 2 * std::acos(-1.0) * tension / kRadius);
+  set("rupture_gap_ratio", (root + 0.1 * root * root / kRadius) / kRadius);
+  set("adhesion_pa", 8 / kRadius);
+  material.contact.bridge.shape = BridgeShape::capillary;
+  const auto liquid = std::get<SlumpTest>(with_contact_of(material, values)).contact.bridge;
+  CHECK(liquid.surface_tension_n_m == Approx(tension));
+  CHECK(liquid.liquid_volume_m3 == Approx(volume));
+  material.contact.bridge.shape = BridgeShape::none;
+  material.contact.normal = NormalLaw::jkr;
+  CHECK(std::get<SlumpTest>(with_contact_of(material, values)).contact.surface_energy_j_m2 == Approx(8));
+}
