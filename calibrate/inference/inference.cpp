@@ -191,22 +191,31 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
   return half;
 }
 
-/// The recommended candidate, then simulated ones that meet the laboratory as well, then ones that are predicted to.
+/// The recommended candidate, then simulated ones of which every fitted reading is within the laboratory's deviation,
+/// or as near as the recommended one's, then ones of which that is predicted.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                           const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
                                           int count) {
   const Evidence& evidence = model.evidence();
-  const double as_well = std::max(1.0, model.miss(recommended));
-  const auto meeting = [&](const std::vector<UnitPoint>& candidates) {
+  const auto error = [&](std::size_t k, const UnitPoint& point) {
+    const ReadingEvidence& reading = evidence.readings[k];
+    return std::abs(model.predict(k, point).mean - *reading.measured) / reading.deviation;
+  };
+  const double as_well = std::max(1.0, model.miss(recommended));  // priors included
+  const auto fits = [&](const UnitPoint& point) {
+    return model.miss(point) <= as_well && std::ranges::all_of(fitted, [&](std::size_t k) {
+             return error(k, point) <= std::max(1.0, error(k, recommended));
+           });
+  };
+  const auto fitting = [&](const std::vector<UnitPoint>& candidates) {
     std::vector<UnitPoint> chosen;
-    for (const UnitPoint& point : candidates)
-      if (model.miss(point) <= as_well) chosen.push_back(point);
+    std::ranges::copy_if(candidates, std::back_inserter(chosen), fits);
     return chosen;
   };
   const auto size = static_cast<std::size_t>(count);
   std::vector<UnitPoint> points{recommended};
-  spread_out(points, meeting(evidence.points), size, neighbourhood);
-  spread_out(points, meeting(better_half(model, sample)), size);
+  spread_out(points, fitting(evidence.points), size, neighbourhood);
+  spread_out(points, fitting(better_half(model, sample)), size);
   std::vector<EquivalentMaterial> family;
   for (const UnitPoint& point : points) {
     EquivalentMaterial member;
