@@ -64,9 +64,13 @@ ordered_json page_readings(const CardTest& test, std::size_t packings) {
   for (const CardObservable& one : test.observables) {
     ordered_json reading{{"name", one.name},
                          {"simulated", one.simulated},
-                         {"simulated_standard_deviation", one.simulated_standard_deviation},
-                         {"standard_error", one.simulated_standard_deviation /
-                                                std::sqrt(std::max<double>(1, static_cast<double>(packings)))}};
+                         {"simulated_standard_deviation", one.simulated_standard_deviation}};
+    // One packing says nothing of its error.
+    if (packings > 1)
+      reading["standard_error"] = one.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
+    reading["packings"] = ordered_json::array();
+    for (const Baseline::Run& run : test.baseline.runs)
+      if (const auto value = run.observables.find(one.name)) reading["packings"].push_back(*value);
     if (one.measured) {
       reading["measured"] = *one.measured;
       reading["standard_deviation"] = one.standard_deviation;

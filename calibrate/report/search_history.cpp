@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kMapPoints = 41;  // along either side
+constexpr int kMapPoints = 41;  // evenly along either side, besides that of the recommended material
 
 /// The test of the study that an evaluation is of; nothing if it is of none, as those with coarse grains are.
 std::optional<std::size_t> asked_test(const Study& study, const std::string& program,
@@ -91,11 +91,26 @@ std::array<std::size_t, 2> directions_that_matter(const Inference& inference) {
   return {first, first == 0 ? std::size_t{1} : std::size_t{0}};
 }
 
-ordered_json axis_of(const Parameter& parameter) {
-  return {{"name", parameter.name},
-          {"lower", parameter.lower},
-          {"upper", parameter.upper},
-          {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}};
+/// Places along a coordinate of the unit cube. That of the recommended material is one of them: between two places it
+/// would stand in the field of a neighbour, which is beyond the laboratory's reach where the dependence is steep.
+std::vector<double> map_places(double recommended) {
+  std::vector<double> out;
+  for (int k = 0; k < kMapPoints; ++k) out.push_back(k / (kMapPoints - 1.0));
+  out.push_back(recommended);
+  std::ranges::sort(out);
+  const auto same = std::ranges::unique(out);
+  out.erase(same.begin(), same.end());
+  return out;
+}
+
+ordered_json axis_of(const Parameter& parameter, const std::vector<double>& places) {
+  ordered_json out{{"name", parameter.name},
+                   {"lower", parameter.lower},
+                   {"upper", parameter.upper},
+                   {"scale", parameter.scale == Scale::logarithmic ? "log" : "linear"}};
+  auto& values = out["places"] = ordered_json::array();
+  for (const double place : places) values.push_back(rounded(value_between(parameter, place), 8));
+  return out;
 }
 
 }  // namespace
@@ -124,12 +139,14 @@ ordered_json misfit_map(const Findings& findings) {
   const auto [x, y] = directions_that_matter(*findings.inference);
   const Parameter &along = evidence.parameters[x], &up = evidence.parameters[y];
   UnitPoint point = point_of(*findings.card);
-  ordered_json out{{"x", axis_of(along)}, {"y", axis_of(up)}, {"points", kMapPoints}};
+  const auto columns = map_places(point[static_cast<Eigen::Index>(x)]);
+  const auto rows = map_places(point[static_cast<Eigen::Index>(y)]);
+  ordered_json out{{"x", axis_of(along, columns)}, {"y", axis_of(up, rows)}};
   auto& miss = out["miss"] = ordered_json::array();
-  for (int row = 0; row < kMapPoints; ++row)
-    for (int column = 0; column < kMapPoints; ++column) {
-      point[static_cast<Eigen::Index>(x)] = column / (kMapPoints - 1.0);
-      point[static_cast<Eigen::Index>(y)] = row / (kMapPoints - 1.0);
+  for (const double row : rows)
+    for (const double column : columns) {
+      point[static_cast<Eigen::Index>(x)] = column;
+      point[static_cast<Eigen::Index>(y)] = row;
       miss.push_back(rounded(model.miss(point), 3));
     }
   auto& equivalent = out["equivalent"] = ordered_json::array();

@@ -54,10 +54,27 @@ test("the page says what the card says", async () => {
   assert.equal(free, Object.keys(card.material.free).length);
 });
 
+test("the film opens on the heap, and plays from the beginning of the test", async () => {
+  const state = () => page.evaluate(() => {
+    const { player } = document.querySelector(".player");
+    return { time: player.time, end: player.film.end, lift: player.film.phases().find(({ name }) => name === "step1.lift").begin };
+  });
+  const opened = await state();
+  assert.equal(opened.time, opened.end);
+  await page.locator(".play").click();
+  await page.locator(".play").click();
+  const played = await state();
+  assert.ok(played.time >= played.lift && played.time < played.end, `${played.time} s`);
+});
+
 test("the scene draws, plays, turns and is sliced", async () => {
   const first = await pixels(page);
   assert.ok(first.colours > 50, `${first.colours} colours`);
   assert.ok(first.drawn > 0.1, `${first.drawn} of the picture is drawn`);
+  await page.evaluate(() => {
+    const { player } = document.querySelector(".player");
+    player.show(player.opening);
+  });
   await page.locator(".play").click();
   const before = await page.evaluate(() => [document.querySelector(".player").player.time, document.querySelector(".player").player.scene.pictures, performance.now()]);
   await page.waitForTimeout(1500);
@@ -179,15 +196,54 @@ test("a test without a heap has drawings of its own, and no film of what is over
   await other.context().close();
 });
 
-test("the page can be printed", async () => {
-  const paper = await openPage(browser, file, { viewport: { width: 794, height: 1123 } });
-  await filmIsThere(paper);
+const sheet = { width: 703, height: 1032 }; // A4 less 12 mm on each side, in CSS pixels
+
+/// On paper: height of the certificate, of the parts behind it, and the number of sheets.
+async function printed(name, paper) {
   await paper.emulateMedia({ media: "print" });
   await drawn(paper);
+  const [first, all] = await paper.evaluate(() => [document.querySelector("#certificate").getBoundingClientRect().height, document.body.scrollHeight]);
+  const pdf = await paper.pdf({ preferCSSPageSize: true, ...(shots ? { path: join(shots, `${name}.pdf`) } : {}) });
+  return { first, rest: all - first, sheets: pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length };
+}
+
+test("on paper the page begins with one sheet to hand over: answer, numbers to type in, packings, versions, signature", async () => {
+  const paper = await openPage(browser, file, { viewport: sheet });
+  await filmIsThere(paper);
+  assert.equal(await paper.locator("#certificate").isVisible(), false, "on a screen there is none");
+  const { first, rest, sheets } = await printed("print", paper);
+  assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
+  const content = JSON.parse(await paper.locator("#content").textContent());
+  const certificate = await paper.locator("#certificate").innerText();
+  const wanted = [content.title, new Date().getFullYear(), content.provenance.program, content.provenance.study_hash, "Signature", ...content.verdict.reservations,
+    ...content.type_in.flatMap(({ title, rows }) => [title, ...rows.map(({ quantity, value }) => `${quantity}\t${value}`)])];
+  for (const one of wanted) assert.ok(certificate.includes(one), one);
+  const measured = content.tests[0].readings.filter((one) => one.measured !== undefined);
+  assert.equal(await paper.locator("#certificate .packing").count(), measured.length * card.confirmation.packings.length);
+  assert.ok((await paper.locator("#certificate .sheet-drawing path").count()) >= 5);
   assert.equal(await paper.locator("nav").isVisible(), false);
+  assert.ok(sheets <= 1 + Math.ceil((1.3 * rest) / sheet.height), `${sheets} sheets for ${rest / sheet.height} sheets full behind the first`);
   if (shots) await paper.screenshot({ path: join(shots, "print.png"), fullPage: true });
   assert.deepEqual(paper.faults, []);
   await paper.context().close();
+});
+
+test("the certificate of a test with two drawings is one sheet as well", { skip: !dropped }, async () => {
+  const paper = await openPage(browser, dropped, { viewport: sheet });
+  const { first } = await printed("print-drop", paper);
+  assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
+  assert.equal(await paper.locator("#certificate .sheet-drawing").count(), 2);
+  await paper.context().close();
+});
+
+test("every reading shows its error in the table, that of its difference as well", async () => {
+  const content = JSON.parse(await page.locator("#content").textContent());
+  for (const test of content.tests)
+    for (const one of test.readings.filter(({ measured, standard_error: error }) => measured !== undefined && error > 0)) {
+      const cells = await page.locator("#readings tr", { hasText: one.name.split(".").at(-1).replace(/_mm$/, "").replaceAll("_", " ") }).first().locator("td").allTextContents();
+      assert.match(cells[1], /\u00b1/, one.name);
+      assert.match(cells[3], /\u00b1/, one.name);
+    }
 });
 
 test("the page of a calibration that goes on shows how far it is, and looks again by itself", { skip: !live }, async () => {

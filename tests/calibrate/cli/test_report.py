@@ -56,6 +56,14 @@ class Report(Desk):
             content["law"] = [curve for curve in content["law"] if curve["role"] != "equivalent"]
         self.assertEqual(first, second)
 
+    def test_the_map_has_a_field_at_the_recommended_material(self):
+        self.calibrates(self.study(budget=12, screening=6))
+        drawn = content_of(self.out)["search"]["map"]
+        for axis, value in zip((drawn["x"], drawn["y"]), drawn["equivalent"][0]):
+            nearest = min(axis["places"], key=lambda place: abs(place - value))
+            self.assertAlmostEqual(nearest / value, 1, delta=1e-4)
+        self.assertEqual(len(drawn["miss"]), len(drawn["x"]["places"]) * len(drawn["y"]["places"]))
+
     def test_the_film_holds_every_grain_of_every_frame(self):
         self.calibrates(self.study())
         page = (self.out / "report.html").read_text()

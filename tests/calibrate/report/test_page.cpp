@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,24 @@ TEST_CASE("a page is made of a card alone, and says what it lacks") {
   CHECK(content.at("verdict").at("meets_laboratory") == true);
   CHECK(content.at("tests")[0].at("readings").size() == findings.card->tests[0].observables.size());
   CHECK(content.at("search").at("history").empty());
+}
+
+TEST_CASE("a page tells what each packing read, and the error of a mean over several") {
+  const test::Folder folder;
+  folder.write("card.json", shipped_card());
+  Findings findings = findings_in(folder);
+  const std::string height = "step1.height_mm";
+  const auto reading = [&] {
+    const auto content = page_content(findings, "");
+    const auto& readings = content.at("tests")[0].at("readings");
+    return *std::ranges::find_if(readings, [&](const auto& one) { return one.at("name") == height; });
+  };
+  const CardTest& test = findings.card->tests[0];
+  CHECK(reading().at("packings").size() == findings.card->confirmation.packings.size());
+  CHECK(reading().at("packings")[1] == *test.baseline.runs[1].observables.find(height));
+  CHECK(reading().at("standard_error") > 0);
+  findings.card->confirmation.packings.resize(1);
+  CHECK_FALSE(reading().contains("standard_error"));
 }
 
 TEST_CASE("a folder that is none, or has no result in it, has no page") {

@@ -39,6 +39,8 @@ export function toggle(label, checked, changed) {
   return element("label", { class: "toggle" }, box, element("span", {}, label));
 }
 
+const narrowest = 120; // pixels; paper is laid out at less for a moment, which leaves no room between the margins
+
 /// Draws into a figure at its width, and again when that changes or paper asks for another.
 export function figure(attributes, draw, ...after) {
   const place = element("div", { class: "drawing" });
@@ -49,7 +51,7 @@ export function figure(attributes, draw, ...after) {
   };
   new ResizeObserver(([entry]) => {
     const now = Math.round(entry.contentRect.width);
-    if (now === width || now === 0) return;
+    if (now === width || now < narrowest) return;
     width = now;
     redraw();
   }).observe(place);

@@ -68,6 +68,11 @@ function legendOf({ bands, lines, lengths }) {
   return legend(entries);
 }
 
+/// A drawing of one width, for paper, where nothing is drawn anew.
+export function drawingSheet(drawing, width, heading) {
+  return element("figure", { class: "sheet-drawing" }, drawn(drawing, width), element("figcaption", {}, element("strong", {}, heading), legendOf(drawing)));
+}
+
 export function drawingFigure(drawing) {
   return figure({ class: "test-drawing" }, (width) => drawn(drawing, width),
     element("figcaption", {}, element("strong", {}, drawing.name), legendOf(drawing)));

@@ -1,4 +1,5 @@
 // Builds the page from its content. A part that cannot be drawn says so; the others are there all the same.
+import { certificatePart } from "./certificate.js";
 import { element } from "./dom.js";
 import { lawPart } from "./law.js";
 import { openPart } from "./map.js";
@@ -12,6 +13,7 @@ import { missingPart, verdictPart } from "./verdict.js";
 
 const always = () => true, withCard = (content) => content.tests !== undefined;
 const parts = [
+  ["", certificatePart, withCard],
   ["", verdictPart, always],
   ["", missingPart, always],
   ["Numbers to type in", typeInPart, withCard],
@@ -41,7 +43,8 @@ function build(content) {
     page.append(made);
     if (name && made.id) links.push(element("a", { href: `#${made.id}` }, name));
   }
-  document.getElementById("verdict")?.after(element("nav", { "aria-label": "Parts of the page" }, ...links));
+  document.getElementById("verdict")?.after(element("nav", { "aria-label": "Parts of the page" }, ...links,
+    element("button", { type: "button", onclick: () => print() }, "Print")));
   if (content.under_way) setTimeout(() => location.reload(), 10_000);
   document.title = `${content.title ?? "calibration"} \u2013 pastefit`;
 }

@@ -6,16 +6,16 @@ import { colour, legend, plot, Plot } from "./plots.js";
 const levels = [1, 2, 3, 5, 8];
 const shades = ["var(--shade-0)", "var(--shade-1)", "var(--shade-2)", "var(--shade-3)", "var(--shade-4)", "var(--shade-5)"];
 
-/// The edges of the fields of an axis: its points lie in their middles.
-function edges({ lower, upper, scale }, points) {
+/// The edges of the fields of an axis, half way between its places.
+function edges({ scale, places }) {
   const there = scale === "log" ? Math.log : (x) => x, back = scale === "log" ? Math.exp : (x) => x;
-  const at = (k) => back(there(lower) + (Math.min(Math.max(k, 0), points - 1) / (points - 1)) * (there(upper) - there(lower)));
-  return Array.from({ length: points + 1 }, (_, k) => at(k - 0.5));
+  const between = places.slice(1).map((place, k) => back((there(places[k]) + there(place)) / 2));
+  return [places[0], ...between, places.at(-1)];
 }
 
-function drawn({ x, y, points, miss, equivalent, simulated }, width) {
-  const [xs, ys] = [edges(x, points), edges(y, points)];
-  const fields = miss.map((value, k) => ({ value, column: k % points, row: Math.floor(k / points) }));
+function drawn({ x, y, miss, equivalent, simulated }, width) {
+  const [xs, ys] = [edges(x), edges(y)], columns = x.places.length;
+  const fields = miss.map((value, k) => ({ value, column: k % columns, row: Math.floor(k / columns) }));
   const axis = ({ name, scale, lower, upper }) => ({ label: name, type: scale, domain: [lower, upper], tickFormat: scale === "log" ? "~g" : undefined, nice: false, grid: false });
   return plot(width, {
     className: "map",
@@ -27,8 +27,8 @@ function drawn({ x, y, points, miss, equivalent, simulated }, width) {
       Plot.dot(simulated, { x: "0", y: "1", r: 2, fill: colour.quiet }),
       Plot.dot(equivalent.slice(1), { x: "0", y: "1", r: 6, symbol: "diamond", fill: colour.equivalent, stroke: "var(--page)" }),
       Plot.dot(equivalent.slice(0, 1), { x: "0", y: "1", r: 7, symbol: "star", fill: colour.laboratory, stroke: "var(--page)" }),
-      Plot.tip(fields, Plot.pointer({ x: ({ column }) => (xs[column] + xs[column + 1]) / 2, y: ({ row }) => (ys[row] + ys[row + 1]) / 2,
-        title: ({ value, column, row }) => `${number(value, 2)} standard deviations\n${x.name} ${number((xs[column] + xs[column + 1]) / 2, 3)}\n${y.name} ${number((ys[row] + ys[row + 1]) / 2, 3)}`, fill: "var(--card)" })),
+      Plot.tip(fields, Plot.pointer({ x: ({ column }) => x.places[column], y: ({ row }) => y.places[row],
+        title: ({ value, column, row }) => `${number(value, 2)} standard deviations\n${x.name} ${number(x.places[column], 3)}\n${y.name} ${number(y.places[row], 3)}`, fill: "var(--card)" })),
     ],
   });
 }

@@ -13,19 +13,25 @@ export function number(value, digits = 4) {
   return text.replace(/-/g, minus);
 }
 
-/// To the decimal to which its deviation has two digits; what lies behind that is luck.
+/// To the decimal to which its deviation has two digits; further digits are noise.
 export function atNoise(value, deviation, digits = 4) {
   if (!(deviation > 0) || !Number.isFinite(value)) return number(value, digits);
   const decimals = 1 - Math.floor(Math.log10(deviation));
   return decimals < 0 || decimals > 6 ? number(value, digits) : value.toFixed(decimals).replace(/-/g, minus);
 }
 
-export function signed(value, deviation) {
-  return value > 0 ? `+${atNoise(value, deviation, 3)}` : atNoise(value, deviation, 3);
+export function plusMinus(value, deviation, digits = 4) {
+  return deviation > 0 ? `${atNoise(value, deviation, digits)} \u00b1 ${atNoise(deviation, deviation, 2)}` : number(value, digits);
 }
 
-export function plusMinus(value, deviation, digits = 4) {
-  return deviation > 0 ? `${atNoise(value, deviation, digits)} \u00b1 ${number(deviation, 2)}` : number(value, digits);
+/// A difference, with its sign.
+export function plusMinusSigned(value, deviation) {
+  return `${value > 0 ? "+" : ""}${plusMinus(value, deviation, 3)}`;
+}
+
+/// What stands behind a simulated value without an error, so that nobody takes it for exact.
+export function errorWords({ standard_error: error }) {
+  return error === undefined ? " (one packing, error unknown)" : "";
 }
 
 const unitsOfNames = [["_mm", "mm"], ["_pa", "Pa"], ["_kg", "kg"], ["_g", "g"], ["_rad_s", "rad/s"], ["_s", "s"], ["_n", "N"]];

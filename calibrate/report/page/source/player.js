@@ -38,8 +38,9 @@ class Player {
     place.append(this.canvas, this.controls(), this.scale);
     this.recolour("height");
     this.canvas.addEventListener("keydown", (event) => this.key(event));
-    const lift = film.phases().find(({ name }) => !name.startsWith("fill."));
-    this.show(lift?.begin ?? film.begin);
+    // It opens on the heap; played from there it begins where the test does, when the mould is full.
+    this.opening = film.phases().find(({ name }) => !name.startsWith("fill."))?.begin ?? film.begin;
+    this.show(film.end);
     place.player = this; // for tests
   }
 
@@ -92,7 +93,7 @@ class Player {
     this.playing = !this.playing;
     this.button.textContent = this.playing ? "\u23f8 Pause" : "\u25b6 Play";
     if (!this.playing) return this.scene.pace(0);
-    if (this.time >= this.film.end) this.show(this.film.begin);
+    if (this.time >= this.film.end) this.show(this.opening);
     let before = performance.now();
     const tick = (now) => {
       if (!this.playing) return;

@@ -16,7 +16,7 @@ function shownWords({ run_shown: shown, film }) {
 }
 
 /// The drawing, its simulated lengths with the standard errors of the readings that they are.
-function withNoise(drawing, readings) {
+export function withNoise(drawing, readings) {
   const error = (name) => readings.find((one) => one.name === name)?.standard_error ?? 0;
   return { ...drawing, lengths: drawing.lengths.map((one) => (one.by === "simulation" ? { ...one, deviation: error(one.reading) } : one)) };
 }

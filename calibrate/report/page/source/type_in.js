@@ -1,7 +1,7 @@
 // The numbers to type into a DEM program: grains, pairs of surfaces, attraction.
 import { element, section } from "./dom.js";
 
-function rowsOf({ title, rows }) {
+export function groupRows({ title, rows }) {
   return [
     element("tr", {}, element("th", { colspan: 4, scope: "rowgroup", class: "group" }, title)),
     ...rows.map(({ quantity, value, unit, remark }) => element("tr", {},
@@ -15,5 +15,5 @@ function rowsOf({ title, rows }) {
 export function typeInPart({ type_in: groups, radius_mm: radius }) {
   return section("type-in", "Type this into your DEM program",
     `The numbers hold for grains of ${radius} mm radius. For another size: pastefit rescale.`,
-    element("div", { class: "wide" }, element("table", {}, ...groups.map((group) => element("tbody", {}, ...rowsOf(group))))));
+    element("div", { class: "wide" }, element("table", { class: "type-in" }, ...groups.map((group) => element("tbody", {}, ...groupRows(group))))));
 }

@@ -1,6 +1,6 @@
 // What the calibration answers, on top of everything.
 import { element } from "./dom.js";
-import { duration, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
+import { duration, errorWords, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
 
 const signs = { meets: ["\u2713", "The material meets the laboratory"], reserved: ["!", "The material meets the laboratory, with reservations"], open: ["?", "Not certain"], fails: ["\u2717", "The material does not meet the laboratory"], none: ["\u2026", "No answer yet"], goes: ["\u2026", "The calibration is under way"] };
 
@@ -34,7 +34,7 @@ function answers({ verdict, parameters = [], tests = [], interval_level: level }
   if (!verdict) return null;
   const free = parameters.filter((one) => one.free), told = free.filter((one) => one.interval), open = free.filter((one) => !one.interval);
   const value = (one) => `${one.name} ${number(one.value)}`;
-  const reading = (test, one) => `${words(fullName(test.name, one.name))} ${plusMinus(one.simulated, one.standard_error)} ${unitOf(one.name)}, measured ${plusMinus(one.measured, one.standard_deviation)}`;
+  const reading = (test, one) => `${words(fullName(test.name, one.name))} ${plusMinus(one.simulated, one.standard_error)} ${unitOf(one.name)}${errorWords(one)}, measured ${plusMinus(one.measured, one.standard_deviation)}`;
   const readings = (wanted) => tests.flatMap((test) => test.readings.filter((one) => one.measured !== undefined && wanted(test, one)).map((one) => reading(test, one)));
   const off = (one) => Math.abs(one.simulated - one.measured) > one.tolerance;
   const fitted = (test, one) => !test.hold_out && one.weight > 0;
@@ -54,14 +54,20 @@ function sentence(text, heading) {
   return text.startsWith(`${heading}: `) ? text.slice(heading.length + 2) : text;
 }
 
+/// Kind, sign, heading and sentence of the answer.
+export function answerOf(content) {
+  const kind = verdictKind(content), [sign, heading] = signs[kind];
+  const waiting = kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.";
+  return [kind, sign, heading, content.verdict ? sentence(content.verdict.words, heading) : waiting];
+}
+
 export function verdictPart(content) {
-  const kind = verdictKind(content);
-  const [sign, heading] = signs[kind];
+  const [kind, sign, heading, said] = answerOf(content);
   return element("header", { id: "verdict", class: kind },
     element("p", { class: "brand" }, "pastefit"),
     element("h1", {}, content.title ?? "A calibration without a card"),
     element("div", { class: "answer" }, element("span", { class: "badge", "aria-hidden": "true" }, sign),
-      element("div", {}, element("strong", {}, heading), element("p", {}, content.verdict ? sentence(content.verdict.words, heading) : (kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.")), answers(content))),
+      element("div", {}, element("strong", {}, heading), element("p", {}, said), answers(content))),
     facts(content));
 }
 
