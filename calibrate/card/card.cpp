@@ -21,8 +21,8 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
   ordered_json out;
   out["simulated"] = observable.simulated;
   out["simulated_standard_deviation"] = observable.simulated_standard_deviation;
-  out["standard_error"] =
-      packings == 0 ? 0 : observable.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
+  // One packing says nothing of its error.
+  if (packings > 1) out["standard_error"] = observable.simulated_standard_deviation / std::sqrt(double(packings));
   out["measured"] = nullptr;
   if (observable.measured) {
     out["measured"] = *observable.measured;

@@ -41,11 +41,13 @@ std::string comparison_text(const ExportOptions& options, const Card& card, cons
                             const std::string& heap) {
   std::string out;
   const auto packings = card.confirmation.packings.size();
-  if (packings >= 2 && !test.observables.empty()) {
-    out += format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
+  if (packings >= 1 && !test.observables.empty()) {
+    out += packings == 1
+               ? "\nThe heap to expect (one packing, error unknown):\n"
+               : format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
     for (const CardObservable& reading : test.observables)
-      out += format("    %-28s %10.5g +- %.2g\n", reading.name.c_str(), reading.simulated,
-                    reading.simulated_standard_deviation);
+      out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
+             (packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
   }
   out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
          std::filesystem::absolute(options.card).string();

@@ -62,13 +62,15 @@ std::string reading_table(const std::vector<HeapReading>& readings, std::size_t 
       out += format(" %17s\n", "not on the card");
       continue;
     }
-    out += format(" %17s", format("%.5g +- %.2g", card->simulated, card->simulated_standard_deviation).c_str());
+    const std::string scatter = packings > 1 ? format(" +- %.2g", card->simulated_standard_deviation) : "";
+    out += format(" %17s", (format("%.5g", card->simulated) + scatter).c_str());
     out += format(" %17s", card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation).c_str()
                                           : "not measured");
     out += format(" %+10.3g %8s", read - card->simulated, band ? format("%.3g", *band).c_str() : "unknown");
     out += band && std::abs(read - card->simulated) > *band ? "  differs\n" : "\n";
   }
-  if (packings < 2) return out;
+  if (packings == 1) return out + "Card: one packing, error unknown.\n";
+  if (packings < 1) return out;
   return out + format(
                    "Scatter: standard deviation over the card's %zu packings. Noise: a heap of the\n"
                    "card's material in another packing differs by less 95 times in 100.\n",

@@ -153,8 +153,9 @@ Faults write_results(const OutputFolder& folder, const std::string& text, const 
   return faults;
 }
 
-void print_simulation(const Outcome& outcome, double wall_s) {
+void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
   for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
+  if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
   const auto& run = outcome.run;
   print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
         static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
@@ -298,7 +299,7 @@ int simulate_file(const SimulateOptions& options) {
   if (options.json)
     print("%s", text.c_str());
   else
-    print_simulation(outcome, wall_s);
+    print_simulation(outcome, wall_s, of_lab && !std::holds_alternative<DropTest>(*of_lab));
   if (folder) {
     if (const auto faults = write_results(*folder, text, outcome); !faults.empty()) return report(faults, kFailed);
     note("wrote %s\n", folder->file(kResult).c_str());

@@ -75,8 +75,11 @@ std::string rescaling_lines(const Card& card) {
     out += format("Carried over from grains of %g mm radius by the scaling rule\n", 1e3 * step.from_radius_m);
     if (step.bias.empty()) out += "  what that does to the readings was not measured\n";
     for (const auto& bias : step.bias)
-      out += format("  %-24s %12.5g -> %.5g, bias %+.3g +- %.2g\n", bias.observable.c_str(), bias.before, bias.after,
-                    bias.after - bias.before, bias.standard_error);
+      out +=
+          format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.observable.c_str(), bias.before, bias.after,
+                 bias.after - bias.before) +
+          (bias.standard_error > 0 || card.confirmation.packings.size() > 1 ? format(" +- %.2g\n", bias.standard_error)
+                                                                            : " (one packing, error unknown)\n");
   }
   return out;
 }

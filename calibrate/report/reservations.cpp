@@ -49,6 +49,7 @@ std::vector<std::string> reservations_on(const Card& card) {
       out.push_back(heading_of(test) + remarks);
   for (const CardTest& test : card.tests) add_marginal_readings(test, card.confirmation.packings.size(), out);
   add_bounds(card.material, out);
+  if (card.confirmation.packings.size() == 1) out.push_back("one packing, error unknown");
   return out;
 }
 

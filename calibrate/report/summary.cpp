@@ -33,7 +33,7 @@ std::string observable_lines(const std::vector<CardObservable>& observables, std
     out += format("  %-24s ", observable.name.c_str());
     out += observable.measured ? format("%10.4g %10.3g ", *observable.measured, observable.standard_deviation)
                                : format("%10s %10s ", "-", "-");
-    out += format("%10.5g ", observable.simulated) + (packings > 1 ? format("+- %-6.2g", error) : "one run  ");
+    out += format("%10.5g ", observable.simulated) + (packings > 1 ? format("+- %-6.2g", error) : std::string(9, ' '));
     if (observable.measured)
       out += format(" %+9.3g%s", observable.simulated - *observable.measured,
                     observable.weight > 0 ? "" : "   (not fitted)");
@@ -51,6 +51,7 @@ std::string reading_lines(const Card& card) {
     if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
     out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);
   }
+  if (packings == 1) out += "  Simulated: one packing, error unknown.\n";
   return out;
 }
 
@@ -104,7 +105,7 @@ std::string verdict_on_fitted(const Card& card) {
       "largest error " +
       (unit.tolerance_mm ? unit.words(confirmation.misfit, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"
                          : format("%.2f of its tolerance", confirmation.misfit)) +
-      (packings == 1 ? " (one packing, its scatter is unknown)" : format(" (mean of %zu packings)", packings));
+      (packings == 1 ? " (one packing, error unknown)" : format(" (mean of %zu packings)", packings));
   if (confirmation.meets_laboratory)
     return std::string("The material meets the laboratory") +
            (reservations_on(card).empty() ? "" : ", with reservations") + ": " + largest + ".";

@@ -153,6 +153,21 @@ class CardCommands(Desk):
         self.assertEqual(run("check", out, "--quick").returncode, 0)
         self.fails(run("rescale", coarse, "--radius", "40"), 2, "radius")
 
+    def test_a_card_of_one_packing_shows_that_its_error_is_unknown_wherever_it_is_shown(self):
+        self.calibrates(self.study())  # which confirms on one packing
+        card, deck = self.out / "card.json", self.folder / "deck"
+        self.assertEqual(run("export", card, "--to", "csv", "--out", deck).returncode, 0)
+        rows = (deck / "grains.csv").read_text().replace(",", " ").split("\n")[1:-1]
+        for name in ("heap.dump", "filled.dump"):
+            (deck / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" +
+                                     "".join(f"{i} {row}\n" for i, row in enumerate(rows, 1)))
+        page = (self.out / "report.html").read_text().split('id="content">')[1].split("</script>")[0]
+        for text in ((self.out / "summary.txt").read_text(), run("show", card).stdout, run("simulate", card).stdout, page,
+                     run("read", deck / "heap.dump", "--card", card).stdout):
+            self.assertIn("ne packing, error unknown", text)
+            self.assertNotRegex(text, r"\+- ?0\b(?!\.)")
+        self.assertNotIn("standard_error", json.loads(card.read_text())["tests"][0]["observables"]["step1.height_mm"])
+
     def test_check_answers_by_status_text_json_and_junit(self):
         card, report = self.coarse(), self.folder / "report.xml"
         result = run("check", card, "--quick", "--json", "--junit", report)

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "calibrate/card/card.h"
+#include "calibrate/report/card_text.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/report/type_in_table.h"
@@ -114,6 +116,10 @@ TEST_CASE("the readings of a single packing have no error") {
   Card card = without_reservations();
   card.confirmation.packings = {1};
   for (auto& one : card.tests[0].observables) one.simulated_standard_deviation = 0;
-  CHECK_THAT(summary_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("one run"));
-  CHECK_THAT(verdict_of(card), Catch::Contains("one packing"));
+  CHECK_THAT(summary_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("Simulated: one packing, error unknown"));
+  CHECK_THAT(verdict_of(card), Catch::Contains("with reservations") && Catch::Contains("one packing, error unknown"));
+  CHECK(reservations_on(card) == std::vector<std::string>{"one packing, error unknown"});
+  card.rescaled.push_back({0.01, {{"step1.height_mm", 100, 102, 0}}});
+  CHECK_THAT(text_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("bias +2 (one packing, error unknown)"));
+  CHECK_FALSE(to_json(card).at("tests")[0].at("observables").at("step1.height_mm").contains("standard_error"));
 }
