@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "calibrate/inference/evidence.h"
-#include "calibrate/inference/reading_model.h"
-#include "calibrate/search/gaussian_process.h"
+#include "calibrate/models/gaussian_process.h"
+#include "calibrate/models/reading_model.h"
 
 namespace pastefit {
 

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/calibration.h"
+#include "calibrate/search/objective.h"
+#include "calibrate/study/study.h"
 
 namespace pastefit {
 

@@ -1,6 +1,6 @@
 #include "calibrate/search/coarse_rung.h"
 
-#include "calibrate/search/search_run.h"
+#include "calibrate/search/response.h"
 #include "calibrate/search/surrogate.h"
 
 namespace pastefit {
@@ -30,7 +30,7 @@ std::vector<Response> corrected(std::span<const Response> coarse, std::span<cons
   int count = 0;
   for (const Response& one : fine) {
     if (!is_feasible(one)) continue;
-    bias += one.residuals - surrogate.evaluate({&one.point, 1}, one.packings).at(0).residuals;
+    bias += one.residuals - surrogate.expected_residuals(one.point);
     ++count;
   }
   if (count > 0) bias /= count;

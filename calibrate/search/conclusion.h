@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "calibrate/search/calibration.h"
 #include "calibrate/search/reachability.h"
-#include "calibrate/search/strategy.h"
 
 namespace pastefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/search/search_run.h"
+#include "calibrate/search/response.h"
 
 namespace pastefit {
 

@@ -12,7 +12,7 @@
 #include "calibrate/laboratory/softness.h"
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
-#include "calibrate/search/search_run.h"
+#include "calibrate/search/response.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

@@ -1,52 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
+#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "calibrate/search/response.h"
 #include "calibrate/study/tolerance.h"
-#include "core/result.h"
 
 namespace pastefit {
-
-/// A point of the unit cube over the study's free parameters.
-using UnitPoint = Eigen::VectorXd;
-
-inline std::span<const double> coordinates(const UnitPoint& point) {
-  return {point.data(), static_cast<std::size_t>(point.size())};
-}
-
-/// One finished simulation of a candidate on one packing.
-struct Evaluation {
-  UnitPoint point;
-  std::uint64_t packing = 0;
-  std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
-  std::optional<Failure> failure;
-  bool ended_early = false;  ///< see `Objective::try_out`
-};
-
-/// What a candidate answers on a set of packings: the mean over them, against the laboratory.
-struct Response {
-  UnitPoint point;
-  std::vector<std::uint64_t> packings;
-  std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading; NaN: some packing has none
-  /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
-  /// their standard deviations. Finite; graded if it failed.
-  Eigen::VectorXd residuals;
-  double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
-  /// Largest difference of a fitted reading from the laboratory over its tolerance: what is judged; 1 is asked for.
-  double miss = 0;
-  /// What the noise of the packings makes of `miss` by itself: largest standard error of a fitted reading over its
-  /// tolerance. 0: a single packing, or a failure.
-  double noise = 0;
-  bool failed = false;  ///< some packing ended in a failure
-  /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
-  /// bound of that of the whole test, and not one that makes a candidate the best.
-  bool ended_early = false;
-};
 
 /// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
 /// Guarantee: the answer depends on (point, packings) only, not on threads, order or what was asked before.

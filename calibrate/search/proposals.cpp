@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/optimisers/nlopt.h"
 #include "calibrate/search/coarse_rung.h"
 #include "core/random.h"
 
@@ -16,7 +17,7 @@ constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, 
 
 std::optional<UnitPoint> Proposals::next(const Prospects& prospects) {
   Surrogate model = prospects.surrogate();
-  imagine_answers(model);
+  fantasise_answers(model);
   double least = prospects.least_misfit();
   for (const Archive::Asked& asked : archive_.under_way()) least = std::min(least, model.outlook(asked.point).mean());
   const Improvement best = most_promising(model, least, prospects.least());
@@ -36,9 +37,9 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
     archive_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
     if (archive_.coarse_singles().size() == known) break;
     Surrogate model(archive_.evidence(), archive_.allowances());
-    imagine_answers(model);
-    const UnitPoint better = least_point(model, proposal);
+    fantasise_answers(model);
     const auto misfit = [&](const UnitPoint& point) { return model.outlook(point).mean(); };
+    const UnitPoint better = least_point(misfit, proposal);
     if (misfit(proposal) <= misfit(better) + model.noise() / options_.packings) break;
     if (tries + 1 < coarse_tries) proposal = better;
   }
@@ -46,14 +47,15 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
 }
 
 /// Draws the answers of the candidates under way.
-void Proposals::imagine_answers(Surrogate& model) const {
+void Proposals::fantasise_answers(Surrogate& model) const {
   const RandomStream random(options_.seed, "answers of candidates under way");
   std::uint64_t candidate = archive_.history().size();  // its place in the history to come
   for (const Archive::Asked& asked : archive_.under_way()) {
-    Eigen::VectorXd luck(archive_.residuals());
-    for (Eigen::Index k = 0; k < luck.size(); ++k)
-      luck[k] = random.normal(candidate * static_cast<std::uint64_t>(luck.size()) + static_cast<std::uint64_t>(k));
-    (void)model.imagine(asked.point, static_cast<int>(asked.packings.size()), luck);
+    Eigen::VectorXd deviates(archive_.residuals());
+    for (Eigen::Index k = 0; k < deviates.size(); ++k)
+      deviates[k] =
+          random.normal(candidate * static_cast<std::uint64_t>(deviates.size()) + static_cast<std::uint64_t>(k));
+    (void)model.fantasise(asked.point, static_cast<int>(asked.packings.size()), deviates);
     ++candidate;
   }
 }

@@ -33,7 +33,7 @@ class Proposals {
 
  private:
   UnitPoint tried_with_coarse_grains(UnitPoint proposal);
-  void imagine_answers(Surrogate& model) const;
+  void fantasise_answers(Surrogate& model) const;
 
   Archive& archive_;
   Objective* coarse_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "calibrate/search/search_run.h"
+#include "calibrate/search/response.h"
 
 namespace pastefit {
 namespace {

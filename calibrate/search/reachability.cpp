@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "calibrate/base/format.h"
-#include "calibrate/search/gaussian_process.h"
-#include "calibrate/search/surrogate.h"
+#include "calibrate/models/gaussian_process.h"
+#include "calibrate/optimisers/nlopt.h"
 
 namespace pastefit {
 
@@ -66,39 +66,18 @@ class Nearing {
   Eigen::VectorXd misses_;
 };
 
-/// The miss that the model gives a candidate, `deviations` of its doubt and noise taken off; as a thing to minimise.
-class Miss : public Objective {
- public:
-  /// `scale`: a miss that counts as large.
-  Miss(const GaussianProcess& model, int parameters, double deviations, double scale)
-      : model_(model), parameters_(parameters), deviations_(deviations), scale_(scale) {}
+/// The miss that the model gives a candidate, so many deviations of its uncertainty and noise taken off.
+double miss_at(const GaussianProcess& model, const UnitPoint& point, double deviations) {
+  const auto prediction = model.predict(point);
+  return prediction.mean - deviations * std::sqrt(prediction.variance + model.noise_variance());
+}
 
-  double at(const UnitPoint& point) const {
-    const auto prediction = model_.predict(point);
-    return prediction.mean - deviations_ * std::sqrt(prediction.variance + model_.noise_variance());
-  }
-  int parameters() const override { return parameters_; }
-  int residuals() const override { return 1; }
-  int budget_left() const override { return std::numeric_limits<int>::max(); }
-  bool stop_requested() const override { return false; }
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
-    std::vector<Response> responses;
-    for (const UnitPoint& point : points) {
-      Response response;
-      response.point = point;
-      response.residuals = Eigen::VectorXd::Constant(1, at(point));
-      response.misfit = std::exp(response.residuals[0] / scale_);  // positive, in the order of the miss
-      responses.push_back(std::move(response));
-    }
-    return responses;
-  }
-
- private:
-  const GaussianProcess& model_;
-  int parameters_;
-  double deviations_;
-  double scale_;
-};
+/// The candidate of least miss. `scale`: a miss that counts as large.
+UnitPoint nearest_by(const GaussianProcess& model, double deviations, double scale, const UnitPoint& start) {
+  // Positive, in the order of the miss.
+  return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, deviations) / scale); },
+                     start);
+}
 
 /// The bounds that the nearest candidate lies on, where a step back costs more than the model's doubt there.
 std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const UnitPoint& nearest) {
@@ -136,16 +115,16 @@ std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const Rea
     if (!approach.suspect()) return std::nullopt;
     const GaussianProcess model = approach.model();
     const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
-    Miss at_best(model, parameters, sure, approach.least()), likely(model, parameters, 0, approach.least());
-    const UnitPoint hopeful = least_point(at_best, middle);
-    if (at_best.at(hopeful) > approach.met()) {
+    const UnitPoint hopeful = nearest_by(model, sure, approach.least(), middle);
+    const double at_best = miss_at(model, hopeful, sure);
+    if (at_best > approach.met()) {
       OutOfReach found;
       found.reading = reading;
       found.above = approach.side() > 0;
       found.measured = approach.measured();
-      found.nearest = least_point(likely, hopeful);
-      found.likely = approach.measured() + approach.side() * likely.at(found.nearest);
-      found.at_best = approach.measured() + approach.side() * at_best.at(hopeful);
+      found.nearest = nearest_by(model, 0, approach.least(), hopeful);
+      found.likely = approach.measured() + approach.side() * miss_at(model, found.nearest, 0);
+      found.at_best = approach.measured() + approach.side() * at_best;
       found.bounds = bounds_of(model, found.nearest);
       return found;
     }

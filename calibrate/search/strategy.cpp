@@ -6,16 +6,17 @@
 #include <optional>
 #include <stdexcept>
 
+#include "calibrate/optimisers/ceres.h"
+#include "calibrate/optimisers/nlopt.h"
 #include "calibrate/search/archive.h"
-#include "calibrate/search/ceres_search.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/confirmation.h"
-#include "calibrate/search/nlopt_search.h"
 #include "calibrate/search/proposals.h"
 #include "calibrate/search/prospects.h"
 #include "calibrate/search/reachability.h"
 #include "calibrate/search/screening.h"
+#include "calibrate/search/simulated_problem.h"
 
 namespace pastefit {
 namespace {
@@ -76,7 +77,9 @@ class Search {
     archive_.evaluate_coarse(*coarse_, points, packings_of_coarse(options_.seed, 1));
   }
 
-  bool any_evidence() const { return std::ranges::any_of(archive_.evidence(), is_feasible); }
+  bool any_evidence() const {
+    return std::ranges::any_of(archive_.evidence(), [](const Response& one) { return is_feasible(one); });
+  }
 
   void screen() {
     archive_.enter("screening");
@@ -129,10 +132,9 @@ class Search {
       NloptOptions nlopt;
       nlopt.algorithm = options_.strategy;
       nlopt.evaluations = std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size()));
-      nlopt.goal = optimisers_goal();
       nlopt.step_tolerance = same_point;
       nlopt.seed = options_.seed;
-      search_nlopt(archive_, common_, archive_.best_point(common_), nlopt);
+      (void)minimise(simulated_problem(archive_, common_, optimisers_goal()), archive_.best_point(common_), nlopt);
     }
     return prospects().best().size() > 0;
   }
@@ -210,11 +212,10 @@ class Search {
     CeresOptions ceres;
     ceres.trust_region = trust_region;
     ceres.evaluations = evaluations;
-    ceres.goal = optimisers_goal();
     ceres.difference_step = probe_length();
     ceres.step_tolerance = same_point;
     ceres.noise = noise();
-    search_ceres(archive_, common_, start, ceres);
+    (void)minimise(simulated_problem(archive_, common_, optimisers_goal()), start, ceres);
   }
 
   /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
@@ -323,22 +324,6 @@ class Search {
 };
 
 }  // namespace
-
-std::string_view name_of(CalibrationStatus status) {
-  switch (status) {
-    case CalibrationStatus::confirmed:
-      return "confirmed";
-    case CalibrationStatus::unconfirmed:
-      return "unconfirmed";
-    case CalibrationStatus::out_of_reach:
-      return "out_of_reach";
-    case CalibrationStatus::stopped:
-      return "stopped";
-    case CalibrationStatus::failed:
-      return "failed";
-  }
-  return "unknown";
-}
 
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,

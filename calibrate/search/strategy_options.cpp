@@ -1,7 +1,7 @@
 #include <string>
 
-#include "calibrate/search/ceres_search.h"
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/optimisers/ceres.h"
+#include "calibrate/optimisers/nlopt.h"
 #include "calibrate/search/strategy.h"
 
 namespace pastefit {

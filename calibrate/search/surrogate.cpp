@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/optimisers/nlopt.h"
+#include "calibrate/search/response.h"
 
 namespace pastefit {
 namespace {
@@ -28,13 +29,9 @@ double compressed(double residual, double far) {
   return std::copysign(far * (1 + std::log(std::abs(residual) / far)), residual);
 }
 
-/// Any packing will do where none is simulated.
-const std::vector<std::uint64_t> no_packing{0};
-
 }  // namespace
 
-Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances)
-    : parameters_(static_cast<int>(seen.front().point.size())) {
+Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances) {
   std::vector<UnitPoint> all;
   std::vector<const Response*> feasible;
   Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
@@ -101,18 +98,11 @@ double Surrogate::luck(std::size_t residual, const UnitPoint& point) const {
   return scatters_[residual] ? scatters_[residual]->excess(point) / packings_of_a_mean : 0;
 }
 
-std::vector<Response> Surrogate::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) {
-  std::vector<Response> responses;
-  for (const UnitPoint& point : points) {
-    Response response;
-    response.point = point;
-    response.residuals.resize(residuals());
-    for (std::size_t k = 0; k < models_.size(); ++k)
-      response.residuals[static_cast<Eigen::Index>(k)] = models_[k] ? models_[k]->predict(point).mean : 0;
-    response.misfit = outlook(point).mean();
-    responses.push_back(std::move(response));
-  }
-  return responses;
+Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
+  Eigen::VectorXd expected(residuals());
+  for (std::size_t k = 0; k < models_.size(); ++k)
+    expected[static_cast<Eigen::Index>(k)] = models_[k] ? models_[k]->predict(point).mean : 0;
+  return expected;
 }
 
 Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
@@ -153,21 +143,17 @@ double Surrogate::Outlook::improvement(double bound) const {
   return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));
 }
 
-Eigen::VectorXd Surrogate::imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck) {
+Eigen::VectorXd Surrogate::fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates) {
   Eigen::VectorXd answer(residuals());
   for (std::size_t k = 0; k < models_.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(k);
     answer[place] = 0;
     if (!models_[k]) continue;
     const GaussianProcess::Prediction prediction = models_[k]->predict(point);
-    answer[place] = prediction.mean + luck[place] * std::sqrt(prediction.variance);
-    models_[k]->imagine(point, answer[place], packings);
+    answer[place] = prediction.mean + deviates[place] * std::sqrt(prediction.variance);
+    models_[k]->fantasise(point, answer[place], packings);
   }
   return answer;
-}
-
-int Surrogate::budget_left() const {
-  return std::numeric_limits<int>::max();
 }
 
 double Surrogate::noise() const {
@@ -176,50 +162,14 @@ double Surrogate::noise() const {
   return 0.5 * variance;
 }
 
-namespace {
-
-/// What is likely to be the least misfit once a point is known, as a thing to minimise.
-class LeastMisfit : public Objective {
- public:
-  LeastMisfit(const Surrogate& surrogate, double misfit) : surrogate_(surrogate), misfit_(misfit) {}
-  int parameters() const override { return surrogate_.parameters(); }
-  int residuals() const override { return 0; }
-  int budget_left() const override { return std::numeric_limits<int>::max(); }
-  bool stop_requested() const override { return false; }
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
-    constexpr double slope = 1e-4;  // leads out of where no improvement is in sight
-    std::vector<Response> responses;
-    for (const UnitPoint& point : points) {
-      const Surrogate::Outlook outlook = surrogate_.outlook(point);
-      Response response;
-      response.point = point;
-      response.misfit = misfit_ - outlook.improvement(misfit_) + slope * outlook.mean();
-      responses.push_back(std::move(response));
-    }
-    return responses;
-  }
-
- private:
-  const Surrogate& surrogate_;
-  double misfit_;
-};
-
-}  // namespace
-
 Improvement most_promising(const Surrogate& surrogate, double misfit, const UnitPoint& start) {
-  LeastMisfit least(surrogate, misfit);
-  const UnitPoint point = least_point(least, start);
+  constexpr double slope = 1e-4;  // leads out of where no improvement is in sight
+  const auto expected_least = [&](const UnitPoint& point) {
+    const Surrogate::Outlook outlook = surrogate.outlook(point);
+    return misfit - outlook.improvement(misfit) + slope * outlook.mean();
+  };
+  const UnitPoint point = least_point(expected_least, start);
   return {point, surrogate.outlook(point).improvement(misfit)};
-}
-
-UnitPoint least_point(Objective& model, const UnitPoint& start) {
-  NloptOptions options;
-  options.algorithm = "direct_l";
-  options.evaluations = 150 * model.parameters();
-  const UnitPoint rough = search_nlopt(model, no_packing, start, options).best.point;
-  options.algorithm = "bobyqa";
-  options.initial_step = 0.1;
-  return search_nlopt(model, no_packing, rough, options).best.point;
 }
 
 }  // namespace pastefit

@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/search/gaussian_process.h"
-#include "calibrate/search/scatter.h"
+#include "calibrate/models/gaussian_process.h"
+#include "calibrate/models/scatter.h"
+#include "calibrate/search/objective.h"
 
 namespace pastefit {
 
@@ -13,7 +14,7 @@ namespace pastefit {
 /// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
 /// something is known, little fails, and packings agree. It never fails. Each residual is learnt from the simulations
 /// that took its reading; one that none took is expected to be met.
-class Surrogate : public Objective {
+class Surrogate {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
   /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered if it is likelier
@@ -21,11 +22,9 @@ class Surrogate : public Objective {
   /// too small far off. One of 0, or that is not given, is learnt as it is and may scatter as it likes.
   explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {});
 
-  int parameters() const override { return parameters_; }
-  int residuals() const override { return static_cast<int>(models_.size()); }
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
-  int budget_left() const override;
-  bool stop_requested() const override { return false; }
+  int residuals() const { return static_cast<int>(models_.size()); }
+  /// What the residuals of a point are expected to be, in their own unit or compressed.
+  Eigen::VectorXd expected_residuals(const UnitPoint& point) const;
 
   /// What the misfit of a point may be, less the usual noise of the packings: a part that is certain, and half the sum
   /// of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
@@ -47,10 +46,10 @@ class Surrogate : public Objective {
   /// of 0 do not count. Shape: one for each residual.
   double within(const Eigen::VectorXd& bounds, const UnitPoint& point) const;
 
-  /// Goes on as if `point` had answered on so many packings as it may well do: the mean residuals drawn from what is
-  /// known of them, without the noise of the packings; `luck`: standard normal deviates, one for each residual. Returns
-  /// them.
-  Eigen::VectorXd imagine(const UnitPoint& point, int packings, const Eigen::VectorXd& luck);
+  /// Conditions on `point` as if it had answered on so many packings as it may well do (fantasising): the mean
+  /// residuals drawn from what is known of them, without the noise of the packings; `deviates`: standard normal ones,
+  /// one for each residual. Returns them.
+  Eigen::VectorXd fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates);
 
   /// Misfit that the noise of one simulation is likely to cause: half the sum of the noise variances.
   double noise() const;
@@ -63,16 +62,11 @@ class Surrogate : public Objective {
   /// Likely share of failures.
   double failing(const UnitPoint& point) const;
 
-  int parameters_ = 0;
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
   std::vector<std::optional<Scatter>> scatters_;        // likewise; none too where it does not matter
   std::optional<GaussianProcess> failures_;
 };
-
-/// The point of least misfit of a model that answers at once: DIRECT_L over the cube, then a local search, both by
-/// NLopt.
-UnitPoint least_point(Objective& model, const UnitPoint& start);
 
 /// The point that is expected to improve most on a misfit (Jones, Schonlau & Welch 1998), failures counted as no
 /// improvement, and how much that is.

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "calibrate/search/strategy.h"
 #include "tests/calibrate/search/fake_slump.h"
 
 using namespace pastefit;

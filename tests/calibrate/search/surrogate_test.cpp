@@ -36,7 +36,7 @@ double error_near_the_laboratory(Height height, const Eigen::VectorXd& tolerance
   int count = 0;
   for (const UnitPoint& point : screening_points(2, 200, 2)) {
     if (std::abs(height(point)) > 15) continue;
-    squares += std::pow(surrogate.evaluate({&point, 1}, {}).at(0).residuals[0] - height(point), 2);
+    squares += std::pow(surrogate.expected_residuals(point)[0] - height(point), 2);
     ++count;
   }
   return std::sqrt(squares / count);

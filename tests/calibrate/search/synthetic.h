@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "calibrate/search/objective.h"
+#include "calibrate/search/response.h"
 #include "calibrate/search/screening.h"
-#include "calibrate/search/search_run.h"
 
 namespace pastefit::synthetic {
 

@@ -1,4 +1,4 @@
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/optimisers/nlopt.h"
 
 #include <algorithm>
 #include <array>
@@ -49,11 +49,10 @@ const AlgorithmRow* find_algorithm(std::string_view name) {
   return row == algorithms.end() ? nullptr : &*row;
 }
 
-/// Stands between NLopt and the objective: answers every question with a bounded number and keeps the books.
+/// Stands between NLopt and the problem: answers every question with a bounded number and keeps the books.
 class Answerer {
  public:
-  Answerer(Objective& objective, std::span<const std::uint64_t> packings, const NloptOptions& options)
-      : objective_(objective), packings_(packings), options_(options) {}
+  Answerer(const Problem& problem, const NloptOptions& options) : problem_(problem), options_(options) {}
 
   /// The bounded number for a point; after the end always the worst one.
   double answer(const UnitPoint& asked) {
@@ -65,23 +64,20 @@ class Answerer {
       if (++refused_ >= most_refused) end(SearchStatus::stalled, "the algorithm asked for points that are not numbers");
       return 2;
     }
-    if (objective_.stop_requested()) return end(SearchStatus::stopped, "a stop was requested");
+    const auto refusal = refuses(1);
+    if (refusal && refusal->status == SearchStatus::stopped) return end(refusal->status, refusal->reason);
     if (run_.evaluations >= options_.evaluations) return end(SearchStatus::budget_spent, "all evaluations are used");
-    if (objective_.budget_left() < static_cast<int>(packings_.size())) {
-      return end(SearchStatus::budget_spent, "the budget of simulations is spent");
-    }
+    if (refusal) return end(refusal->status, refusal->reason);
     const UnitPoint point = asked.cwiseMax(0.0).cwiseMin(1.0);
-    const Response response = objective_.evaluate({&point, 1}, packings_).at(0);
-    if (run_.evaluations == 0) scale_ = std::isfinite(response.misfit) && response.misfit > 0 ? response.misfit : 1;
-    keep(response);
-    if (is_feasible(response) && options_.goal > 0 && response.miss <= options_.goal) {
-      end(SearchStatus::converged, "the goal is met");
-    }
+    const Answer answer = problem_.answer({&point, 1}).at(0);
+    if (run_.evaluations == 0) scale_ = std::isfinite(answer.value) && answer.value > 0 ? answer.value : 1;
+    keep(answer);
+    if (is_feasible(answer) && answer.good_enough) end(SearchStatus::converged, "the goal is met");
     if (options_.patience > 0 && since_improvement_ >= options_.patience) {
       end(SearchStatus::stalled,
           "the last " + std::to_string(options_.patience) + " points brought no improvement beyond the noise");
     }
-    return bounded(response);
+    return bounded(answer);
   }
 
   /// Checks a claim of convergence: asks both neighbours of the best point along each coordinate, all at once, and
@@ -98,17 +94,17 @@ class Answerer {
       }
     }
     const auto points = static_cast<int>(neighbours.size());
-    if (objective_.stop_requested()) return (void)end(SearchStatus::stopped, "a stop was requested");
-    if (run_.evaluations + points > options_.evaluations ||
-        objective_.budget_left() < points * static_cast<int>(packings_.size())) {
+    const auto refusal = refuses(points);
+    if (refusal && refusal->status == SearchStatus::stopped) return (void)end(refusal->status, refusal->reason);
+    if (run_.evaluations + points > options_.evaluations || refusal) {
       return (void)end(SearchStatus::stalled, "the algorithm claims to have converged; no budget was left to check it");
     }
-    const double claimed = run_.best.misfit;
+    const double claimed = run_.best.value;
     const int failures = run_.failures;
-    for (const Response& response : objective_.evaluate(neighbours, packings_)) keep(response);
+    for (const Answer& answer : problem_.answer(neighbours)) keep(answer);
     if (run_.failures > failures) {
       end(SearchStatus::stalled, "the algorithm claims to have converged, but points beside fail");
-    } else if (run_.best.misfit < claimed - options_.noise) {
+    } else if (run_.best.value < claimed - options_.noise) {
       end(SearchStatus::stalled, "the algorithm claims to have converged, but a point beside is better");
     } else {
       end(SearchStatus::converged, "no step beyond the tolerance, and no point beside, is better");
@@ -127,34 +123,37 @@ class Answerer {
 
   bool ended() const { return ended_; }
   int late_calls() const { return late_calls_; }
-  const SearchRun& run() const { return run_; }
+  const Optimum& run() const { return run_; }
 
  private:
-  double bounded(const Response& response) const {
-    const bool graded = std::isfinite(response.misfit) && response.misfit >= 0;
-    const double share = graded ? response.misfit / (response.misfit + scale_) : 1;
-    return is_feasible(response) ? share : 1 + share;
+  std::optional<Problem::Refusal> refuses(int points) const {
+    return problem_.refuses ? problem_.refuses(points) : std::nullopt;
   }
 
-  void keep(const Response& response) {
+  double bounded(const Answer& answer) const {
+    const bool graded = std::isfinite(answer.value) && answer.value >= 0;
+    const double share = graded ? answer.value / (answer.value + scale_) : 1;
+    return is_feasible(answer) ? share : 1 + share;
+  }
+
+  void keep(const Answer& answer) {
     ++run_.evaluations;
-    if (!is_feasible(response)) ++run_.failures;
-    const bool first = is_feasible(response) && !is_feasible(run_.best);
-    if (first || (is_feasible(response) && response.misfit < mark_ - options_.noise)) {
-      mark_ = response.misfit;
+    if (!is_feasible(answer)) ++run_.failures;
+    const bool first = is_feasible(answer) && !is_feasible(run_.best);
+    if (first || (is_feasible(answer) && answer.value < mark_ - options_.noise)) {
+      mark_ = answer.value;
       since_improvement_ = 0;
     } else {
       ++since_improvement_;
     }
-    if (is_better(response, run_.best)) run_.best = response;
+    if (is_better(answer, run_.best)) run_.best = answer;
   }
 
-  Objective& objective_;
-  std::span<const std::uint64_t> packings_;
+  const Problem& problem_;
   const NloptOptions& options_;
-  SearchRun run_;
-  double scale_ = 1;           // misfit of the start: the middle of the bounded range
-  double mark_ = 0;            // misfit the next improvement is measured against
+  Optimum run_;
+  double scale_ = 1;           // value of the start: the middle of the bounded range
+  double mark_ = 0;            // value the next improvement is measured against
   int since_improvement_ = 0;  // points
   int refused_ = 0;
   int late_calls_ = 0;
@@ -168,7 +167,7 @@ int undivided(Eigen::Index dimension) {
   return 2 * static_cast<int>(dimension) + 2;
 }
 
-/// What NLopt's callback carries. The objective's exceptions cross NLopt in here, because NLopt would forget their
+/// What NLopt's callback carries. The problem's exceptions cross NLopt in here, because NLopt would forget their
 /// type.
 struct Question {
   Answerer& answerer;
@@ -185,7 +184,7 @@ double ask(unsigned, const double* x, double*, void* data) {
     value = question.answerer.answer(Eigen::Map<const Eigen::VectorXd>(x, question.dimension));
   } catch (...) {
     question.thrown = std::current_exception();
-    question.answerer.end(SearchStatus::failed, "the objective threw");
+    question.answerer.end(SearchStatus::failed, "the problem threw");
   }
   ++question.asked;
   if (question.answerer.ended() && question.asked > undivided(question.dimension)) question.optimiser.force_stop();
@@ -293,23 +292,31 @@ Faults validate(const NloptOptions& options, int dimension) {
   return faults;
 }
 
-SearchRun search_nlopt(Objective& objective, std::span<const std::uint64_t> packings, const UnitPoint& start,
-                       const NloptOptions& options) {
-  const int parameters = objective.parameters();
-  const bool inside = start.size() == parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
-  if (!inside || packings.empty() || !validate(options, parameters).empty()) {
-    throw std::logic_error("search_nlopt: start outside the unit cube, no packings, or options that are not valid");
-  }
-  Answerer answerer(objective, packings, options);
+Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOptions& options) {
+  const bool inside = start.size() == problem.parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
+  if (!inside || !validate(options, problem.parameters).empty())
+    throw std::logic_error("minimise: start outside the unit cube, or options that are not valid");
+  Answerer answerer(problem, options);
   answerer.answer(start);
   if (!answerer.ended()) run_algorithm(answerer, start, options);
-  SearchRun run = answerer.run();
+  Optimum run = answerer.run();
   const bool interrupted = run.status == SearchStatus::stopped || run.evaluations == 0;
   if (!is_feasible(run.best) && !interrupted) {
     run.status = SearchStatus::failed;
     run.reason = "every point that was asked failed";
   }
   return run;
+}
+
+UnitPoint least_point(const std::function<double(const UnitPoint&)>& function, const UnitPoint& start) {
+  const Problem problem = scalar_problem(static_cast<int>(start.size()), function);
+  NloptOptions options;
+  options.algorithm = "direct_l";
+  options.evaluations = 150 * problem.parameters;
+  const UnitPoint rough = minimise(problem, start, options).best.point;
+  options.algorithm = "bobyqa";
+  options.initial_step = 0.1;
+  return minimise(problem, rough, options).best.point;
 }
 
 }  // namespace pastefit

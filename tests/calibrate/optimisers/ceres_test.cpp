@@ -1,9 +1,10 @@
-#include "calibrate/search/ceres_search.h"
+#include "calibrate/optimisers/ceres.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-#include "synthetic.h"
+#include "../search/synthetic.h"
+#include "calibrate/search/simulated_problem.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;
@@ -25,15 +26,15 @@ TEST_CASE("both trust regions walk Rosenbrock's valley to its end") {
     Synthetic objective = valley();
     CeresOptions options = fine_options();
     options.trust_region = region;
-    const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), options);
-    CHECK(run.best.misfit < 1e-8);
+    const Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), options);
+    CHECK(run.best.value < 1e-8);
     CHECK(run.status != SearchStatus::failed);
   }
 }
 
 TEST_CASE("a minimum outside the cube is met at its border") {
   Synthetic objective = bowl(Eigen::Vector2d(0.4, 1.7));
-  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.9, 0.1), fine_options());
+  const Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.9, 0.1), fine_options());
   CHECK(run.best.point[0] == Approx(0.4).margin(1e-3));
   CHECK(run.best.point[1] == Approx(1.0).margin(1e-3));
 }
@@ -43,20 +44,20 @@ TEST_CASE("a probe that fails is replaced by one on the other side, and by a sho
   CeresOptions options;
   options.difference_step = 0.2;
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.45 || x[1] > 0.75; };
-  SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.4, 0.6), options);
+  Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.4, 0.6), options);
   CHECK(run.failures >= 1);
-  CHECK(run.best.misfit < 1e-4);
+  CHECK(run.best.value < 1e-4);
   objective = bowl(Eigen::Vector2d(0.2, 0.2));
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] > 0.55 && std::abs(x[1] - 0.5) > 0.06; };
-  run = search_ceres(objective, one_packing, Eigen::Vector2d(0.6, 0.5), options);
+  run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.6, 0.5), options);
   CHECK(run.failures >= 2);
-  CHECK(run.best.misfit < 1e-4);
+  CHECK(run.best.value < 1e-4);
 }
 
 TEST_CASE("a direction in which everything fails is held, and the reason says so") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   objective.fails = [](const UnitPoint& x, std::uint64_t) { return std::abs(x[1] - 0.6) > 1e-6; };
-  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.7, 0.6), {});
+  const Optimum run = minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.7, 0.6), CeresOptions{});
   CHECK(run.best.point[0] == Approx(0.2).margin(0.02));
   CHECK(run.best.point[1] == 0.6);
   CHECK(run.reason.find("held") != std::string::npos);
@@ -79,7 +80,7 @@ TEST_CASE("two hundred failing regions end no solve at its start, and the best i
     CeresOptions options;
     options.trust_region = seed % 2 == 0 ? TrustRegion::levenberg_marquardt : TrustRegion::dogleg;
     options.evaluations = 120;
-    const SearchRun run = search_ceres(objective, one_packing, start, options);
+    const Optimum run = minimise(simulated_problem(objective, one_packing), start, options);
     CHECK(objective.answered.size() <= 120);
     if (objective.fails(start, 1)) {
       CHECK(run.status == SearchStatus::failed);
@@ -91,7 +92,7 @@ TEST_CASE("two hundred failing regions end no solve at its start, and the best i
       if (is_feasible(response)) least = std::min(least, response.misfit);
     }
     CHECK(is_feasible(run.best));
-    CHECK(run.best.misfit == least);
+    CHECK(run.best.value == least);
     if (least < 0.5 * objective.answered[0].misfit) ++improved;
   }
   CHECK(feasible_starts > 80);
@@ -108,16 +109,15 @@ TEST_CASE("a robust loss lets one measurement that contradicts the others go") {
   options.loss = Loss::cauchy;
   UnitPoint start(1);
   start << 0.5;
-  CHECK(search_ceres(objective, one_packing, start, options).best.point[0] == Approx(0.3).margin(0.01));
+  CHECK(minimise(simulated_problem(objective, one_packing), start, options).best.point[0] == Approx(0.3).margin(0.01));
   options.loss = Loss::none;
-  CHECK(search_ceres(objective, one_packing, start, options).best.point[0] == Approx(1.0).margin(0.01));
+  CHECK(minimise(simulated_problem(objective, one_packing), start, options).best.point[0] == Approx(1.0).margin(0.01));
 }
 
 TEST_CASE("a start that meets the goal costs one point") {
   Synthetic objective = bowl(Eigen::Vector2d(0.2, 0.2));
   CeresOptions options;
-  options.goal = 0.04;
-  const SearchRun run = search_ceres(objective, one_packing, Eigen::Vector2d(0.3, 0.3), options);
+  const Optimum run = minimise(simulated_problem(objective, one_packing, 0.04), Eigen::Vector2d(0.3, 0.3), options);
   CHECK(run.status == SearchStatus::converged);
   CHECK(objective.answered.size() == 1);
 }
@@ -125,19 +125,20 @@ TEST_CASE("a start that meets the goal costs one point") {
 TEST_CASE("budget, stop and exceptions end the solve with what was seen") {
   Synthetic objective = valley();
   objective.budget = 9;
-  CHECK(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
+  CHECK(minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
         SearchStatus::budget_spent);
   CHECK(objective.simulations <= 9);
   objective = valley();
   objective.stop = [&] { return objective.simulations >= 5; };
-  CHECK(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
+  CHECK(minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()).status ==
         SearchStatus::stopped);
   objective = valley();
   objective.fails = [&](const UnitPoint&, std::uint64_t) {
     if (objective.simulations > 5) throw std::out_of_range("broken");
     return false;
   };
-  CHECK_THROWS_AS(search_ceres(objective, one_packing, Eigen::Vector2d(0.2, 0.8), fine_options()), std::out_of_range);
+  CHECK_THROWS_AS(minimise(simulated_problem(objective, one_packing), Eigen::Vector2d(0.2, 0.8), fine_options()),
+                  std::out_of_range);
 }
 
 TEST_CASE("the probe grows with the noise and shrinks with the curvature") {

@@ -1,79 +1,43 @@
-#include "calibrate/search/gaussian_process.h"
+#include "calibrate/models/gaussian_process.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/models/hyperparameters.h"
+#include "calibrate/models/matern.h"
 
 namespace pastefit {
 namespace {
 
-constexpr double shortest_length = 0.15, longest_length = 15;  // of the unit cube
-constexpr double usual_length = 1.0;
-constexpr double least_noise = 1e-4, most_noise = 1;  // noise variance over signal variance
-constexpr double usual_noise = 0.01;
-
-double correlation(const UnitPoint& a, const UnitPoint& b, const Eigen::VectorXd& lengths) {
-  const double r = std::sqrt(5.0) * ((a - b).array() / lengths.array()).matrix().norm();
-  return (1 + r + r * r / 3) * std::exp(-r);
-}
-
-double between(double low, double high, double share) {
-  return low * std::pow(high / low, share);
-}
+constexpr double default_length = 1.0;
+constexpr LogRange noise_range{1e-4, 1};  // noise variance over signal variance
+constexpr double default_noise = 0.01;
 
 }  // namespace
-
-/// The fit of lengths and noise as an objective over the unit cube, so that NLopt serves here too.
-class GaussianProcess::Likelihood : public Objective {
- public:
-  explicit Likelihood(GaussianProcess& process) : process_(process) {}
-  int parameters() const override { return static_cast<int>(process_.points_.front().size()) + 1; }
-  int residuals() const override { return 0; }
-  int budget_left() const override { return std::numeric_limits<int>::max(); }
-  bool stop_requested() const override { return false; }
-
-  void adopt(const UnitPoint& point) {
-    const Eigen::Index dimension = point.size() - 1;
-    Eigen::VectorXd lengths(dimension);
-    for (Eigen::Index k = 0; k < dimension; ++k) lengths[k] = between(shortest_length, longest_length, point[k]);
-    process_.set(lengths, between(least_noise, most_noise, point[dimension]));
-  }
-
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
-    std::vector<Response> responses;
-    for (const UnitPoint& point : points) {
-      adopt(point);
-      double prior = std::pow(std::log(process_.noise_ratio_ / usual_noise) / 1.5, 2);
-      for (const double length : process_.lengths_) prior += std::pow(std::log(length / usual_length), 2);
-      Response response;
-      response.point = point;
-      // The concentrated likelihood to the power -2/n: positive, as a misfit should be.
-      response.misfit = process_.signal_variance_ * std::exp((process_.log_determinant_ + prior) / process_.answers_);
-      responses.push_back(std::move(response));
-    }
-    return responses;
-  }
-
- private:
-  GaussianProcess& process_;
-};
 
 GaussianProcess::GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
                                  const Eigen::VectorXd& precisions) {
   pool(points, values, precisions.size() > 0 ? precisions : Eigen::VectorXd::Ones(values.size()));
   mean_ = values.mean();
   if ((values.array() - mean_).abs().maxCoeff() <= 1e-12 * (1 + std::abs(mean_))) return;
-  Likelihood likelihood(*this);
-  NloptOptions options;
-  options.algorithm = "sbplx";
-  options.evaluations = 60 * likelihood.parameters();
-  options.step_tolerance = 0.01;
-  const UnitPoint start = UnitPoint::Constant(likelihood.parameters(), 0.5);
-  const std::vector<std::uint64_t> no_packing{0};
-  likelihood.adopt(search_nlopt(likelihood, no_packing, start, options).best.point);
+  const Eigen::Index dimension = points_.front().size();
+  const auto adopt = [&](const UnitPoint& point) {
+    Eigen::VectorXd lengths(dimension);
+    for (Eigen::Index k = 0; k < dimension; ++k) lengths[k] = length_range.at(point[k]);
+    set(lengths, noise_range.at(point[dimension]));
+  };
+  const auto deviance_at = [&](const UnitPoint& point) {
+    adopt(point);
+    return deviance();
+  };
+  adopt(fit_hyperparameters(deviance_at, UnitPoint::Constant(dimension + 1, 0.5), 60));
+}
+
+double GaussianProcess::deviance() const {
+  double prior = std::pow(std::log(noise_ratio_ / default_noise) / 1.5, 2);
+  for (const double length : lengths_) prior += std::pow(std::log(length / default_length), 2);
+  return signal_variance_ * std::exp((log_determinant_ + prior) / answers_);
 }
 
 void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
@@ -88,8 +52,7 @@ void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::Vecto
       squares.push_back(0);
       counts.push_back(0);
     }
-    // Welford's update: the squares about the mean so far, without
-    // cancellation.
+    // Welford's update: the squares about the mean so far, without cancellation.
     const double before = counts[known] > 0 ? value - sums[known] / counts[known] : 0;
     sums[known] += precision * value;
     counts[known] += precision;
@@ -110,7 +73,7 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
       matrix(i, j) = matrix(j, i) =
-          correlation(points_[static_cast<std::size_t>(i)], points_[static_cast<std::size_t>(j)], lengths_);
+          matern_correlation(points_[static_cast<std::size_t>(i)], points_[static_cast<std::size_t>(j)], lengths_);
     }
     matrix(i, i) += noise_ratio_ / counts_[i];
   }
@@ -120,14 +83,13 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
   mean_ = ones.dot(values_) / ones.sum();
   const Eigen::VectorXd deviations = values_.array() - mean_;
   weights_ = cholesky.solve(deviations);
-  // The likelihood of all answers, from the means and the squares within the
-  // points.
+  // The likelihood of all answers, from the means and the squares within the points.
   signal_variance_ = (deviations.dot(weights_) + squares_within_ / noise_ratio_) / answers_;
   log_determinant_ = 2 * factor_.diagonal().array().log().sum() + counts_.array().log().sum() +
                      (answers_ - static_cast<double>(n)) * std::log(noise_ratio_);
 }
 
-void GaussianProcess::imagine(const UnitPoint& point, double mean, int answers) {
+void GaussianProcess::fantasise(const UnitPoint& point, double mean, int answers) {
   if (signal_variance_ == 0) return;
   const auto n = values_.size();
   points_.push_back(point);
@@ -147,7 +109,7 @@ GaussianProcess::Prediction GaussianProcess::predict(const UnitPoint& point) con
   if (signal_variance_ == 0) return {mean_, 0};
   Eigen::VectorXd correlations(static_cast<Eigen::Index>(points_.size()));
   for (Eigen::Index i = 0; i < correlations.size(); ++i) {
-    correlations[i] = correlation(point, points_[static_cast<std::size_t>(i)], lengths_);
+    correlations[i] = matern_correlation(point, points_[static_cast<std::size_t>(i)], lengths_);
   }
   const double mean = mean_ + correlations.dot(weights_);
   factor_.triangularView<Eigen::Lower>().solveInPlace(correlations);

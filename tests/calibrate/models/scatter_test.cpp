@@ -1,9 +1,9 @@
-#include "calibrate/search/scatter.h"
+#include "calibrate/models/scatter.h"
 
 #include <catch2/catch.hpp>
 
+#include "../search/synthetic.h"
 #include "calibrate/base/statistics.h"
-#include "synthetic.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;

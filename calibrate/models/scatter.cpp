@@ -1,4 +1,4 @@
-#include "calibrate/search/scatter.h"
+#include "calibrate/models/scatter.h"
 
 #include <algorithm>
 #include <cmath>

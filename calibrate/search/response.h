@@ -1,48 +1,45 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
-#include <string>
-#include <string_view>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/search/objective.h"
+#include "calibrate/optimisers/problem.h"
+#include "core/result.h"
 
 namespace pastefit {
 
-/// How one optimiser's run ended; every status of every optimiser is translated into one of these.
-enum class SearchStatus {
-  converged,     ///< the goal is met, or the algorithm's own test holds and a look around the best point agrees
-  stalled,       ///< no improvement beyond the noise, or a claim of convergence that was refuted or not checked
-  budget_spent,  ///< the bound on evaluations, or the objective's budget
-  stopped,       ///< the user or a limit asked for it
-  failed         ///< no feasible point was seen, or the algorithm refused
+/// One finished simulation of a candidate on one packing.
+struct Evaluation {
+  UnitPoint point;
+  std::uint64_t packing = 0;
+  std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
+  std::optional<Failure> failure;
+  bool ended_early = false;  ///< see `Objective::try_out`
 };
 
-/// The status as it is stored and printed, e.g. "budget_spent".
-inline std::string_view name_of(SearchStatus status) {
-  switch (status) {
-    case SearchStatus::converged:
-      return "converged";
-    case SearchStatus::stalled:
-      return "stalled";
-    case SearchStatus::budget_spent:
-      return "budget_spent";
-    case SearchStatus::stopped:
-      return "stopped";
-    case SearchStatus::failed:
-      return "failed";
-  }
-  return "unknown";
-}
-
-/// What one optimiser's run brought.
-struct SearchRun {
-  Response best;  ///< the feasible response of least misfit that was seen; a failed one only if all failed
-  SearchStatus status = SearchStatus::failed;
-  std::string reason;   ///< one sentence for a person
-  int evaluations = 0;  ///< points asked
-  int failures = 0;     ///< of them failed
+/// What a candidate answers on a set of packings: the mean over them, against the laboratory.
+struct Response {
+  UnitPoint point;
+  std::vector<std::uint64_t> packings;
+  std::vector<Evaluation> evaluations;  ///< one per packing
+  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading; NaN: some packing has none
+  /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
+  /// their standard deviations. Finite; graded if it failed.
+  Eigen::VectorXd residuals;
+  double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
+  /// Largest difference of a fitted reading from the laboratory over its tolerance: what is judged; 1 is asked for.
+  double miss = 0;
+  /// What the noise of the packings makes of `miss` by itself: largest standard error of a fitted reading over its
+  /// tolerance. 0: a single packing, or a failure.
+  double noise = 0;
+  bool failed = false;  ///< some packing ended in a failure
+  /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
+  /// bound of that of the whole test, and not one that makes a candidate the best.
+  bool ended_early = false;
 };
 
 /// True if there is a response, it did not fail, and its numbers are finite.

@@ -1,4 +1,4 @@
-#include "calibrate/inference/reading_model.h"
+#include "calibrate/models/reading_model.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 
@@ -60,7 +60,6 @@ class ReadingModel {
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  class Fit;
   /// All but the answers, in the same unit.
   struct Settings {
     Eigen::VectorXd lengths;
@@ -68,6 +67,13 @@ class ReadingModel {
     double noise_level = 0, noise_slope = 0, noise_bend = 0;  // g_0 to g_2
   };
 
+  /// The settings of most evidence from `start` on; `with_places`: the noise may depend on the mean reading.
+  void fit(const UnitPoint& start, bool with_places, int evaluations_each);
+  UnitPoint point_of(const Settings& settings, bool with_places) const;
+  Settings settings_at(const UnitPoint& point, bool with_places) const;
+  /// The evidence times the priors, to the power -2/n.
+  double deviance() const;
+  Eigen::Index dimension() const { return sites_.front().size(); }
   void pool(std::span<const Answer> answers);
   void standardise();
   void adopt(const Settings& settings);

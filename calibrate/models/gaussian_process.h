@@ -3,17 +3,15 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 
-/// A Gaussian process with constant mean, Matérn 5/2 covariance with one length
-/// for each coordinate, and noise. Mean and variance are profiled out; lengths
-/// and noise maximise the likelihood times a broad prior that favours smooth
-/// answers, so that a few dozen noisy simulations do not make it wiggle.
-/// Answers of one point are pooled, which changes nothing but the time it
-/// takes. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning
-/// (2006), sections 2.2, 4.2.1, 5.4.1.
+/// A Gaussian process with constant mean, Matérn 5/2 covariance with one length for each coordinate, and noise. Mean
+/// and variance are profiled out; lengths and noise maximise the likelihood times a broad prior that favours smooth
+/// answers, so that it does not follow the noise of a few dozen answers. Answers of one point are pooled, which changes
+/// nothing but the time it takes. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning (2006),
+/// sections 2.2, 4.2.1, 5.4.1.
 class GaussianProcess {
  public:
   struct Prediction {
@@ -26,17 +24,21 @@ class GaussianProcess {
   GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
                   const Eigen::VectorXd& precisions = {});
 
-  /// Becomes what it would be if a point had answered with this mean of so many answers; lengths and noise ratio stay.
-  void imagine(const UnitPoint& point, double mean, int answers);
+  /// Conditions on a point that has not been answered, as if the mean of so many answers were known (fantasising);
+  /// lengths and noise ratio stay.
+  void fantasise(const UnitPoint& point, double mean, int answers);
 
   Prediction predict(const UnitPoint& point) const;
   /// Logarithm of the likelihood of the answers, but for a constant of their number; infinite if all are the same.
   double log_likelihood() const;
+  const Eigen::VectorXd& lengths() const { return lengths_; }
+  double signal_variance() const { return signal_variance_; }
   /// Of an answer of precision 1.
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 
  private:
-  class Likelihood;
+  /// The negative logarithm of likelihood and prior as a positive number: to the power 2/n.
+  double deviance() const;
   void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values, const Eigen::VectorXd& precisions);
   void set(const Eigen::VectorXd& lengths, double noise_ratio);
 

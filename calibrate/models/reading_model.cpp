@@ -1,4 +1,4 @@
-#include "calibrate/inference/reading_model.h"
+#include "calibrate/models/reading_model.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -6,29 +6,22 @@
 #include <limits>
 #include <numbers>
 
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/models/hyperparameters.h"
+#include "calibrate/models/matern.h"
 
 namespace pastefit {
 namespace {
 
 // What is usual is known to a factor of two. With a longer usual length, a smaller signal or less noise few candidates
 // are taken for many, and readings are stated closer than they are (tests/twins).
-constexpr double shortest_length = 0.15, longest_length = 15, usual_length = 0.5;  // of the unit cube
+constexpr double usual_length = 0.5;
 // In variances of all answers, as the trend's.
-constexpr double least_signal = 1e-3, most_signal = 10, usual_signal = 1;
-constexpr double least_noise = 1e-6, most_noise = 2, usual_noise = 0.02;
+constexpr LogRange signal_range{1e-3, 10}, noise_variance_range{1e-6, 2};
+constexpr double usual_signal = 1, usual_noise = 0.02;
 constexpr double most_slope = 2.5;  // of the logarithm of the noise variance, over one standard deviation
 constexpr double constant_variance = 9, slope_variance = 2;
 constexpr int most_rounds = 30;  // of expectation propagation
 constexpr double least_bend = 1e-9;
-
-double between(double low, double high, double share) {
-  return low * std::pow(high / low, share);
-}
-
-double share_between(double low, double high, double value) {
-  return std::clamp(std::log(value / low) / std::log(high / low), 0.0, 1.0);
-}
 
 double log_normal_density(double z) {
   return -0.5 * (z * z + std::log(2 * std::numbers::pi));
@@ -53,76 +46,47 @@ void ReadingModel::Row::match(double mean, double doubt) {
   log_weight = log_normal_share(z) + 0.5 * (std::log(2 * std::numbers::pi / bend) + slope * slope / bend);
 }
 
-/// The fit of the settings as an objective over the unit cube, so that NLopt serves here too.
-class ReadingModel::Fit : public Objective {
- public:
-  /// `with_places`: the noise may depend on the mean reading.
-  Fit(ReadingModel& model, bool with_places) : model_(model), with_places_(with_places) {}
+UnitPoint ReadingModel::point_of(const Settings& settings, bool with_places) const {
+  const Eigen::Index d = dimension();
+  UnitPoint point = UnitPoint::Constant(d + (with_places ? 4 : 2), 0.5);
+  for (Eigen::Index k = 0; k < d; ++k) point[k] = length_range.share_of(settings.lengths[k]);
+  point[d] = signal_range.share_of(settings.signal_variance);
+  point[d + 1] = noise_variance_range.share_of(std::exp(settings.noise_level));
+  return point;
+}
 
-  int parameters() const override { return dimension() + (with_places_ ? 4 : 2); }
-  int residuals() const override { return 0; }
-  int budget_left() const override { return std::numeric_limits<int>::max(); }
-  bool stop_requested() const override { return false; }
+ReadingModel::Settings ReadingModel::settings_at(const UnitPoint& point, bool with_places) const {
+  Settings settings;
+  const Eigen::Index d = dimension();
+  settings.lengths.resize(d);
+  for (Eigen::Index k = 0; k < d; ++k) settings.lengths[k] = length_range.at(point[k]);
+  settings.signal_variance = signal_range.at(point[d]);
+  settings.noise_level = std::log(noise_variance_range.at(point[d + 1]));
+  if (!with_places) return settings;
+  settings.noise_slope = most_slope * (2 * point[d + 2] - 1);
+  settings.noise_bend = most_slope * (2 * point[d + 3] - 1);
+  return settings;
+}
 
-  UnitPoint point_of(const Settings& settings) const {
-    UnitPoint point = UnitPoint::Constant(parameters(), 0.5);
-    const Eigen::Index d = dimension();
-    for (Eigen::Index k = 0; k < d; ++k) point[k] = share_between(shortest_length, longest_length, settings.lengths[k]);
-    point[d] = share_between(least_signal, most_signal, settings.signal_variance);
-    point[d + 1] = share_between(least_noise, most_noise, std::exp(settings.noise_level));
-    return point;
-  }
+double ReadingModel::deviance() const {
+  const auto off = [](double value, double usual) {
+    return 0.5 * std::pow(std::log(value / usual) / std::numbers::ln2, 2);
+  };
+  double prior = off(settings_.signal_variance, usual_signal) + off(std::exp(settings_.noise_level), usual_noise) +
+                 0.5 * (std::pow(settings_.noise_slope, 2) + std::pow(settings_.noise_bend, 2));
+  for (const double length : settings_.lengths) prior += off(length, usual_length);
+  double answers = 0;
+  for (const Row& row : rows_) answers += row.count;
+  return std::exp(2 * (prior - log_evidence_) / answers);
+}
 
-  Settings settings_at(const UnitPoint& point) const {
-    Settings settings;
-    const Eigen::Index d = dimension();
-    settings.lengths.resize(d);
-    for (Eigen::Index k = 0; k < d; ++k) settings.lengths[k] = between(shortest_length, longest_length, point[k]);
-    settings.signal_variance = between(least_signal, most_signal, point[d]);
-    settings.noise_level = std::log(between(least_noise, most_noise, point[d + 1]));
-    if (!with_places_) return settings;
-    settings.noise_slope = most_slope * (2 * point[d + 2] - 1);
-    settings.noise_bend = most_slope * (2 * point[d + 3] - 1);
-    return settings;
-  }
-
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t>) override {
-    std::vector<Response> responses;
-    for (const UnitPoint& point : points) {
-      const Settings settings = settings_at(point);
-      model_.adopt(settings);
-      const auto off = [](double value, double usual) {
-        return 0.5 * std::pow(std::log(value / usual) / std::numbers::ln2, 2);
-      };
-      double prior = off(settings.signal_variance, usual_signal) + off(std::exp(settings.noise_level), usual_noise) +
-                     0.5 * (std::pow(settings.noise_slope, 2) + std::pow(settings.noise_bend, 2));
-      for (const double length : settings.lengths) prior += off(length, usual_length);
-      double answers = 0;
-      for (const Row& row : model_.rows_) answers += row.count;
-      Response response;
-      response.point = point;
-      response.misfit = std::exp(2 * (prior - model_.log_evidence_) / answers);  // positive, as a misfit should be
-      responses.push_back(std::move(response));
-    }
-    return responses;
-  }
-
-  /// Adopts the settings of most evidence.
-  void maximise(const UnitPoint& start, int evaluations_each) {
-    NloptOptions options;
-    options.algorithm = "sbplx";
-    options.evaluations = evaluations_each * parameters();
-    options.step_tolerance = 0.01;
-    const std::vector<std::uint64_t> no_packing{0};
-    model_.adopt(settings_at(search_nlopt(*this, no_packing, start, options).best.point));
-  }
-
- private:
-  int dimension() const { return static_cast<int>(model_.sites_.front().size()); }
-
-  ReadingModel& model_;
-  bool with_places_;
-};
+void ReadingModel::fit(const UnitPoint& start, bool with_places, int evaluations_each) {
+  const auto deviance_at = [&](const UnitPoint& point) {
+    adopt(settings_at(point, with_places));
+    return deviance();
+  };
+  adopt(settings_at(fit_hyperparameters(deviance_at, start, evaluations_each), with_places));
+}
 
 ReadingModel::ReadingModel(std::span<const UnitPoint> sites, std::span<const Answer> answers)
     : sites_(sites.begin(), sites.end()) {
@@ -130,12 +94,10 @@ ReadingModel::ReadingModel(std::span<const UnitPoint> sites, std::span<const Ans
   standardise();
   if (scale_ == 0) return;
   levels_ = Eigen::VectorXd::Zero(std::ssize(rows_));
-  Fit even(*this, false);
-  even.maximise(UnitPoint::Constant(even.parameters(), 0.5), 60);
+  fit(UnitPoint::Constant(dimension() + 2, 0.5), false, 60);
   for (std::size_t i = 0; i < rows_.size(); ++i)
     levels_[static_cast<Eigen::Index>(i)] = (predict(place(i)).mean - centre_) / scale_;
-  Fit uneven(*this, true);
-  uneven.maximise(uneven.point_of(settings_), 40);
+  fit(point_of(settings_, true), true, 40);
   for (Row& row : rows_) row.noise *= scale_;
 }
 
@@ -173,15 +135,14 @@ void ReadingModel::standardise() {
 }
 
 double ReadingModel::covariance(const UnitPoint& a, const UnitPoint& b) const {
-  const double r = std::sqrt(5.0) * ((a - b).array() / settings_.lengths.array()).matrix().norm();
   const double trend =
       constant_variance + slope_variance * (2 * a.array() - 1).matrix().dot((2 * b.array() - 1).matrix());
-  return trend + settings_.signal_variance * (1 + r + r * r / 3) * std::exp(-r);
+  return trend + settings_.signal_variance * matern_correlation(a, b, settings_.lengths);
 }
 
 double ReadingModel::noise_variance(double mean) const {
   const double u = std::clamp(mean, lowest_, highest_);
-  return std::max(least_noise,
+  return std::max(noise_variance_range.low,
                   std::exp(settings_.noise_level + settings_.noise_slope * u + settings_.noise_bend * (u * u - 1)));
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
 

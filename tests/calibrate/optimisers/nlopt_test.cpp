@@ -1,9 +1,10 @@
-#include "calibrate/search/nlopt_search.h"
+#include "calibrate/optimisers/nlopt.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-#include "synthetic.h"
+#include "../search/synthetic.h"
+#include "calibrate/search/simulated_problem.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;
@@ -42,10 +43,10 @@ TEST_CASE("every algorithm finds the bottom of a bowl") {
       UnitPoint target(dimension);
       for (int k = 0; k < dimension; ++k) target[k] = 0.3 + 0.1 * k;
       Synthetic objective = bowl(target);
-      const SearchRun run =
-          search_nlopt(objective, one_packing, UnitPoint::Constant(dimension, 0.9), options_for(name, 1500));
-      CHECK(run.best.misfit < 0.02);
-      CHECK(run.best.misfit == least_seen(objective));
+      const Optimum run = minimise(simulated_problem(objective, one_packing), UnitPoint::Constant(dimension, 0.9),
+                                   options_for(name, 1500));
+      CHECK(run.best.value < 0.02);
+      CHECK(run.best.value == least_seen(objective));
       CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
       CHECK(run.evaluations <= 1500);
       CHECK(run.status != SearchStatus::failed);
@@ -68,7 +69,7 @@ TEST_CASE(
       Synthetic objective = bowl(target);
       objective.fails = failing_region(seed, dimension);
       objective.failure_kind = static_cast<FailureKind>(seed % 4);
-      const SearchRun run = search_nlopt(objective, one_packing, start, options_for(name, 120));
+      const Optimum run = minimise(simulated_problem(objective, one_packing), start, options_for(name, 120));
       CHECK(objective.answered.size() <= 120);
       CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
       const double least = least_seen(objective);
@@ -77,7 +78,7 @@ TEST_CASE(
         continue;
       }
       CHECK(is_feasible(run.best));
-      CHECK(run.best.misfit == least);
+      CHECK(run.best.value == least);
       if (run.status != SearchStatus::converged) continue;
       ++converged;
       for (int k = 0; k < dimension; ++k) {
@@ -85,7 +86,7 @@ TEST_CASE(
           UnitPoint beside = run.best.point;
           beside[k] = std::clamp(beside[k] + step, 0.0, 1.0);
           const Response response = objective.evaluate({&beside, 1}, one_packing).at(0);
-          const bool refutes = is_feasible(response) && response.misfit < run.best.misfit - 1e-3;
+          const bool refutes = is_feasible(response) && response.misfit < run.best.value - 1e-3;
           CHECK_FALSE(refutes);
         }
       }
@@ -100,27 +101,26 @@ TEST_CASE("an algorithm ends with the evaluations, the budget or the wish to sto
     Synthetic objective = bowl(point_of({0.31, 0.62}));
     objective.budget = 21;
     const std::vector<std::uint64_t> packings{1, 2};
-    SearchRun run = search_nlopt(objective, packings, point_of({0.9, 0.9}), options_for(name, 500));
+    Optimum run = minimise(simulated_problem(objective, packings), point_of({0.9, 0.9}), options_for(name, 500));
     CHECK(run.status == SearchStatus::budget_spent);
     CHECK(objective.simulations == 20);
 
     objective = bowl(point_of({0.31, 0.62}));
     objective.stop = [&] { return objective.simulations >= 7; };
-    run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options_for(name, 500));
+    run = minimise(simulated_problem(objective, one_packing), point_of({0.9, 0.9}), options_for(name, 500));
     CHECK(run.status == SearchStatus::stopped);
     CHECK(objective.simulations == 7);
-    CHECK(run.best.misfit == least_seen(objective));
+    CHECK(run.best.value == least_seen(objective));
   }
 }
 
 TEST_CASE("a goal ends the run at the first point that meets it") {
   Synthetic objective = bowl(point_of({0.31, 0.62}));
   NloptOptions options = options_for("nelder_mead", 500);
-  options.goal = 0.02;
-  const SearchRun run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options);
+  const Optimum run = minimise(simulated_problem(objective, one_packing, 0.02), point_of({0.9, 0.9}), options);
   CHECK(run.status == SearchStatus::converged);
   CHECK(objective.answered.back().miss <= 0.02);
-  CHECK(objective.answered.back().misfit == run.best.misfit);
+  CHECK(objective.answered.back().misfit == run.best.value);
 }
 
 TEST_CASE("improvements below the noise do not keep a run alive") {
@@ -129,7 +129,7 @@ TEST_CASE("improvements below the noise do not keep a run alive") {
   options.step_tolerance = 1e-12;
   options.noise = 1e-3;
   options.patience = 12;
-  const SearchRun run = search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options);
+  const Optimum run = minimise(simulated_problem(objective, one_packing), point_of({0.9, 0.9}), options);
   CHECK(run.status == SearchStatus::stalled);
   CHECK(run.evaluations < 100);
 }
@@ -138,8 +138,8 @@ TEST_CASE("the same search asks the same points") {
   for (const std::string_view name : nlopt_algorithm_names()) {
     CAPTURE(name);
     Synthetic first = valley(), second = valley();
-    search_nlopt(first, one_packing, point_of({0.2, 0.9}), options_for(name, 150));
-    search_nlopt(second, one_packing, point_of({0.2, 0.9}), options_for(name, 150));
+    minimise(simulated_problem(first, one_packing), point_of({0.2, 0.9}), options_for(name, 150));
+    minimise(simulated_problem(second, one_packing), point_of({0.2, 0.9}), options_for(name, 150));
     REQUIRE(first.answered.size() == second.answered.size());
     for (std::size_t k = 0; k < first.answered.size(); ++k) CHECK(first.answered[k].point == second.answered[k].point);
   }
@@ -164,7 +164,7 @@ TEST_CASE("what the objective throws comes out unchanged") {
   };
   for (const std::string_view name : nlopt_algorithm_names()) {
     objective.simulations = 0;
-    CHECK_THROWS_AS(search_nlopt(objective, one_packing, point_of({0.9, 0.9}), options_for(name, 100)),
+    CHECK_THROWS_AS(minimise(simulated_problem(objective, one_packing), point_of({0.9, 0.9}), options_for(name, 100)),
                     std::out_of_range);
   }
 }

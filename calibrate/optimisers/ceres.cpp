@@ -1,4 +1,4 @@
-#include "calibrate/search/ceres_search.h"
+#include "calibrate/optimisers/ceres.h"
 
 #include <ceres/ceres.h>
 
@@ -14,41 +14,40 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The simulations as Ceres sees them; keeps the books and never lets it see a failure.
+/// The problem as Ceres sees it; keeps the books and never lets it see a failure.
 class Residuals : public ceres::CostFunction {
  public:
-  Residuals(Objective& objective, std::span<const std::uint64_t> packings, const CeresOptions& options)
-      : objective_(objective), packings_(packings), options_(options) {
-    mutable_parameter_block_sizes()->push_back(objective.parameters());
-    set_num_residuals(objective.residuals());
+  Residuals(const Problem& problem, const CeresOptions& options) : problem_(problem), options_(options) {
+    mutable_parameter_block_sizes()->push_back(problem.parameters);
+    set_num_residuals(problem.residuals);
     if (options.loss == Loss::huber) loss_ = std::make_unique<ceres::HuberLoss>(options.loss_scale);
     if (options.loss == Loss::cauchy) loss_ = std::make_unique<ceres::CauchyLoss>(options.loss_scale);
   }
 
-  /// Exceptions of the objective must not cross Ceres, which is not written for them; they are kept and thrown later.
+  /// Exceptions of the problem must not cross Ceres, which is not written for them; they are kept and thrown later.
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const UnitPoint point = Eigen::Map<const Eigen::VectorXd>(parameters[0], objective_.parameters());
+    const UnitPoint point = Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.parameters);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     try {
       answer(point, r);
       if (jacobians != nullptr && jacobians[0] != nullptr) {
-        Eigen::Map<RowMajor> jacobian(jacobians[0], num_residuals(), objective_.parameters());
+        Eigen::Map<RowMajor> jacobian(jacobians[0], num_residuals(), problem_.parameters);
         differentiate(point, r, jacobian);
         if (loss_) bend_columns(r, jacobian);
       }
       if (loss_) bend(r);
     } catch (...) {
       thrown_ = std::current_exception();
-      end(SearchStatus::failed, "the objective threw");
+      end(SearchStatus::failed, "the problem threw");
       r.setConstant(penalty());
       if (jacobians != nullptr && jacobians[0] != nullptr) {
-        std::fill_n(jacobians[0], num_residuals() * objective_.parameters(), 0.0);
+        std::fill_n(jacobians[0], num_residuals() * problem_.parameters, 0.0);
       }
     }
     return true;
   }
 
-  /// Residuals of a point: the simulated ones, or the same penalty in each if it failed or may no longer be asked.
+  /// Residuals of a point: the answered ones, or the same penalty in each if it failed or may no longer be asked.
   void answer(const UnitPoint& asked, Eigen::Ref<Eigen::VectorXd> residuals) const {
     if (asked.size() == last_.point.size() && asked == last_.point) {
       residuals = last_.residuals;
@@ -57,14 +56,12 @@ class Residuals : public ceres::CostFunction {
     residuals.setConstant(penalty());
     if (!asked.allFinite() || !may_ask(1)) return;
     const UnitPoint point = asked.cwiseMax(0.0).cwiseMin(1.0);
-    const Response response = objective_.evaluate({&point, 1}, packings_).at(0);
-    keep(response);
-    if (!is_feasible(response)) return;
-    residuals = response.residuals;
-    last_ = response;
-    if (options_.goal > 0 && response.miss <= options_.goal) {
-      end(SearchStatus::converged, "the goal is met");
-    }
+    const Answer answer = problem_.answer({&point, 1}).at(0);
+    keep(answer);
+    if (!is_feasible(answer)) return;
+    residuals = answer.residuals;
+    last_ = answer;
+    if (answer.good_enough) end(SearchStatus::converged, "the goal is met");
   }
 
   void end(SearchStatus status, std::string reason) const {
@@ -76,36 +73,34 @@ class Residuals : public ceres::CostFunction {
 
   bool ended() const { return ended_; }
   int blind_columns() const { return blind_columns_; }
-  const SearchRun& run() const { return run_; }
+  const Optimum& run() const { return run_; }
   const std::exception_ptr& thrown() const { return thrown_; }
 
  private:
   double penalty() const { return std::sqrt(2 * (2 * worst_ + 1) / std::max(1, num_residuals())); }
 
   bool may_ask(int points) const {
-    if (objective_.stop_requested()) end(SearchStatus::stopped, "a stop was requested");
+    const auto refusal = problem_.refuses ? problem_.refuses(points) : std::nullopt;
+    if (refusal) end(refusal->status, refusal->reason);
     if (run_.evaluations + points > options_.evaluations) end(SearchStatus::budget_spent, "all evaluations are used");
-    if (objective_.budget_left() < points * static_cast<int>(packings_.size())) {
-      end(SearchStatus::budget_spent, "the budget of simulations is spent");
-    }
     return !ended_;
   }
 
-  void keep(const Response& response) const {
+  void keep(const Answer& answer) const {
     ++run_.evaluations;
-    if (is_feasible(response)) {
-      worst_ = std::max(worst_, response.misfit);
+    if (is_feasible(answer)) {
+      worst_ = std::max(worst_, answer.value);
     } else {
       ++run_.failures;
     }
-    const bool both_feasible = is_feasible(response) && is_feasible(run_.best);
-    const bool better = both_feasible ? cost(response) < cost(run_.best) : is_better(response, run_.best);
-    if (better) run_.best = response;
+    const bool both_feasible = is_feasible(answer) && is_feasible(run_.best);
+    const bool better = both_feasible ? cost(answer) < cost(run_.best) : is_better(answer, run_.best);
+    if (better) run_.best = answer;
   }
 
-  double cost(const Response& response) const {
-    if (!loss_) return response.misfit;
-    Eigen::VectorXd residuals = response.residuals;
+  double cost(const Answer& answer) const {
+    if (!loss_) return answer.value;
+    Eigen::VectorXd residuals = answer.residuals;
     bend(residuals);
     return 0.5 * residuals.squaredNorm();
   }
@@ -147,13 +142,13 @@ class Residuals : public ceres::CostFunction {
       }
       if (probes.empty()) continue;
       if (!may_ask(static_cast<int>(probes.size()))) return;
-      const std::vector<Response> responses = objective_.evaluate(probes, packings_);
-      for (std::size_t p = 0; p < responses.size(); ++p) {
-        const Response& response = responses[p];
-        keep(response);
-        if (!is_feasible(response)) continue;
+      const std::vector<Answer> answers = problem_.answer(probes);
+      for (std::size_t p = 0; p < answers.size(); ++p) {
+        const Answer& answer = answers[p];
+        keep(answer);
+        if (!is_feasible(answer)) continue;
         const Eigen::Index k = columns[p];
-        jacobian.col(k) = (response.residuals - centre) / (response.point[k] - point[k]);
+        jacobian.col(k) = (answer.residuals - centre) / (answer.point[k] - point[k]);
         std::erase(open, k);
       }
       if (open.empty()) return;
@@ -161,14 +156,13 @@ class Residuals : public ceres::CostFunction {
     blind_columns_ = std::max(blind_columns_, static_cast<int>(open.size()));
   }
 
-  Objective& objective_;
-  std::span<const std::uint64_t> packings_;
+  const Problem& problem_;
   const CeresOptions& options_;
   std::unique_ptr<ceres::LossFunction> loss_;
   // Ceres' evaluation is const by its signature; the books are not.
-  mutable SearchRun run_;
-  mutable Response last_;     // Ceres asks an accepted point twice: for the residuals, then for the Jacobian
-  mutable double worst_ = 0;  // largest feasible misfit so far
+  mutable Optimum run_;
+  mutable Answer last_;       // Ceres asks an accepted point twice: for the residuals, then for the Jacobian
+  mutable double worst_ = 0;  // largest feasible value so far
   mutable int blind_columns_ = 0;
   mutable bool ended_ = false;
   mutable std::exception_ptr thrown_;
@@ -255,15 +249,12 @@ Faults validate(const CeresOptions& options) {
   return faults;
 }
 
-SearchRun search_ceres(Objective& objective, std::span<const std::uint64_t> packings, const UnitPoint& start,
-                       const CeresOptions& options) {
-  const bool inside =
-      start.size() == objective.parameters() && (start.array() >= 0).all() && (start.array() <= 1).all();
-  if (!inside || packings.empty() || !validate(options).empty()) {
-    throw std::logic_error("search_ceres: start outside the unit cube, no packings, or options that are not valid");
-  }
-  Residuals residuals(objective, packings, options);
-  Eigen::VectorXd at_start(objective.residuals());
+Optimum minimise(const Problem& problem, const UnitPoint& start, const CeresOptions& options) {
+  const bool inside = start.size() == problem.parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
+  if (!inside || problem.residuals < 1 || !validate(options).empty())
+    throw std::logic_error("minimise: start outside the unit cube, no residuals, or options that are not valid");
+  Residuals residuals(problem, options);
+  Eigen::VectorXd at_start(problem.residuals);
   residuals.answer(start, at_start);
   if (!residuals.ended() && !is_feasible(residuals.run().best)) {
     residuals.end(SearchStatus::failed, "the start fails: begin at a point that has an answer");
@@ -271,11 +262,11 @@ SearchRun search_ceres(Objective& objective, std::span<const std::uint64_t> pack
   UnitPoint x = start;
   if (!residuals.ended()) solve(residuals, x, options);
   if (residuals.thrown()) std::rethrow_exception(residuals.thrown());
-  SearchRun run = residuals.run();
+  Optimum run = residuals.run();
   if (residuals.blind_columns() > 0) {
     run.reason +=
         "; up to " + std::to_string(residuals.blind_columns()) + " parameters were held where all probes failed";
-    if (run.status == SearchStatus::converged && run.best.miss > options.goal) run.status = SearchStatus::stalled;
+    if (run.status == SearchStatus::converged && !run.best.good_enough) run.status = SearchStatus::stalled;
   }
   return run;
 }
