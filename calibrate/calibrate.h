@@ -8,7 +8,7 @@
 #include "calibrate/card/card.h"
 #include "calibrate/inference/inference.h"
 #include "calibrate/search/evaluator.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "core/result.h"

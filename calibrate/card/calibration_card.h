@@ -4,7 +4,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/search/evaluator.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 
 namespace pastefit {
 

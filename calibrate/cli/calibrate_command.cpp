@@ -22,7 +22,7 @@
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/record.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/rig.h"

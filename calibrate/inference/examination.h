@@ -4,7 +4,7 @@
 #include <string>
 
 #include "calibrate/inference/inference.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 
 namespace pastefit {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "calibrate/base/statistics.h"
@@ -24,24 +25,24 @@ std::vector<Response> without_cut_off(std::vector<Response> responses, bool stop
 
 }  // namespace
 
-Archive::Archive(Objective& objective, const SearchOptions& options,
+Archive::Archive(Questions& questions, std::span<const Response> earlier, const SearchOptions& options,
                  const std::function<void(const Progress&)>& progress)
-    : objective_(objective),
+    : questions_(questions),
       progress_(progress),
-      at_start_(objective.budget_left()),
+      at_start_(questions.budget_left()),
       common_packings_(options.packings) {
-  budget_ = std::min(options.budget_simulations / objective.simulations_each(), at_start_);
-  for (const Response& response : objective.earlier()) keep_single(response, singles_);
+  budget_ = std::min(options.budget_simulations / scoring().simulations_each(), at_start_);
+  for (const Response& response : earlier) keep_single(response, singles_);
 }
 
 int Archive::budget_left() const {
-  int spent = at_start_ - objective_.budget_left();
+  int spent = at_start_ - questions_.budget_left();
   for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
   return std::max(0, budget_ - spent - held_back_);
 }
 
 void Archive::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
-  objective_.begin({&point, 1}, packings);
+  questions_.begin(point, packings);
   under_way_.push_back({point, {packings.begin(), packings.end()}});
 }
 
@@ -52,64 +53,78 @@ Response Archive::next_answer() {
 }
 
 std::vector<Response> Archive::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  return ask(&Objective::evaluate, points, packings);
+  return ask(points, packings, false);
 }
 
 std::vector<Response> Archive::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  return ask(&Objective::try_out, points, packings);
+  return ask(points, packings, true);
 }
 
-std::vector<Response> Archive::ask(Ask how, std::span<const UnitPoint> points,
-                                   std::span<const std::uint64_t> packings) {
-  std::vector<Response> responses = (objective_.*how)(points, packings);
-  const bool stopped = objective_.stop_requested();
+std::vector<Response> Archive::ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                   bool may_end_early) {
+  std::vector<Response> responses;
+  for (std::vector<Evaluation>& evaluations : questions_.evaluate(points, packings, Fidelity::fine, may_end_early))
+    responses.push_back(scoring().response_of(std::move(evaluations)));
   for (Response& response : responses) weigh(response);
-  std::vector<Response> kept = without_cut_off(responses, stopped);
-  if (packings.size() == 1) {
-    for (const Response& response : kept) keep_single(response, singles_);
-  } else {
-    for (const std::uint64_t packing : packings) {
-      for (Response& response : without_cut_off((objective_.*how)(points, {&packing, 1}), stopped)) {
-        weigh(response);
-        keep_single(response, singles_);
+  const std::vector<Response> kept = without_cut_off(responses, stop_requested());
+  for (std::size_t k = 0; k < packings.size(); ++k)
+    for (const Response& response : responses) {
+      const std::vector<Response> single{scoring().response_of({response.evaluations[k]})};
+      for (Response& one : without_cut_off(single, stop_requested())) {
+        weigh(one);
+        keep_single(one, singles_);
       }
     }
-  }
-  history_.insert(history_.end(), kept.begin(), kept.end());
-  for (const Response& response : kept) {
-    if (!is_whole(response) || packings.size() < best_packings_) continue;
-    if (packings.size() > best_packings_ || response.miss < best_miss_) {
-      best_miss_ = response.miss;
-      best_packings_ = packings.size();
-    }
-  }
-  report();
+  note(kept);
   return responses;
 }
 
-void Archive::evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points,
-                              std::span<const std::uint64_t> packings) {
-  (void)coarse.evaluate(points, packings);  // all at once; then each is known
-  for (const std::uint64_t packing : packings) {
-    std::vector<Response> responses = coarse.evaluate(points, {&packing, 1});
-    if (objective_.stop_requested()) return;
-    for (Response& response : responses) {
-      weigh(response);
-      keep_single(response, coarse_singles_);
+Response Archive::recall(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+  std::vector<Evaluation> evaluations;
+  for (const std::uint64_t packing : packings)
+    for (const Response& one : singles_)
+      if (one.point == point && one.packings.front() == packing) evaluations.push_back(one.evaluations.front());
+  if (evaluations.size() != packings.size()) throw std::logic_error("recall: a point that was not simulated there");
+  Response response = scoring().response_of(std::move(evaluations));
+  weigh(response);
+  note({&response, 1});
+  return response;
+}
+
+void Archive::note(std::span<const Response> answered) {
+  history_.insert(history_.end(), answered.begin(), answered.end());
+  for (const Response& response : answered) {
+    if (!is_whole(response) || response.packings.size() < best_packings_) continue;
+    if (response.packings.size() > best_packings_ || response.miss < best_miss_) {
+      best_miss_ = response.miss;
+      best_packings_ = response.packings.size();
     }
   }
+  report();
+}
+
+void Archive::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  const auto answered = questions_.evaluate(points, packings, Fidelity::coarse, false);
+  if (stop_requested()) return;
+  for (std::size_t k = 0; k < packings.size(); ++k)
+    for (const std::vector<Evaluation>& evaluations : answered) {
+      Response single = scoring().response_of({evaluations[k]});
+      weigh(single);
+      keep_single(single, coarse_singles_);
+    }
   report();
 }
 
 void Archive::enter(std::string_view phase) {
   phase_ = phase;
+  questions_.enter(phase);
   measure_noise();
   report();
 }
 
 double Archive::allowance(std::size_t reading) const {
   const double factor = factors_.size() == 0 ? 1 : factors_[static_cast<Eigen::Index>(reading)];
-  return factor * objective_.allowance(reading);
+  return factor * scoring().allowance(reading);
 }
 
 Eigen::VectorXd Archive::allowances() const {
@@ -130,7 +145,7 @@ void Archive::weigh(Response& response) const {
 
 Eigen::ArrayXd Archive::variance_between_packings() const {
   constexpr double most = 4;  // squares that a point counts for: what stands or shears off by luck is simulated often
-  std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(objective_.residuals()));
+  std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     if (!is_whole(singles_[i])) continue;
     const auto is_same = [&](const Response& one) { return is_whole(one) && one.point == singles_[i].point; };
@@ -145,7 +160,7 @@ Eigen::ArrayXd Archive::variance_between_packings() const {
         }
   }
   if (squares.front().empty()) return {};
-  Eigen::ArrayXd variance(objective_.residuals());
+  Eigen::ArrayXd variance(residuals());
   for (std::size_t k = 0; k < squares.size(); ++k) variance[static_cast<Eigen::Index>(k)] = usual_variance(squares[k]);
   return variance;
 }
@@ -168,7 +183,7 @@ void Archive::measure_noise() {
 }
 
 void Archive::report(const std::string& note) const {
-  if (progress_) progress_({phase_, simulations(), budget_ * simulations_each(), best_miss_, note});
+  if (progress_) progress_({phase_, simulations(), budget_ * scoring().simulations_each(), best_miss_, note});
 }
 
 void Archive::keep_single(const Response& response, std::vector<Response>& singles) {

@@ -9,38 +9,43 @@
 #include <vector>
 
 #include "calibrate/search/calibration.h"
-#include "calibrate/search/objective.h"
+#include "calibrate/search/questions.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
 
-/// The objective as the strategy lends it to its optimisers: it keeps every answer, holds back the simulations of the
-/// next confirmation, and tells the caller where the search is.
+/// All that was asked and answered: it keeps every answer, holds back the simulations of the next confirmation, and
+/// tells the caller where the search is.
 ///
 /// Residuals are weighted by the noise of the packings as well as by the laboratory's own deviation: each is divided by
 /// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
 /// packings. A reading that wobbles says less. v is the usual one (`usual_variance`) of the candidates that ran on
 /// several packings: those that stand or shear off by luck would say that no reading matters. It changes only between
 /// phases, so that an optimiser's objective stays the same while it runs.
-class Archive : public Objective {
+class Archive {
  public:
-  Archive(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress);
+  /// `earlier`: what is known from the start, each point on one packing.
+  Archive(Questions& questions, std::span<const Response> earlier, const SearchOptions& options,
+          const std::function<void(const Progress&)>& progress);
 
-  int parameters() const override { return objective_.parameters(); }
-  int residuals() const override { return objective_.residuals(); }
-  int readings() const override { return objective_.readings(); }
-  bool stop_requested() const override { return objective_.stop_requested(); }
-  int budget_left() const override;  ///< without what is held back or under way
-  int simulations_each() const override { return objective_.simulations_each(); }
-  double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
-  double allowance(std::size_t reading) const override;
+  const Scoring& scoring() const { return questions_.scoring(); }
+  int parameters() const { return scoring().parameters(); }
+  int residuals() const { return scoring().residuals(); }
+  int readings() const { return scoring().readings(); }
+  double tolerance(std::size_t reading) const { return scoring().tolerance(reading); }
+  double allowance(std::size_t reading) const;
   /// Of each residual; 0 of those that are no reading.
   Eigen::VectorXd allowances() const;
   /// The misfit of a candidate each of whose fitted readings is off by its tolerance.
   double allowed_misfit() const;
-  MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
-  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  bool stop_requested() const { return questions_.stop_requested(); }
+  int budget_left() const;  ///< points on a packing, without what is held back or under way
+
+  /// Answers of points on the same packings, in the order of the points; simulated unless they are known.
+  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  /// The answer of a point on packings on each of which it was simulated to its end; starts nothing.
+  Response recall(const UnitPoint& point, std::span<const std::uint64_t> packings);
 
   /// Begins to work on a point without waiting; its simulations are spent from now on.
   void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
@@ -53,8 +58,8 @@ class Archive : public Objective {
   };
   const std::deque<Asked>& under_way() const { return under_way_; }
 
-  /// Simulates points on a coarse objective and keeps the answers in `coarse_singles`, weighed as all others.
-  void evaluate_coarse(Objective& coarse, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  /// Simulates points with coarse grains and keeps the answers in `coarse_singles`, weighed as all others.
+  void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
 
   void hold_back(int packings) { held_back_ = packings; }
   /// Begins a phase: weighs anew all that was answered.
@@ -73,13 +78,14 @@ class Archive : public Objective {
   std::vector<Response> evidence() const;
   /// The best starting point known: on these packings, else on whatever others.
   UnitPoint best_point(std::span<const std::uint64_t> packings) const;
-  int simulations() const { return (at_start_ - objective_.budget_left()) * simulations_each(); }
+  int simulations() const { return (at_start_ - questions_.budget_left()) * scoring().simulations_each(); }
   int failures() const;
   bool any_feasible() const;
 
  private:
-  using Ask = decltype(&Objective::evaluate);
-  std::vector<Response> ask(Ask how, std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  std::vector<Response> ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                            bool may_end_early);
+  void note(std::span<const Response> answered);
   static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
   void measure_noise();
@@ -87,7 +93,7 @@ class Archive : public Objective {
   Eigen::ArrayXd variance_between_packings() const;
   void report(const std::string& note = {}) const;
 
-  Objective& objective_;
+  Questions& questions_;
   const std::function<void(const Progress&)>& progress_;
   int at_start_ = 0;
   int budget_ = 0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 
 namespace pastefit {
 

@@ -77,7 +77,11 @@ int SimulationObjective::residuals() const {
 }
 
 int SimulationObjective::budget_left() const {
-  return std::max(0, options_.budget - static_cast<int>(asked_.size())) / simulations_each();
+  return simulations_left() / simulations_each();
+}
+
+int SimulationObjective::simulations_left() const {
+  return std::max(0, options_.budget - static_cast<int>(asked_.size()));
 }
 
 bool SimulationObjective::stop_requested() const {
@@ -141,22 +145,25 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
 
 std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitPoint> points,
                                                            std::span<const std::uint64_t> packings,
-                                                           std::span<const std::size_t> tests, bool tried) {
+                                                           std::span<const std::size_t> tests, bool tried,
+                                                           std::vector<bool>* fresh) {
   const auto tasks = begun(points, packings, tests, tried);
   for (const Task* task : tasks)
     if (task->done.valid()) task->done.wait();
   std::vector<StoredEvaluation> out;
   for (Task* task : tasks) {
     if (task->done.valid()) task->done.get();  // throws what the engine threw
-    if (task->finished) asked_.insert(task->evaluation.key);
+    const bool added = task->finished && asked_.insert(task->evaluation.key).second;
+    if (fresh) fresh->push_back(added);
     out.push_back(task->cutoff ? seen_through(study_.tests[task->index].lab.test, *task->cutoff, task->evaluation)
                                : task->evaluation);
   }
   return out;
 }
 
-void SimulationObjective::begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  (void)begun(points, packings, fitted_, true);
+void SimulationObjective::begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                bool may_end_early) {
+  (void)begun(points, packings, fitted_, may_end_early);
 }
 
 std::vector<Response> SimulationObjective::evaluate(std::span<const UnitPoint> points,
@@ -171,13 +178,17 @@ std::vector<Response> SimulationObjective::try_out(std::span<const UnitPoint> po
 
 std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoint> points,
                                                         std::span<const std::uint64_t> packings, bool tried) {
-  const auto answered = answers(points, packings, fitted_, tried);
+  std::vector<bool> fresh;
+  const auto answered = answers(points, packings, fitted_, tried, &fresh);
   std::vector<Response> responses;
   auto next = answered.begin();
+  auto next_fresh = fresh.begin();
   for (const auto& point : points) {
     std::vector<Evaluation> evaluations;
-    for (std::size_t i = 0; i < packings.size(); ++i, next += simulations_each())
+    for (std::size_t i = 0; i < packings.size(); ++i, next += simulations_each(), next_fresh += simulations_each()) {
       evaluations.push_back(evaluation_of(point, merged(study_, fitted_, {next, fitted_.size()})));
+      evaluations.back().simulations = static_cast<int>(std::count(next_fresh, next_fresh + simulations_each(), true));
+    }
     responses.push_back(response_of(std::move(evaluations)));
   }
 

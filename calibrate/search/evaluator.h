@@ -85,8 +85,10 @@ class SimulationObjective : public Objective {
   int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
-  void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
+  void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, bool may_end_early) override;
   int budget_left() const override;
+  int simulations_left() const override;
+  Response response_of(std::vector<Evaluation> evaluations) const override;
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
   double allowance(std::size_t reading) const override;
@@ -117,9 +119,10 @@ class SimulationObjective : public Objective {
   /// only as long as they are within their cutoff (`early_end.h`).
   std::vector<Task*> begun(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                            std::span<const std::size_t> tests, bool tried);
-  /// Waits for the same.
+  /// Waits for the same. `fresh`: of each, true if it has not been answered before.
   std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                                        std::span<const std::size_t> tests, bool tried);
+                                        std::span<const std::size_t> tests, bool tried,
+                                        std::vector<bool>* fresh = nullptr);
   std::vector<Response> responses_of(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                                      bool tried);
   void run(Task& task);
@@ -132,7 +135,6 @@ class SimulationObjective : public Objective {
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
   /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
   double certain_miss(const Response& response, std::size_t reading) const;
-  Response response_of(std::vector<Evaluation> evaluations) const;
 
   const Study& study_;
   const std::vector<StudyReading> readings_;

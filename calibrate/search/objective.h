@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/search/response.h"
@@ -9,11 +10,10 @@
 
 namespace pastefit {
 
-/// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
-/// Guarantee: the answer depends on (point, packings) only, not on threads, order or what was asked before.
-class Objective {
+/// How simulations of a study are judged: shapes, tolerances, and residuals. Simulates nothing.
+class Scoring {
  public:
-  virtual ~Objective() = default;
+  virtual ~Scoring() = default;
   virtual int parameters() const = 0;
   virtual int residuals() const = 0;
   /// How many of them are readings: the first ones. The others stand for what is known beforehand (priors).
@@ -24,6 +24,16 @@ class Objective {
   virtual double allowance(std::size_t) const { return 1; }
   /// In which people are told what a candidate misses by.
   virtual MisfitUnit misfit_unit() const { return {}; }
+  /// Simulations behind a point on one packing: one for each test that is fitted.
+  virtual int simulations_each() const { return 1; }
+  /// What one candidate answers on the packings of these evaluations. Requirement: at least one.
+  virtual Response response_of(std::vector<Evaluation> evaluations) const = 0;
+};
+
+/// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
+/// Guarantee: the answer depends on (point, packings) only, not on threads, order or what was asked before.
+class Objective : public Scoring {
+ public:
   /// Answers all points on the same packings; the answers are in the order of the points.
   /// Points outside the unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
@@ -34,13 +44,13 @@ class Objective {
   virtual std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
     return evaluate(points, packings);
   }
-  /// Begins to work on points without waiting for the answers, if it can; `try_out` waits for them. Changes no answer,
-  /// and counts in the budget only when they are asked for.
-  virtual void begin(std::span<const UnitPoint>, std::span<const std::uint64_t>) {}
+  /// Begins to work on points without waiting for the answers, if it can; `try_out`, or `evaluate` if they may not end
+  /// early, waits for them. Changes no answer, and counts in the budget only when they are asked for.
+  virtual void begin(std::span<const UnitPoint>, std::span<const std::uint64_t>, bool /*may_end_early*/) {}
   /// Points on a packing still allowed by the budget, each counted once, however often it is asked.
   virtual int budget_left() const = 0;
-  /// Simulations behind a point on one packing: one for each test that is fitted.
-  virtual int simulations_each() const { return 1; }
+  /// The same in simulations.
+  virtual int simulations_left() const { return budget_left() * simulations_each(); }
   /// What is known from the start, each point on one packing; free of charge.
   virtual std::vector<Response> earlier() const { return {}; }
   /// True when the user or a limit asked to stop: a search then returns its best so far.

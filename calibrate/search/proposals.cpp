@@ -32,9 +32,9 @@ std::optional<UnitPoint> Proposals::next(const Prospects& prospects) {
 }
 
 UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
-  for (int tries = 0; coarse_ && tries < coarse_tries && !archive_.stop_requested(); ++tries) {
+  for (int tries = 0; with_coarse_ && tries < coarse_tries && !archive_.stop_requested(); ++tries) {
     const std::size_t known = archive_.coarse_singles().size();
-    archive_.evaluate_coarse(*coarse_, {&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
+    archive_.evaluate_coarse({&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
     if (archive_.coarse_singles().size() == known) break;
     Surrogate model(archive_.evidence(), archive_.allowances());
     fantasise_answers(model);

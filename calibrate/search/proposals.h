@@ -25,8 +25,8 @@ inline constexpr double same_point = 0.01;
 /// Requirement: what the constructor is given outlives the object.
 class Proposals {
  public:
-  Proposals(Archive& archive, Objective* coarse, const SearchOptions& options)
-      : archive_(archive), coarse_(coarse), options_(options) {}
+  Proposals(Archive& archive, bool with_coarse, const SearchOptions& options)
+      : archive_(archive), with_coarse_(with_coarse), options_(options) {}
 
   /// None if nothing promises more than a fiftieth of the misfit that is allowed, or before the next answer.
   std::optional<UnitPoint> next(const Prospects& prospects);
@@ -36,7 +36,7 @@ class Proposals {
   void fantasise_answers(Surrogate& model) const;
 
   Archive& archive_;
-  Objective* coarse_;
+  bool with_coarse_;
   const SearchOptions& options_;
 };
 

@@ -19,6 +19,7 @@ struct Evaluation {
   std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
   bool ended_early = false;  ///< see `Objective::try_out`
+  int simulations = 1;       ///< that were spent on it; 0: it was known, or cut off by a stop
 };
 
 /// What a candidate answers on a set of packings: the mean over them, against the laboratory.

@@ -31,21 +31,21 @@ constexpr double likely_to_hold = 0.75;
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
 
 /// The strategy's state; each phase is one function.
-class Search {
+class Strategy {
  public:
-  Search(Objective& objective, const SearchOptions& options, const std::function<void(const Progress&)>& progress,
-         std::span<const std::string> readings, std::span<const std::string> parameters, Objective* coarse)
-      : objective_(objective),
+  Strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+           const std::function<void(const Progress&)>& progress)
+      : scoring_(questions.scoring()),
         options_(options),
-        coarse_(coarse),
-        archive_(objective, options, progress),
-        readings_(readings),
-        parameters_(parameters) {}
+        with_coarse_(start.with_coarse && options.strategy == "default"),
+        archive_(questions, start.earlier, options, progress),
+        readings_(start.readings),
+        parameters_(start.parameters) {}
 
   Calibration run() {
     common_ = fresh_packings(options_.packings);
     archive_.hold_back(options_.confirmation_packings);
-    if (coarse_) screen_coarsely();
+    if (with_coarse_) screen_coarsely();
     if (archive_.evidence().empty()) screen();
     if (!archive_.singles().empty() && is_out_of_reach()) {
       archive_.evaluate({&out_of_reach_->nearest, 1}, common_);
@@ -73,8 +73,8 @@ class Search {
 
   void screen_coarsely() {
     archive_.enter("screening");
-    const auto points = screening_points(objective_.parameters(), options_.screening, options_.seed);
-    archive_.evaluate_coarse(*coarse_, points, packings_of_coarse(options_.seed, 1));
+    const auto points = screening_points(scoring_.parameters(), options_.screening, options_.seed);
+    archive_.evaluate_coarse(points, packings_of_coarse(options_.seed, 1));
   }
 
   bool any_evidence() const {
@@ -90,8 +90,8 @@ class Search {
     while ((!archive_.any_feasible() || known + asked < options_.screening) && !archive_.stop_requested()) {
       const int missing = options_.screening - (archive_.any_feasible() ? known + asked : 0);
       const int count = std::min(missing, archive_.budget_left());
-      if (count < 1 || asked > options_.budget_simulations / objective_.simulations_each() / 2) return;
-      const auto points = screening_points(objective_.parameters(), asked + count, options_.seed);
+      if (count < 1 || asked > options_.budget_simulations / scoring_.simulations_each() / 2) return;
+      const auto points = screening_points(scoring_.parameters(), asked + count, options_.seed);
       archive_.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
       asked += count;
     }
@@ -118,7 +118,7 @@ class Search {
   }
 
   /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
-  double optimisers_goal() const { return objective_.residuals() > objective_.readings() ? 0 : goal_share; }
+  double optimisers_goal() const { return scoring_.residuals() > scoring_.readings() ? 0 : goal_share; }
 
   /// Brings candidates on the common packings; false if not a single one could be had.
   bool look_for_candidate() {
@@ -142,7 +142,7 @@ class Search {
   /// Proposes, and takes the answers in the order of the proposals, until a candidate is likely to do. Proposal k knows
   /// the answers up to k - 1 - lag, of the others only that they were asked: what is ready first does not matter.
   void propose_and_try() {
-    Proposals proposals(archive_, coarse_, options_);
+    Proposals proposals(archive_, with_coarse_, options_);
     while (true) {
       const Prospects known = prospects();
       const bool enough = goal_is_met(known);
@@ -189,13 +189,13 @@ class Search {
   /// both ends, has a curvature of about four times the range.
   double probe_length() const {
     const double infinity = std::numeric_limits<double>::infinity();
-    Eigen::ArrayXd least = Eigen::ArrayXd::Constant(objective_.residuals(), infinity), most = -least;
+    Eigen::ArrayXd least = Eigen::ArrayXd::Constant(scoring_.residuals(), infinity), most = -least;
     for (const Response& single : archive_.evidence()) {
       if (!is_feasible(single)) continue;
       least = least.min(single.residuals.array());
       most = most.max(single.residuals.array());
     }
-    const double deviation = std::sqrt(2 * noise() / objective_.residuals());
+    const double deviation = std::sqrt(2 * noise() / scoring_.residuals());
     return noise_step(deviation, 4 * (most - least).maxCoeff());
   }
 
@@ -255,11 +255,11 @@ class Search {
         tried.push_back(one.packings.front());
     std::vector<std::uint64_t> joined = tried;
     std::ranges::copy(confirmation.packings, std::back_inserter(joined));
-    const Response evidence = archive_.evaluate({&confirmation.point, 1}, joined).at(0);
+    const Response evidence = archive_.recall(confirmation.point, joined);
     const bool first = result_.confirmation.point.size() == 0 || result_.confirmation.point == confirmation.point;
     if (!confirmed_ && !first && !is_better(evidence, result_.best)) return;
     result_.best = evidence;
-    result_.search = archive_.evaluate({&confirmation.point, 1}, tried).at(0);
+    result_.search = archive_.recall(confirmation.point, tried);
     result_.confirmation = confirmation;
   }
 
@@ -293,8 +293,8 @@ class Search {
     result_.coarse_simulations = static_cast<int>(archive_.coarse_singles().size());
     result_.failures = archive_.failures();
     std::vector<double> allowances;
-    for (std::size_t k = 0; std::ssize(allowances) < objective_.readings(); ++k)
-      allowances.push_back(objective_.allowance(k));
+    for (std::size_t k = 0; std::ssize(allowances) < scoring_.readings(); ++k)
+      allowances.push_back(scoring_.allowance(k));
     result_.reach = reach_of(archive_.singles(), allowances);
     for (const Response& coarse : corrected(archive_.coarse_singles(), archive_.singles())) {
       for (std::size_t k = 0; k < result_.reach.size(); ++k) {
@@ -304,15 +304,15 @@ class Search {
         reach.all_below = reach.all_below && residual < -allowances[k];
       }
     }
-    Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), coarse_ != nullptr, out_of_reach_};
+    Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), with_coarse_, out_of_reach_};
     ending.some_ended_early = std::ranges::any_of(archive_.singles(), &Response::ended_early);
-    explain(result_, ending, objective_.misfit_unit(), readings_, parameters_);
+    explain(result_, ending, scoring_.misfit_unit(), readings_, parameters_);
     return std::move(result_);
   }
 
-  Objective& objective_;
+  const Scoring& scoring_;
   const SearchOptions& options_;
-  Objective* coarse_;
+  bool with_coarse_;
   Archive archive_;
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
@@ -325,13 +325,9 @@ class Search {
 
 }  // namespace
 
-Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
-                   std::span<const std::string> parameters, Objective* coarse) {
-  if (!validate(options, objective.parameters(), objective.simulations_each()).empty())
-    throw std::logic_error("search: options that are not valid");
-  if (options.strategy != "default") coarse = nullptr;
-  return Search(objective, options, progress, readings, parameters, coarse).run();
+Calibration run_strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+                         const std::function<void(const Progress&)>& progress) {
+  return Strategy(questions, options, start, progress).run();
 }
 
 }  // namespace pastefit

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/search/calibration.h"
-#include "calibrate/search/objective.h"
+#include "calibrate/search/questions.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -17,6 +17,16 @@ std::vector<std::string_view> strategy_names();
 
 /// Everything wrong with the options of a search over so many parameters and fitted tests; empty: fit to run.
 Faults validate(const SearchOptions& options, int parameters, int tests = 1);
+
+/// What a search starts from, besides its options.
+struct SearchStart {
+  int simulations = 0;                        ///< allowed in all, one for each fitted test of a candidate
+  bool with_coarse = false;                   ///< coarse candidates may be suggested (`coarse_rung.h`)
+  std::vector<Response> earlier = {};         ///< what is known, each point on one packing; free of charge
+  std::vector<std::string> readings = {};     ///< names for the reason, in the order of the observables; may be empty
+  std::vector<std::string> parameters = {};   ///< the same of the free parameters
+  std::vector<CandidateResult> answers = {};  ///< of an earlier search that started the same: `Search::results`
+};
 
 /// Calibrates: finds the candidate that meets the laboratory, and confirms it on packings the search has not used.
 ///   1. Screening: space-filling points on one packing, all at once. If they leave the laboratory out of reach for
@@ -42,15 +52,10 @@ Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 ///      than one that is looked at once.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
-/// a confirmation is kept back all along. Requirements: `validate(options, objective.parameters(),
-/// objective.simulations_each())` is empty. `readings`, `parameters`: names for the reason, in the order of the
-/// observables and of the free parameters; may be left empty. `coarse`: answers as `objective` would with coarser
-/// grains, to packings from `coarse_packings` on; default strategy only. The way depends on the answers only: the same
-/// answers, the same calibration. Errors: in the status. Throws what the objective throws, and std::logic_error if a
-/// requirement is broken.
-Calibration search(Objective& objective, const SearchOptions& options,
-                   const std::function<void(const Progress&)>& progress = {},
-                   std::span<const std::string> readings = {}, std::span<const std::string> parameters = {},
-                   Objective* coarse = nullptr);
+/// a confirmation is kept back all along. Requirements: `validate(options, scoring.parameters(),
+/// scoring.simulations_each())` is empty. The way depends on the answers only: the same answers, the same calibration.
+/// Errors: in the status.
+Calibration run_strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+                         const std::function<void(const Progress&)>& progress);
 
 }  // namespace pastefit

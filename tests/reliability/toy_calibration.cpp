@@ -13,7 +13,7 @@
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/search/evaluator.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/study/tests.h"
 #include "core/random.h"
 #include "tests/calibrate/slump.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibrate/search/evaluator.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {

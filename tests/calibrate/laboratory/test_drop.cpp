@@ -6,7 +6,7 @@
 #include "calibrate/check/check.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/search/coarse_rung.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"

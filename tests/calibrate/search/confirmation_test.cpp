@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "fake_slump.h"
 #include "laboratory.h"
 

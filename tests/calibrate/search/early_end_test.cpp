@@ -6,7 +6,7 @@
 #include "calibrate/inference/evidence.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/response.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "calibrate/search/surrogate.h"
 #include "tests/calibrate/search/fake_slump.h"
 #include "tests/calibrate/search/laboratory.h"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "tests/calibrate/search/synthetic.h"
 
 using namespace pastefit;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <deque>
 
+#include "answered.h"
+#include "calibrate/search/search.h"
 #include "fake_slump.h"
 #include "virtual_cores.h"
 
@@ -21,8 +24,8 @@ const std::function<void(const Progress&)> nobody;
 const std::vector<std::uint64_t> common{1001, 1002};
 
 /// An archive that has screened.
-Archive screened(Objective& objective, const SearchOptions& options) {
-  Archive archive(objective, options, nobody);
+Archive screened(Answered& answered, const SearchOptions& options) {
+  Archive archive(answered.questions, {}, options, nobody);
   archive.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
   return archive;
 }
@@ -32,13 +35,15 @@ struct Screened {
   Screened(std::uint64_t seed, int lag)
       : objective(fake_slump(150, seed)),
         options(lagging_options(seed, lag)),
-        archive(screened(objective, options)),
-        proposals(archive, nullptr, options) {}
+        answered(objective),
+        archive(screened(answered, options)),
+        proposals(archive, false, options) {}
 
   std::optional<UnitPoint> next() { return proposals.next({archive, {}}); }
 
   Synthetic objective;
   SearchOptions options;
+  Answered answered;
   Archive archive;
   Proposals proposals;
 };
@@ -127,7 +132,8 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
 TEST_CASE("what is under way is spent, and answered in the order of asking") {
   Synthetic objective = fake_slump(150, 1);
   objective.budget = 60;
-  Archive archive = screened(objective, lagging_options(1, 3));
+  Answered answered(objective);
+  Archive archive = screened(answered, lagging_options(1, 3));
   const int before = archive.budget_left();
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
   for (const UnitPoint& point : points) archive.begin(point, common);
@@ -144,9 +150,21 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       Synthetic slump = fake_slump(150, seed);
       slump.tolerance_mm = 0.1;  // no candidate is good enough
-      VirtualCores objective(slump, 64);
-      CHECK(search(objective, lagging_options(seed, lag)).simulations <= 60);
-      most = std::max(most, objective.most_begun);
+      Search search(slump, lagging_options(seed, lag), {.simulations = 60});
+      std::deque<Candidate> under_way;
+      while (!search.finished()) {
+        const auto candidates = search.suggest(1);
+        std::ranges::copy(candidates, std::back_inserter(under_way));
+        const auto is_proposal = [](const Candidate& one) { return one.purpose == "search" && one.may_end_early; };
+        most = std::max(most, static_cast<std::size_t>(std::ranges::count_if(under_way, is_proposal)));
+        if (!candidates.empty() || under_way.empty()) continue;
+        const Candidate first = under_way.front();
+        under_way.pop_front();
+        const CandidateResult result{first.number,
+                                     slump.try_out({&first.point, 1}, {&first.packing, 1}).at(0).evaluations.at(0)};
+        search.ingest({&result, 1});
+      }
+      CHECK(search.result().simulations <= 60);
     }
     CHECK(most == static_cast<std::size_t>(lag) + 1);
   }

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
+#include "tests/calibrate/search/answered.h"
 #include "tests/calibrate/search/fake_slump.h"
 
 using namespace pastefit;
@@ -14,9 +15,10 @@ struct Screening {
   Synthetic objective;
   SearchOptions options;
   std::function<void(const Progress&)> progress;
+  Answered answered;
   Archive archive;
   explicit Screening(Synthetic made, std::uint64_t seed)
-      : objective(std::move(made)), archive(objective, options, progress) {
+      : objective(std::move(made)), answered(objective), archive(answered.questions, {}, options, progress) {
     const std::uint64_t packing = 1;
     archive.try_out(screening_points(5, 12, seed), {&packing, 1});
   }

@@ -1,10 +1,9 @@
-#include "calibrate/search/strategy.h"
-
 #include <catch2/catch.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/search.h"
 #include "fake_slump.h"
 
 using namespace pastefit;

@@ -105,29 +105,39 @@ class Synthetic : public Objective {
     if (point.size() != dimension || !point.allFinite() || point.minCoeff() < 0 || point.maxCoeff() > 1) {
       throw std::logic_error("a point outside the unit cube was asked");
     }
-    const int count = readings();
-    Response response;
-    response.point = point;
-    response.packings.assign(packings.begin(), packings.end());
-    response.observables = Eigen::VectorXd::Zero(count);
+    std::vector<Evaluation> evaluations;
     for (const std::uint64_t packing : packings) {
       Evaluation evaluation{point, packing, {}, std::nullopt};
       if (const bool cut_off = simulations >= cut_off_after; cut_off || fails(point, packing)) {
         evaluation.failure = Failure{};
         if (cut_off) evaluation.failure->reason = FailureReason::stopped;
-        response.failed = true;
       } else {
         evaluation.observables = observe(point, packing);
         if (tried) end_early(evaluation);
-        response.ended_early = response.ended_early || evaluation.ended_early;
-        for (int k = 0; k < count; ++k) response.observables[k] += evaluation.observables[k];
       }
-      if (known_.insert({digest(point), packing, evaluation.ended_early}).second) ++simulations;
-      response.evaluations.push_back(std::move(evaluation));
+      evaluation.simulations = known_.insert({digest(point), packing, evaluation.ended_early}).second ? 1 : 0;
+      simulations += evaluation.simulations;
+      evaluations.push_back(std::move(evaluation));
     }
-    response.observables /= static_cast<double>(packings.size());
+    return response_of(std::move(evaluations));
+  }
+
+ public:
+  Response response_of(std::vector<Evaluation> evaluations) const override {
+    const int count = readings();
+    Response response;
+    response.point = evaluations.front().point;
+    response.observables = Eigen::VectorXd::Zero(count);
+    for (const Evaluation& evaluation : evaluations) {
+      response.packings.push_back(evaluation.packing);
+      response.failed = response.failed || evaluation.failure;
+      response.ended_early = response.ended_early || evaluation.ended_early;
+      for (int k = 0; k < count && !evaluation.failure; ++k) response.observables[k] += evaluation.observables[k];
+    }
+    response.observables /= static_cast<double>(evaluations.size());
+    response.evaluations = std::move(evaluations);
     response.residuals.resize(residuals());
-    const auto priors = known(point);
+    const auto priors = known(response.point);
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
     for (int k = 0; k < count; ++k) {
       double miss = response.observables[k] - measured[k];
@@ -141,12 +151,13 @@ class Synthetic : public Objective {
       response.miss = std::max(response.miss, std::abs(miss) / allowed);
       response.noise = std::max(response.noise, std::sqrt(squared_standard_error(response, k)) / allowed);
     }
-    if (response.failed) response.residuals.setConstant(failure_value(point));
+    if (response.failed) response.residuals.setConstant(failure_value(response.point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
     if (response.failed) response.miss = std::abs(response.residuals[0]) / tolerance_mm;
     return response;
   }
 
+ private:
   double failure_value(const UnitPoint& point) const {
     switch (failure_kind) {
       case FailureKind::graded:

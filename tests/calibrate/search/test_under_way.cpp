@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "core/random.h"
 #include "tests/calibrate/search/laboratory.h"
 
@@ -21,7 +21,7 @@ bool comes_true(const std::function<bool()>& condition) {
 }
 
 void begin(Objective& objective, const UnitPoint& point) {
-  objective.begin({&point, 1}, kPackings);
+  objective.begin({&point, 1}, kPackings, true);
 }
 
 }  // namespace

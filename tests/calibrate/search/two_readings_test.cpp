@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/search.h"
 #include "fake_slump.h"
 
 using namespace pastefit;

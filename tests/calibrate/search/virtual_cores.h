@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -24,13 +23,13 @@ class VirtualCores : public Objective {
   bool stop_requested() const override { return objective_.stop_requested(); }
   double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
   MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
+  Response response_of(std::vector<Evaluation> evaluations) const override {
+    return objective_.response_of(std::move(evaluations));
+  }
 
-  void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
+  void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+             bool /*may_end_early*/) override {
     schedule(points, packings);
-    std::set<std::uint64_t> candidates;
-    for (const auto& [asked, end] : ends_)
-      if (end > now) candidates.insert(asked.first);
-    most_begun = std::max(most_begun, candidates.size());
   }
 
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
@@ -41,7 +40,6 @@ class VirtualCores : public Objective {
   }
 
   double now = 0;
-  std::size_t most_begun = 0;  ///< most candidates begun and not ended while nobody waited for them
 
  private:
   void schedule(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "calibrate/search/objective.h"
+
+namespace pastefit {
+
+/// With which grains a candidate is simulated.
+enum class Fidelity {
+  fine,   ///< the study's
+  coarse  ///< `coarse_rung.h`
+};
+
+/// What a search asks for: one point on one packing, in every test that is fitted.
+struct Candidate {
+  std::size_t number = 0;  ///< in the order of asking, from 0
+  UnitPoint point;
+  std::uint64_t packing = 0;
+  Fidelity fidelity = Fidelity::fine;
+  bool may_end_early = false;  ///< see `Objective::try_out`
+  std::string purpose;         ///< the phase of the search: "screening", "search", "refinement", "confirmation"
+};
+
+/// What a simulation of a candidate answered.
+struct CandidateResult {
+  std::size_t candidate = 0;  ///< its number
+  Evaluation evaluation;
+};
+
+/// Between a strategy, which asks and waits in a thread of its own, and whoever simulates: what is asked, and what was
+/// answered. A strategy sees an answer when it waits for it, never before, so that what it does depends on the answers
+/// and the order of asking only. Each candidate is asked once.
+class Questions {
+ public:
+  /// Thrown in the strategy's thread when nobody will answer any more.
+  struct Closed {};
+
+  /// `simulations`: allowed in all. `known`: answers of an earlier search with the same questions.
+  Questions(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
+
+  // For the strategy.
+  const Scoring& scoring() const { return scoring_; }
+  /// Points on a packing still allowed, by the answers that the strategy has seen.
+  int budget_left() const { return std::max(0, simulations_ - spent_) / scoring_.simulations_each(); }
+  bool stop_requested() const;
+  /// The purpose of what is asked from now on.
+  void enter(std::string_view purpose);
+  /// Asks for a point, which may end early, without waiting.
+  void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
+  /// Asks for what is not known yet and waits. Shape: one for each point, in it one for each packing.
+  std::vector<std::vector<Evaluation>> evaluate(std::span<const UnitPoint> points,
+                                                std::span<const std::uint64_t> packings, Fidelity fidelity,
+                                                bool may_end_early);
+  /// The strategy has come to its end.
+  void finish();
+
+  // For whoever simulates; see `Search`.
+  std::vector<Candidate> suggest(std::size_t count);
+  void ingest(std::span<const CandidateResult> results);
+  void stop();
+  void close();
+  bool finished() const;
+  std::vector<CandidateResult> results() const;
+
+ private:
+  struct Asked {
+    Candidate candidate;
+    Evaluation answer;
+    bool answered = false, seen = false;
+  };
+  using Key = std::tuple<std::vector<double>, std::uint64_t, Fidelity, bool>;
+
+  std::size_t ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early);
+  const Evaluation& see(std::size_t number);
+  bool is_waiting() const;
+  void accept(const CandidateResult& result);
+
+  const Scoring& scoring_;
+  const int simulations_;
+  int spent_ = 0;             // of the strategy's thread
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::string purpose_;
+  std::deque<Asked> asked_;
+  std::map<Key, std::size_t> numbers_;
+  std::map<std::size_t, Evaluation> known_;  // answers to questions still to be asked
+  std::deque<std::size_t> open_;             // asked, and not yet suggested
+  std::vector<std::size_t> awaited_;
+  bool stopped_ = false, closed_ = false, finished_ = false;
+};
+
+}  // namespace pastefit

@@ -1,0 +1,115 @@
+#include "calibrate/search/search.h"
+
+#include <deque>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace pastefit {
+
+/// A strategy is straight-line code, and optimisers call it back, so that it has a thread of its own, which waits
+/// whenever it needs an answer.
+struct Search::Run {
+  Run(const Scoring& scoring, const SearchOptions& asked, SearchStart from, std::function<void(const Progress&)> told)
+      : options(asked),
+        start(std::move(from)),
+        progress(std::move(told)),
+        questions(scoring, start.simulations, start.answers) {
+    thread = std::thread([this] {
+      try {
+        result = run_strategy(questions, options, start, progress);
+      } catch (const Questions::Closed&) {
+      } catch (...) {
+        error = std::current_exception();
+      }
+      questions.finish();
+    });
+  }
+  ~Run() {
+    questions.close();
+    thread.join();
+  }
+
+  const SearchOptions options;
+  const SearchStart start;
+  const std::function<void(const Progress&)> progress;
+  Questions questions;
+  Calibration result;
+  std::exception_ptr error;
+  std::thread thread;
+};
+
+Search::Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,
+               std::function<void(const Progress&)> progress) {
+  if (!validate(options, scoring.parameters(), scoring.simulations_each()).empty())
+    throw std::logic_error("search: options that are not valid");
+  run_ = std::make_unique<Run>(scoring, options, std::move(start), std::move(progress));
+}
+
+Search::~Search() = default;
+
+std::vector<Candidate> Search::suggest(std::size_t count) {
+  return run_->questions.suggest(count);
+}
+
+void Search::ingest(std::span<const CandidateResult> results) {
+  run_->questions.ingest(results);
+}
+
+void Search::stop() {
+  run_->questions.stop();
+}
+
+bool Search::finished() const {
+  return run_->questions.finished();
+}
+
+std::vector<CandidateResult> Search::results() const {
+  return run_->questions.results();
+}
+
+Calibration Search::result() {
+  if (!finished()) throw std::logic_error("search: it has not finished");
+  if (run_->error) std::rethrow_exception(run_->error);
+  return run_->result;
+}
+
+Calibration drive(Search& search, Objective& objective, Objective* coarse) {
+  const auto of = [&](const Candidate& one) -> Objective& {
+    return one.fidelity == Fidelity::fine ? objective : *coarse;
+  };
+  std::deque<Candidate> under_way;
+  while (!search.finished()) {
+    if (objective.stop_requested()) search.stop();
+    const auto candidates = search.suggest(std::numeric_limits<std::size_t>::max());
+    for (const Candidate& one : candidates) {
+      of(one).begin({&one.point, 1}, {&one.packing, 1}, one.may_end_early);
+      under_way.push_back(one);
+    }
+    if (!candidates.empty() || under_way.empty()) continue;
+    const Candidate first = std::move(under_way.front());
+    under_way.pop_front();
+    const auto answer = first.may_end_early ? &Objective::try_out : &Objective::evaluate;
+    const Response response = (of(first).*answer)({&first.point, 1}, {&first.packing, 1}).at(0);
+    const CandidateResult result{first.number, response.evaluations.at(0)};
+    search.ingest({&result, 1});
+  }
+  return search.result();
+}
+
+Calibration search(Objective& objective, const SearchOptions& options,
+                   const std::function<void(const Progress&)>& progress, std::span<const std::string> readings,
+                   std::span<const std::string> parameters, Objective* coarse) {
+  Search search(objective, options,
+                {.simulations = objective.simulations_left(),
+                 .with_coarse = coarse != nullptr,
+                 .earlier = objective.earlier(),
+                 .readings = {readings.begin(), readings.end()},
+                 .parameters = {parameters.begin(), parameters.end()}},
+                progress);
+  return drive(search, objective, coarse);
+}
+
+}  // namespace pastefit
