@@ -37,7 +37,7 @@ class Strategy {
            const std::function<void(const Progress&)>& progress)
       : scoring_(questions.scoring()),
         options_(options),
-        with_coarse_(start.with_coarse && options.strategy == "default"),
+        with_coarse_(start.with_coarse && find_strategy(options.strategy)->kind == StrategyKind::surrogate),
         archive_(questions, start.earlier, options, progress),
         readings_(start.readings),
         parameters_(start.parameters) {}
@@ -123,20 +123,30 @@ class Strategy {
   /// Brings candidates on the common packings; false if not a single one could be had.
   bool look_for_candidate() {
     archive_.enter("search");
-    if (options_.strategy == "default") {
-      propose_and_try();
-    } else if (const auto trust_region = trust_region_of(options_.strategy)) {
-      descend(*trust_region, archive_.best_point(common_),
-              std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size())));
-    } else {
-      NloptOptions nlopt;
-      nlopt.algorithm = options_.strategy;
-      nlopt.evaluations = std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size()));
-      nlopt.step_tolerance = same_point;
-      nlopt.seed = options_.seed;
-      (void)minimise(simulated_problem(archive_, common_, optimisers_goal()), archive_.best_point(common_), nlopt);
+    switch (find_strategy(options_.strategy)->kind) {
+      case StrategyKind::surrogate:
+        propose_and_try();
+        break;
+      case StrategyKind::ceres:
+        descend(*trust_region_of(options_.strategy), archive_.best_point(common_), share_of_budget());
+        break;
+      case StrategyKind::nlopt:
+        minimise_misfit();
+        break;
     }
     return prospects().best().size() > 0;
+  }
+
+  /// Half of what is left, in points on all common packings.
+  int share_of_budget() const { return std::max(1, archive_.budget_left() / static_cast<int>(2 * common_.size())); }
+
+  void minimise_misfit() {
+    NloptOptions nlopt;
+    nlopt.algorithm = options_.strategy;
+    nlopt.evaluations = share_of_budget();
+    nlopt.step_tolerance = same_point;
+    nlopt.seed = options_.seed;
+    (void)minimise(simulated_problem(archive_, common_, optimisers_goal()), archive_.best_point(common_), nlopt);
   }
 
   /// Proposes, and takes the answers in the order of the proposals, until a candidate is likely to do. Proposal k knows

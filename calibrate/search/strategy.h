@@ -12,7 +12,21 @@
 
 namespace pastefit {
 
-/// Names of the strategies: "default", the two trust regions of Ceres, and every NLopt algorithm.
+/// Who looks for candidates.
+enum class StrategyKind {
+  surrogate,  ///< Gaussian processes and what they promise: `proposals.h`
+  ceres,      ///< a trust region on the residuals
+  nlopt       ///< an algorithm on the misfit
+};
+
+/// To add a strategy: a row in `strategies`, and for a new kind a function of the strategy in `strategy.cpp`.
+struct StrategyRow {
+  std::string_view name;
+  StrategyKind kind = StrategyKind::surrogate;
+};
+const std::vector<StrategyRow>& strategies();
+/// No row if there is no strategy of that name.
+const StrategyRow* find_strategy(std::string_view name);
 std::vector<std::string_view> strategy_names();
 
 /// Everything wrong with the options of a search over so many parameters and fitted tests; empty: fit to run.

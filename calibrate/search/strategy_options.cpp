@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "calibrate/optimisers/ceres.h"
@@ -6,9 +7,25 @@
 
 namespace pastefit {
 
+const std::vector<StrategyRow>& strategies() {
+  static const std::vector<StrategyRow> rows = [] {
+    std::vector<StrategyRow> known{{"default", StrategyKind::surrogate},
+                                   {"levenberg_marquardt", StrategyKind::ceres},
+                                   {"dogleg", StrategyKind::ceres}};
+    for (const std::string_view name : nlopt_algorithm_names()) known.push_back({name, StrategyKind::nlopt});
+    return known;
+  }();
+  return rows;
+}
+
+const StrategyRow* find_strategy(std::string_view name) {
+  const auto row = std::ranges::find(strategies(), name, &StrategyRow::name);
+  return row == strategies().end() ? nullptr : &*row;
+}
+
 std::vector<std::string_view> strategy_names() {
-  std::vector<std::string_view> names = nlopt_algorithm_names();
-  names.insert(names.begin(), {"default", "levenberg_marquardt", "dogleg"});
+  std::vector<std::string_view> names;
+  for (const StrategyRow& row : strategies()) names.push_back(row.name);
   return names;
 }
 
@@ -18,7 +35,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
     if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
   };
   demand(parameters >= 1, "parameters", "none is free", "free at least one");
-  if (options.strategy != "default" && !trust_region_of(options.strategy)) {
+  const StrategyRow* row = find_strategy(options.strategy);
+  if (!row || row->kind == StrategyKind::nlopt) {
     NloptOptions nlopt;
     nlopt.algorithm = options.strategy;
     for (const Fault& fault : validate(nlopt, parameters)) {
