@@ -73,7 +73,7 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
       matrix(i, j) = matrix(j, i) =
-          matern_correlation(points_[static_cast<std::size_t>(i)], points_[static_cast<std::size_t>(j)], lengths_);
+          matern_covariance(points_[static_cast<std::size_t>(i)], points_[static_cast<std::size_t>(j)], lengths_);
     }
     matrix(i, i) += noise_ratio_ / counts_[i];
   }
@@ -109,7 +109,7 @@ GaussianProcess::Prediction GaussianProcess::predict(const UnitPoint& point) con
   if (signal_variance_ == 0) return {mean_, 0};
   Eigen::VectorXd correlations(static_cast<Eigen::Index>(points_.size()));
   for (Eigen::Index i = 0; i < correlations.size(); ++i) {
-    correlations[i] = matern_correlation(point, points_[static_cast<std::size_t>(i)], lengths_);
+    correlations[i] = matern_covariance(point, points_[static_cast<std::size_t>(i)], lengths_);
   }
   const double mean = mean_ + correlations.dot(weights_);
   factor_.triangularView<Eigen::Lower>().solveInPlace(correlations);

@@ -6,12 +6,13 @@
 
 namespace pastefit {
 
-/// The Matérn 5/2 correlation of two points, with one length for each coordinate:
-///     (1 + r + r^2/3) exp(-r),   r = sqrt(5) |(a - b)/lengths|.
+/// The Matérn 5/2 covariance of two points, with one length for each coordinate; of variance 1 the correlation:
+///     variance (1 + r + r^2/3) exp(-r),   r = sqrt(5) |(a - b)/lengths|.
 /// Source: Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), equation 4.17.
-inline double matern_correlation(const UnitPoint& a, const UnitPoint& b, const Eigen::VectorXd& lengths) {
+inline double matern_covariance(const UnitPoint& a, const UnitPoint& b, const Eigen::VectorXd& lengths,
+                                double variance = 1) {
   const double r = std::sqrt(5.0) * ((a - b).array() / lengths.array()).matrix().norm();
-  return (1 + r + r * r / 3) * std::exp(-r);
+  return variance * (1 + r + r * r / 3) * std::exp(-r);
 }
 
 }  // namespace pastefit

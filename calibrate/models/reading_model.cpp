@@ -137,7 +137,7 @@ void ReadingModel::standardise() {
 double ReadingModel::covariance(const UnitPoint& a, const UnitPoint& b) const {
   const double trend =
       constant_variance + slope_variance * (2 * a.array() - 1).matrix().dot((2 * b.array() - 1).matrix());
-  return trend + settings_.signal_variance * matern_correlation(a, b, settings_.lengths);
+  return trend + matern_covariance(a, b, settings_.lengths, settings_.signal_variance);
 }
 
 double ReadingModel::noise_variance(double mean) const {

@@ -33,7 +33,7 @@ TEST_CASE("the Matern correlation has the values of an independent implementatio
   // (1 + r + r^2/3) exp(-r), r = sqrt(5) d, in decimal arithmetic of 30 digits (the decimal module of Python).
   const Eigen::Vector2d lengths(0.5, 2);
   const auto at = [&](double x, double y) {
-    return matern_correlation(Eigen::Vector2d(0, 0), Eigen::Vector2d(x, y), lengths);
+    return matern_covariance(Eigen::Vector2d(0, 0), Eigen::Vector2d(x, y), lengths);
   };
   CHECK(at(0, 0) == 1);
   CHECK(at(0.5, 0) == Approx(0.523994108831820).epsilon(1e-12));
@@ -49,8 +49,8 @@ TEST_CASE("predictions are those of the textbook's formula, without pooling") {
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       covariance(i, j) =
-          process.signal_variance() * matern_correlation(seen.points[static_cast<std::size_t>(i)],
-                                                         seen.points[static_cast<std::size_t>(j)], process.lengths());
+          process.signal_variance() * matern_covariance(seen.points[static_cast<std::size_t>(i)],
+                                                        seen.points[static_cast<std::size_t>(j)], process.lengths());
   covariance.diagonal().array() += process.noise_variance();
   const Eigen::MatrixXd inverse = covariance.inverse();
   const double mean = (inverse * seen.values).sum() / inverse.sum();  // generalised least squares
@@ -58,7 +58,7 @@ TEST_CASE("predictions are those of the textbook's formula, without pooling") {
     Eigen::VectorXd with(n);
     for (Eigen::Index i = 0; i < n; ++i)
       with[i] = process.signal_variance() *
-                matern_correlation(point, seen.points[static_cast<std::size_t>(i)], process.lengths());
+                matern_covariance(point, seen.points[static_cast<std::size_t>(i)], process.lengths());
     const auto prediction = process.predict(point);
     CHECK(prediction.mean == Approx(mean + with.dot(inverse * (seen.values.array() - mean).matrix())).epsilon(1e-8));
     CHECK(prediction.variance ==
