@@ -68,7 +68,7 @@ std::string pair_style(const ExportScene& scene) {
          // Laws of the overlap that this style has know no reserve: of them net and total are the same.
          word("friction_basis", elastic ? FrictionBasis::elastic : FrictionBasis::total, friction_bases) +
          number("rolling_friction", contact.rolling_friction) + word("rolling", contact.rolling, rolling_models) +
-         number("cohesion_n", attraction_n(contact, {radius, radius, radius}, 1e-12)) + bridge_words(contact.bridge) +
+         number("cohesion_n", cohesion_n(contact, {radius, radius, radius})) + bridge_words(contact.bridge) +
          "\npair_coeff   * *\n";
 }
 

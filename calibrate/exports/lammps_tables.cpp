@@ -120,9 +120,8 @@ std::string table_text(const ContactModel& contact, const GrainPair& pair, const
     const int from_touch = i - (last - steps);
     const double r = i == last ? cutoff : std::sqrt(std::max(touch * touch + from_touch * h, smallest * smallest));
     const double overlap = i == last ? -reach : (from_touch == 0 ? 0.0 : touch - r);
-    const double energy = overlap > 0
-                              ? -bridge_work_j(contact, pair, 0, reach) - overlap * attraction_n(contact, pair, overlap)
-                              : -bridge_work_j(contact, pair, -overlap, reach);
+    const double in_overlap = overlap > 0 ? bridge_work_j(contact, pair, -overlap, 0) : 0;
+    const double energy = -in_overlap - bridge_work_j(contact, pair, std::max(-overlap, 0.0), reach);
     out += format("%d %.17g %.17g %.17g\n", i + 1, r, energy, -attraction_n(contact, pair, overlap));
   }
   return out + "\n";
@@ -193,7 +192,7 @@ std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
                "gains %.3g J too early, %.1f %% of the work of the bridge (%.3g J).",
                1e3 * gaps.formation_m, 1e3 * gaps.rupture_m, early, 100 * early / whole, whole));
   }
-  const double pull = attraction_n(contact, pair, 1e-12);
+  const double pull = cohesion_n(contact, pair);
   if (contact.friction_basis != FrictionBasis::elastic && pull > 0)
     notes.push_back(
         format("The card's friction is of the total normal force; LAMMPS's granular style, which does not "
@@ -234,7 +233,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const double radius = scene.radius_m(), density = scene.grain_density_kg_m3;
   const double load = 10 * mass_of(radius, density) * kGravity;
   const GrainPair mean = scene.mean_pair();
-  const bool attracts = attraction_n(contact, mean, 1e-12) > 0 || attraction_n(contact, mean, 0) > 0;
+  const bool attracts = cohesion_n(contact, mean) > 0 || attraction_n(contact, mean, 0) > 0;
 
   LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)

@@ -247,7 +247,7 @@ std::vector<std::string> liggghts_losses(const ExportScene& scene, const Contact
     if (gaps.formation_m > 0)
       notes.push_back(
           format("Bridges form when grains touch; on the card, at a gap of %.4g mm.", 1e3 * gaps.formation_m));
-    const double cohesion = attraction_n(contact, pair, 1e-12), touch = fit->bridge.force_n(0);
+    const double cohesion = cohesion_n(contact, pair), touch = fit->bridge.force_n(0);
     notes.push_back(
         format("Overlapping grains attract each other with %.4g N; on the card with %.4g N.", touch, cohesion));
     if (scene.sizes.radii_m.size() > 1 || (!scene.slump() && scene.grains().distribution != SizeDistribution::mono))

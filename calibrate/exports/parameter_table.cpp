@@ -21,7 +21,7 @@ void add_bridge(std::vector<ParameterRow>& rows, const ContactModel& contact, do
   const Bridge& bridge = contact.bridge;
   const GrainPair pair{radius, radius, radius};
   const BridgeGaps gaps = bridge_gaps(contact, pair);
-  rows.push_back({"cohesion_n", attraction_n(contact, pair, 1e-12), "constant attraction of overlapping grains"});
+  rows.push_back({"cohesion_n", cohesion_n(contact, pair), "constant attraction of overlapping grains"});
   if (bridge.shape == BridgeShape::polynomial)
     rows.insert(rows.end(), {{"a_n_m2", bridge.a_n_m2, "bridge a d^2 + b d + c"},
                              {"b_n_m", bridge.b_n_m, "bridge a d^2 + b d + c"}});
@@ -145,6 +145,11 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
                      from touch to rupture at d = s d_c; it forms when the gap falls to s formation_gap_m, and lives
                      until the gap exceeds s |d_c|
 )";
+  if (touch_excess_n(contact, scene.mean_pair()) != 0)
+    out += format(
+        "  d > 0, cohesion    passes over from the bridge's s^2 c at touch to s^2 cohesion_n in a straight line,\n"
+        "                     as far as d = s %.6g m\n",
+        kPassage * scene.radius_m());
   out += "\nHere: " + laws_chosen(contact) + ".\n\n";
   for (const auto& row : parameter_rows(scene))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());

@@ -70,7 +70,8 @@ class Attraction:
         formed = (-overlap <= FORMATION_GAP * size) | np.isin(code, self.alive)
         living = formed & (-overlap <= RUPTURE_GAP * size)
         self.alive = code[living]
-        pull = np.where(overlap > 0, COHESION * size**2 + 2 * pi * SURFACE_ENERGY * RADIUS * size,
+        left = np.maximum(1 - overlap / (PASSAGE * size), 0)
+        pull = np.where(overlap > 0, (COHESION + TOUCH_EXCESS * left) * size**2 + 2 * pi * SURFACE_ENERGY * RADIUS * size,
                         np.where(living, size**2 * bridge(np.minimum(overlap, 0) / size), 0))
         force = (pull / distance)[:, None] * apart
         total = np.zeros_like(x)
@@ -228,7 +229,9 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   number("C", attraction_at_touch(bridge, radius));
   number("LIQUID_VOLUME", bridge.liquid_volume_m3);
   number("SURFACE_ENERGY", contact.surface_energy_j_m2);
-  number("COHESION", attraction_n(contact, pair, 1e-12));
+  number("COHESION", cohesion_n(contact, pair));
+  number("TOUCH_EXCESS", touch_excess_n(contact, pair));
+  number("PASSAGE", kPassage * radius);
   number("FORMATION_GAP", gaps.formation_m);
   number("RUPTURE_GAP", gaps.rupture_m);
   out += "WALLS = [";
@@ -291,7 +294,7 @@ Result<Export> export_yade(const ExportScene& scene) {
     out.notes.push_back(
         "The attraction, with formation, memory and rupture of bridges, runs in Python at every step: slow. It suits "
         "thousands of grains, not millions.");
-  const double pull = sticking.pull_off_n + attraction_n(contact, scene.mean_pair(), 1e-12);
+  const double pull = sticking.pull_off_n + cohesion_n(contact, scene.mean_pair());
   if (contact.normal == card.normal && contact.friction_basis != FrictionBasis::elastic && pull > 0)
     out.notes.push_back(
         format("Yade's friction is that of the elastic force; on the card, of the total one. A contact that only its "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/laws/constants.h"
@@ -33,9 +32,23 @@ double bridge_n(const Bridge& bridge, double radius, double overlap) {
 
 }  // namespace
 
+double cohesion_n(const ContactModel& contact, const GrainPair& pair) {
+  const double s = pair.size_scale();
+  return s * s * contact.cohesion_n.value_or(attraction_at_touch(contact.bridge, pair.reference_radius_m));
+}
+
+double touch_excess_n(const ContactModel& contact, const GrainPair& pair) {
+  if (contact.bridge.shape == BridgeShape::none) return 0;
+  const double s = pair.size_scale();
+  return s * s * attraction_at_touch(contact.bridge, pair.reference_radius_m) - cohesion_n(contact, pair);
+}
+
 double attraction_n(const ContactModel& contact, const GrainPair& pair, double overlap) {
   const double s = pair.size_scale(), radius = pair.reference_radius_m;
-  if (overlap > 0) return s * s * contact.cohesion_n.value_or(attraction_at_touch(contact.bridge, radius));
+  if (overlap > 0) {
+    const double left = std::max(1 - overlap / (kPassage * radius * s), 0.0);
+    return cohesion_n(contact, pair) + left * touch_excess_n(contact, pair);
+  }
   if (-overlap > s * rupture_gap(contact.bridge, radius)) return 0;
   return s * s * bridge_n(contact.bridge, radius, overlap / s);
 }
@@ -48,8 +61,17 @@ double repulsion_n(const ContactModel& contact, const GrainPair& pair, double ov
 }
 
 double resting_overlap_m(const ContactModel& contact, const GrainPair& pair, double load) {
-  const double force = load + attraction_n(contact, pair, std::numeric_limits<double>::min());
-  return std::pow(force / repulsion_n(contact, pair, 1.0), 2.0 / 3.0);
+  const double force = load + cohesion_n(contact, pair),
+               passage = kPassage * pair.reference_radius_m * pair.size_scale();
+  const double deep = force > 0 ? std::pow(force / repulsion_n(contact, pair, 1.0), 2.0 / 3.0) : 0;
+  if (contact.bridge.shape == BridgeShape::none || deep >= passage) return deep;
+  double least = 0, most = passage;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (least + most);
+    const bool pressed = repulsion_n(contact, pair, middle) > load + attraction_n(contact, pair, middle);
+    (pressed ? most : least) = middle;
+  }
+  return most;
 }
 
 BridgeGaps bridge_gaps(const ContactModel& contact, const GrainPair& pair) {

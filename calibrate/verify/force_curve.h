@@ -16,10 +16,17 @@ struct GrainPair {
   double size_scale() const { return 2 * effective_radius_m() / reference_radius_m; }
 };
 
+/// Constant attraction of two grains that overlap [N].
+double cohesion_n(const ContactModel& contact, const GrainPair& pair);
+
+/// Attraction of a bridge at touch beyond that [N]; without a bridge none.
+double touch_excess_n(const ContactModel& contact, const GrainPair& pair);
+
 /// Attraction of two grains at overlap `d` [N], positive when they pull: the living bridge for -rupture_gap <= d <= 0,
-/// zero beyond, the constant cohesion for d > 0.
-/// Polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary as Willett et al. 2000.
-/// The formulas stand here a second time, apart from the engine's, so that `check` can hold the engine against them.
+/// zero beyond; for d > 0 the cohesion, to which the bridge's force at touch passes over along a straight line as far
+/// as d = kPassage R_ref s. Polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary
+/// as Willett et al. 2000. The formulas stand here a second time, apart from the engine's, so that `check` can hold the
+/// engine against them.
 double attraction_n(const ContactModel& contact, const GrainPair& pair, double overlap_m);
 
 /// Elastic repulsion 4/3 E* sqrt(R*) d^(3/2) [N], zero without overlap.

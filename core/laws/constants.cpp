@@ -10,6 +10,8 @@ namespace pastefit {
 
 namespace {
 
+constexpr double kRounding = 1e-9;  // of a force: what two ways to the same number may differ by
+
 double shear_modulus(double youngs_modulus, double poissons_ratio) {
   return youngs_modulus / (2 * (1 + poissons_ratio));
 }
@@ -55,6 +57,9 @@ void set_attraction(PairConstants& pair, const ContactModel& grains, double radi
   pair.cohesion = share * grains.cohesion_n.value_or(at_touch);
   if (bridge.shape == BridgeShape::none || share == 0) return;
   pair.bridge_c = share * at_touch;
+  pair.touch_excess = pair.bridge_c - pair.cohesion;
+  pair.passes_over = std::fabs(pair.touch_excess) > kRounding * pair.bridge_c;
+  pair.passage = kPassage * radius;
   pair.rupture_gap = rupture_gap(bridge, radius);
   pair.formation_gap = bridge.formation == BridgeFormation::film ? shells * bridge.offset_m : 0.0;
   with_law(Attractions{}, bridge.shape, [&](auto law) { law.set(pair, bridge, radius, share); });

@@ -28,17 +28,20 @@ struct ConstantsOf {
   Real rolling_friction{0};        ///< mu_r
   Real roll_stiffness_share{0};    ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
   Real roll_damping{0};            ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  Real spin_damping{0};     ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
-  Real size_per_radius{0};  ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  Real adhesion{0};         ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
-  Real tear_patch{0};       ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  Real tear_gap{0};         ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  Real cohesion{0};         ///< constant attraction in overlap [N]
-  Real bridge_a{0};         ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
-  Real bridge_b{0};         ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
-  Real bridge_c{0};         ///< attraction at touch [N]
-  Real rupture_gap{0};      ///< -d_c [m]
-  Real formation_gap{0};    ///< gap at which a bridge forms [m]
+  Real spin_damping{0};      ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
+  Real size_per_radius{0};   ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  Real adhesion{0};          ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
+  Real tear_patch{0};        ///< JKR: contact radius of reference grains at which they are torn apart [m]
+  Real tear_gap{0};          ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
+  Real cohesion{0};          ///< constant attraction in overlap [N]
+  bool passes_over = false;  ///< attraction at touch differs from that: `passage` overlap leads from one to the other
+  Real touch_excess{0};      ///< attraction at touch less the cohesion [N]
+  Real passage{0};           ///< overlap of reference grains beyond which the cohesion alone is left [m]
+  Real bridge_a{0};          ///< polynomial [N/m^2]; capillary: 2.5 R/V [1/m^2]
+  Real bridge_b{0};          ///< polynomial [N/m]; linear c/|d_c|; exponential 3/|d_c| [1/m]; capillary 1.05 sqrt(R/V)
+  Real bridge_c{0};          ///< attraction at touch [N]
+  Real rupture_gap{0};       ///< -d_c [m]
+  Real formation_gap{0};     ///< gap at which a bridge forms [m]
 };
 using PairConstants = ConstantsOf<double>;
 
@@ -66,12 +69,20 @@ PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
           Real(k.tear_patch),
           Real(k.tear_gap),
           Real(k.cohesion),
+          k.passes_over,
+          Real(k.touch_excess),
+          Real(k.passage),
           Real(k.bridge_a),
           Real(k.bridge_b),
           Real(k.bridge_c),
           Real(k.rupture_gap),
           Real(k.formation_gap)};
 }
+
+/// Overlap in mean radii over which the attraction of a bridge at touch passes over into the cohesion, where they
+/// differ. A force that jumps makes energy at any time step: a pair that the bridge pulls shut and nothing holds shut
+/// crosses touch for ever. The narrower the passage, the stiffer it is.
+inline constexpr double kPassage = 0.01;
 
 /// Grain against grain. `reference_radius_m` is the radius the bridge's numbers belong to.
 /// Source of the elastic constants: Hertz; Mindlin; damping Tsuji et al. in the form of physics conventions

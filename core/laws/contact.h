@@ -9,12 +9,31 @@
 
 namespace pastefit {
 
+/// The attraction at touch passes over into the cohesion along a straight line, from touch to the overlap `passage`. A
+/// force that jumps there would make energy at any step: a pair that the bridge pulls shut and nothing holds shut
+/// crosses touch for ever.
+template <class Real>
+PASTEFIT_INLINE void pass_over(const ConstantsOf<Real>& k, Real overlap, Real size_scale, bool counted,
+                               Action<Real>& action) {
+  const Real zero(0.0), one(1.0);
+  const Real inverse_width = one / (k.passage * size_scale);
+  const Real left = larger(one - larger(overlap, zero) * inverse_width, zero);
+  const Real excess = k.touch_excess * size_scale * size_scale;
+  action.push = select(overlap > zero, action.push - left * excess, action.push);
+  const Real slope = excess * inverse_width;
+  action.stiffness = larger(action.stiffness, select(overlap > zero, select(left > zero, slope, zero), zero));
+  if (counted) {
+    const Real work = Real(0.5) * k.passage * size_scale * excess * (one - left * left);
+    action.stored = action.stored - select(overlap > zero, work, zero);
+  }
+}
+
 /// Force of one contact or bridge for one time step `dt`; updates its memory. Energies that are not asked for are
 /// zero; the force does not depend on what is.
 ///
 /// in contact: the force of the overlap (laws/normal.h), damping 2 sqrt(5/6) beta sqrt(S_n m*), Mindlin spring S_t on
 ///   the slip, Coulomb limit on spring and damper together, rolling resistance (laws/rolling.h).
-/// overlap d > 0: constant cohesion besides.
+/// overlap d > 0: cohesion besides, constant but for the passage to it (`pass_over`).
 /// gap, bridge alive: attraction F(d). A bridge forms at the formation gap and lives until the rupture gap.
 ///
 /// Damping. Velocities are those of the half step before (leapfrog): a damper acts on the velocity of dt/2 ago. With
@@ -101,6 +120,7 @@ PASTEFIT_INLINE Action<Real> act(const ConstantsOf<Real>& k, const Meeting<Real>
       action.stored = fused(-memory.bridge, Attraction::work(k, smaller(m.overlap, zero), size_scale), action.stored);
     action.push = action.push - pull.force;
     action.stiffness = larger(action.stiffness, pull.slope);
+    if (k.passes_over) pass_over(k, m.overlap, size_scale, counted, action);
   }
 
   if constexpr (Normal::reaches) {

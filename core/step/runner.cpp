@@ -153,18 +153,19 @@ std::optional<Failure> Runner::audit(std::string_view phase) {
   if (!options_.steps.ledger) return {};
   const double error = energy_error();
   if (std::fabs(error) < kEnergyTolerance) return {};
-  return Failure{error > 0 ? FailureReason::energy_created : FailureReason::energy_lost,
-                 std::string(phase),
-                 world_.step,
-                 world_.time,
-                 -1,
-                 error,
-                 kEnergyTolerance,
-                 error > 0
-                     ? "the run creates energy: the time step is too large for these contacts; let the program "
-                       "choose it, or take a smaller one"
-                     : "the run loses energy that no mechanism accounts for: the time step is too large for these "
-                       "contacts; let the program choose it, or take a smaller one"};
+  return Failure{
+      error > 0 ? FailureReason::energy_created : FailureReason::energy_lost,
+      std::string(phase),
+      world_.step,
+      world_.time,
+      -1,
+      error,
+      kEnergyTolerance,
+      std::string(error > 0 ? "the run creates energy" : "the run loses energy that no mechanism accounts for") +
+          (options_.steps.fixed_step_s
+               ? ": the time step is too large for these contacts; let the program choose it, or take a "
+                 "smaller one"
+               : " at the time step that the program chose; fix half of it")};
 }
 
 Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway,

@@ -55,6 +55,9 @@ class Runner {
     read_own_ = [&parts...](StateReader& state) { state(parts...); };
   }
 
+  /// Takes the last wall away, with what sticks to it let go.
+  void take_away_last_wall() { stepper_.take_away_last_wall(); }
+
   /// To be called after walls, laws or grains were changed from outside.
   void changed() { stepper_.forget_lists(); }
 

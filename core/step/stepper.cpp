@@ -206,13 +206,16 @@ void Stepper::act_on_wall(std::size_t w, int b, Column<WallBatch>& batches) {
   WallContacts& touching = world_.pairs.blocks[b].walls[w];
   WallShare& share = wall_shares_[b * world_.walls.size() + w];
   share.pierced = find_wall(wall, touching, batches);
-  KernelTask mine = task(wall.pair, b);
-  mine.contacts = touching.contacts.batches.data();
-  mine.wall = batches.data();
-  mine.stretch = {0, 0, touching.contacts.batch_count()};
-  const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](mine);
+  act_on(wall, touching, batches, task(wall.pair, b));
   add_loads(wall, touching, batches, share);
+}
+
+void Stepper::act_on(const Wall& wall, WallContacts& touching, Column<WallBatch>& batches, KernelTask task) const {
+  task.contacts = touching.contacts.batches.data();
+  task.wall = batches.data();
+  task.stretch = {0, 0, touching.contacts.batch_count()};
+  const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
+  kernels_.wall[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](task);
 }
 
 void Stepper::add_up_walls() {
@@ -284,6 +287,35 @@ void Stepper::account_walls(double dt) {
     ledger_.work_of_walls -= 0.5 * (dt_ * before + dt * after);
     ledger_.effort_of_walls += 0.5 * (dt_ * std::fabs(before) + dt * std::fabs(after));
   }
+}
+
+/// What the contacts and bridges of a wall hold now [J]. They are asked in a step of no length, whose memory is thrown
+/// away.
+double Stepper::held_by(std::size_t w) {
+  const Wall& wall = world_.walls[w];
+  std::vector<EnergySums> energy(1);
+  for (std::size_t b = 0; b < world_.pairs.blocks.size(); ++b) {
+    WallContacts touching = world_.pairs.blocks[b].walls[w];
+    if (touching.count == 0) continue;
+    find_wall(wall, touching, wall_batches_[0]);
+    KernelTask asked = task(wall.pair, static_cast<int>(b));
+    asked.dt = 0;
+    asked.energy = energy.data();
+    asked.energies = Energies::all;
+    act_on(wall, touching, wall_batches_[0], asked);
+  }
+  return total(energy, EnergySums::stored);
+}
+
+void Stepper::take_away_last_wall() {
+  if (options_.ledger) {
+    const double held = held_by(world_.walls.size() - 1);
+    ledger_.stored -= held;
+    ledger_.work_of_walls -= held;
+    ledger_.effort_of_walls += std::fabs(held);
+  }
+  world_.walls.pop_back();
+  forget_lists();
 }
 
 /// Energies at the time of the positions: the velocities there are the means of the half steps around it.

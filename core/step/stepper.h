@@ -32,6 +32,9 @@ class Stepper {
     if (sleepers_) sleepers_->wake_all();
   }
 
+  /// Takes the last wall away, and with it what its contacts and bridges hold: the work of whoever removes it.
+  void take_away_last_wall();
+
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
@@ -64,11 +67,14 @@ class Stepper {
   void act_on_pairs(int block);
   void act_on_walls(int block, int member);
   void act_on_wall(std::size_t wall, int block, Column<WallBatch>& batches);
+  /// `task` done for these contacts with a wall, of which `batches` say how they lie to it.
+  void act_on(const Wall& wall, WallContacts& touching, Column<WallBatch>& batches, KernelTask task) const;
   KernelTask task(const PairConstants& pair, int block);
   void add_up_walls();
   std::int32_t find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const;
   void add_loads(const Wall& wall, const WallContacts& touching, const Column<WallBatch>& batches, WallShare& sum);
   void account_walls(double dt);
+  double held_by(std::size_t wall);
   void move_block(int block, double dt);
   void note_moved();
   bool looks_at_energy() const { return options_.ledger && world_.step % kLedgerInterval == 0; }

@@ -8,6 +8,7 @@ namespace pastefit_lammps {
 namespace {
 
 const double kPi = std::acos(-1.0);
+const double kPassage = 0.01;  // of the reference radius
 
 double damping_ratio(double restitution) {
   const double ln = std::log(restitution);
@@ -94,6 +95,8 @@ void Contact::set_attraction(const Law& law, double share, double shells) {
     a_ = 2.5 * radius / volume;
     b_ = 1.05 * std::sqrt(radius / volume);
   }
+  touch_excess_ = c_ - cohesion_;
+  passage_ = kPassage * law.reference_radius_m;
 }
 
 /// Forms and ruptures the bridge; its pull [N], none while the bodies overlap.
@@ -111,6 +114,12 @@ double Contact::attraction(double overlap, double scale, Memory& memory) const {
     default:
       return scale * scale * c_ / (1 + (b_ + a_ * gap) * gap);
   }
+}
+
+/// Of bodies that overlap: the cohesion, and what is left of the bridge's force at touch beyond it [N].
+double Contact::cohesion(double overlap, double scale) const {
+  const double left = std::max(1 - overlap / (passage_ * scale), 0.0);
+  return scale * scale * (cohesion_ + left * touch_excess_);
 }
 
 Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance) const {
@@ -132,7 +141,7 @@ Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance)
   const double braked_n = 1 / (1 + 0.25 * dt * damping_n / m.mass);
   const double braked_t = 1 / (1 + 0.25 * 3.5 * dt * damping_t / m.mass);
   const double approach = dot(m.velocity, m.normal);
-  double push = repulsion + braked_n * damping_n * approach - cohesion_ * scale * scale - pull;
+  double push = repulsion + braked_n * damping_n * approach - cohesion(m.overlap, scale) - pull;
   const double pressed = friction_of_total_ ? std::max(push, 0.0) : repulsion;
 
   // The spring holds what friction allows of the repulsion. Its energy grows with the overlap: it pushes, too.

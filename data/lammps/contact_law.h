@@ -88,7 +88,8 @@ class Contact {
 
   /// One step of dt; `advance` is dt, or 0 where time stands still (forces at the beginning of a run).
   ///
-  /// Overlap d > 0: Hertz 4/3 E* sqrt(R*) d^1.5, constant cohesion against it, damping 2 sqrt(5/6) beta sqrt(S_n m*),
+  /// Overlap d > 0: Hertz 4/3 E* sqrt(R*) d^1.5, constant cohesion against it (to which the bridge's force at touch
+  /// passes over within a hundredth of the reference radius), damping 2 sqrt(5/6) beta sqrt(S_n m*),
   /// Mindlin spring 8 G* sqrt(R* d), which pushes along the normal as its energy grows with the overlap, with the
   /// friction limit on spring and damper together, rolling resistance.
   /// Gap: the bridge's attraction, if it lives. It forms at the formation gap and lives until the rupture gap.
@@ -100,6 +101,7 @@ class Contact {
   void set_attraction(const Law& law, double share, double shells);
   double size_scale(double effective_radius) const { return size_per_radius_ * effective_radius; }
   double attraction(double overlap, double scale, Memory& memory) const;
+  double cohesion(double overlap, double scale) const;
   void roll(const Meeting& meeting, double load, double softened, double braked, double dt, double advance,
             Memory& memory, Action& action) const;
 
@@ -108,7 +110,7 @@ class Contact {
   double size_per_radius_ = 1, hertz_ = 0, normal_stiffness_ = 0, tangential_ratio_ = 0, damping_ = 0;
   double friction_ = 0, slip_limit_ = 0, rolling_friction_ = 0, cohesion_ = 0;
   bool friction_of_total_ = false;
-  double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0;
+  double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0, touch_excess_ = 0, passage_ = 1;
 };
 
 }  // namespace pastefit_lammps

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/stability/attraction_case.h"
 #include "tests/stability/parameter_case.h"
 #include "tests/stability/stress_csv.h"
 
@@ -100,13 +101,15 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   Bounds bounds;
   std::string csv_path, report_path;
-  bool parameters = false;
+  bool parameters = false, attraction = false;
   CLI::App app{"Slump tests all over the admissible box: each has to end with valid readings or a classified failure."};
   app.add_option("--runs", runs, "number of runs")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--first", first, "number of the first case; with --runs 1 it is printed in full")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--parameters", parameters, "corners and points of the box of a study's parameters instead");
+  app.add_flag("--attraction", attraction, "a grid over cohesion_ratio and the cohesion factors instead")
+      ->excludes("--parameters");
   app.add_option("--seed", seed, "shift of the Sobol points, or of the random ones")->capture_default_str();
   app.add_option("--threads", at_once, "runs at the same time")->capture_default_str()->check(CLI::Range(1, 1024));
   app.add_option("--steps", bounds.steps, "bound on the steps of a run")->capture_default_str();
@@ -120,7 +123,8 @@ int main(int argc, char** argv) {
   const auto minutes_gone = [&] {
     return std::chrono::duration<double, std::ratio<60>>(std::chrono::steady_clock::now() - start).count();
   };
-  const std::vector<StressCase> cases = (parameters ? parameter_cases : stress_cases)(first, runs, seed);
+  const auto cases_of = attraction ? attraction_cases : parameters ? parameter_cases : stress_cases;
+  const std::vector<StressCase> cases = cases_of(first, runs, seed);
   std::vector<StressResult> results;
   std::vector<StressCase> to_run;
   std::ifstream before(csv_path);
@@ -150,9 +154,12 @@ int main(int argc, char** argv) {
     const StressResult& result = results.back();
     if (!csv_path.empty()) write_csv_row(csv, result);
     if (result.verdict.end == "defect" || runs == 1) {
-      std::cout << "case " << result.stress.number << " (" << (parameters ? "--parameters " : "") << "--first "
-                << result.stress.number << " --runs 1 --seed " << seed << "): " << result.verdict.end << ' '
-                << result.verdict.phase << ' ' << result.verdict.message << '\n';
+      std::cout << "case " << result.stress.number << " ("
+                << (attraction   ? "--attraction "
+                    : parameters ? "--parameters "
+                                 : "")
+                << "--first " << result.stress.number << " --runs 1 --seed " << seed << "): " << result.verdict.end
+                << ' ' << result.verdict.phase << ' ' << result.verdict.message << '\n';
       print_inputs(std::cout, result.stress);
     }
   }

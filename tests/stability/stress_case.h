@@ -19,6 +19,7 @@ struct StressCase {
   double plate_deg = 0;  ///< 0: without step 2
   /// A candidate as a search tries it, without asking whether its grains are too soft for their attraction.
   bool searched = false;
+  bool keeps_energy = false;  ///< energy created is a defect, not an end like others
 };
 
 /// Number of corner cases; they have the first numbers, the Sobol points follow.

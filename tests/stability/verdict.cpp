@@ -189,6 +189,8 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
     verdict.end = name_of(outcome.failure->reason);
     verdict.phase = outcome.failure->phase;
     verdict.message = outcome.failure->message;
+    if (stress.keeps_energy && outcome.failure->reason == FailureReason::energy_created)
+      defect("energy created: " + number(outcome.failure->value) + " in " + verdict.phase);
     if (verdict.phase.empty() || verdict.message.empty()) defect(verdict.end + " without phase or message");
   } else if (const std::string fault = fault_of(outcome, stress); !fault.empty()) {
     defect(fault);

@@ -25,8 +25,8 @@ struct Bounds {
 };
 
 /// Runs the case and judges its end. A defect is: faults in an admissible test, an exception, readings that are absent,
-/// not finite or out of their physical range without a failure, energy created without a failure, grains that vanish
-/// or pass a wall without a failure, a failure without phase or message.
+/// not finite or out of their physical range without a failure, energy created without a failure (or with one, of a
+/// case that `keeps_energy`), grains that vanish or pass a wall without a failure, a failure without phase or message.
 Verdict judge(const StressCase& stress, const Bounds& bounds);
 
 }  // namespace pastefit

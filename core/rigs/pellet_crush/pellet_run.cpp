@@ -88,8 +88,7 @@ class Pressing {
   }
 
   std::optional<Failure> take_away_die() {
-    world_.walls.pop_back();
-    runner_.changed();
+    runner_.take_away_last_wall();
     const auto fallen = [this](const World& world) { return world.step % kStepsPerLook == 0 && fell_apart(); };
     if (auto problem = runner_.settle({"release", {}, fallen}, kPelletRestCap)) return problem;
     pellet_height_ = highest_point(world_.particles);

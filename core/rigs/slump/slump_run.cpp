@@ -70,8 +70,7 @@ class MouldLift {
                        ? runner_.run({"step1.lift", {}, look_whether_lost()}, own_height)
                        : runner_.run_until_rest({"step1.lift", {}, clear}, 1.5 * own_height, untouched);
     if (problem) return problem;
-    world_.walls.pop_back();
-    runner_.changed();
+    runner_.take_away_last_wall();
     return {};
   }
 

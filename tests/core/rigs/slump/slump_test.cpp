@@ -153,6 +153,33 @@ TEST_CASE("the energy of a slump in two steps is accounted for to the second ord
   }
 }
 
+TEST_CASE(
+    "a bridge pulls grains shut without making energy, whatever holds them in overlap, at any strength and size") {
+  for (const double radius : {0.012, 0.006})
+    for (const double strength_pa : {1e4, 4e4})
+      for (const double cohesion_ratio : {0.0, 0.3, 0.5, 3.0}) {
+        SlumpTest test = small_test(1);
+        test.grains.radius_m = radius;
+        if (radius < 0.01) test.mould = {0.050, 0.035, 0.060};
+        const double c = strength_pa * radius * radius, gap = 0.4 * radius;
+        test.contact.bridge = {
+            BridgeShape::polynomial, BridgeFormation::film, 0, 0.8 * c / gap, c, -gap, 0.25 * gap, 0, 0, 0};
+        test.contact.cohesion_n = cohesion_ratio * c;
+        const Outcome outcome = simulate(test);
+        INFO("radius " << radius << " m, " << strength_pa << " Pa, cohesion ratio " << cohesion_ratio);
+        REQUIRE_FALSE(outcome.failure);
+        CHECK(std::fabs(outcome.run.energy_error.value()) < 2e-3);
+      }
+}
+
+TEST_CASE("a mould that is taken away from what sticks to it creates no energy") {
+  SlumpTest test = small_test(10);
+  test.mould_wall.cohesion_factor = 2;
+  const Outcome outcome = simulate(test);
+  REQUIRE_FALSE(outcome.failure);
+  CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+}
+
 TEST_CASE("grains that resist rolling strongly come to rest, and do not hum on the spot") {
   SlumpTest test = small_test(5);
   test.contact.restitution = 0.6;
