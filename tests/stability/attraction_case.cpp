@@ -15,7 +15,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr std::array kRadii{0.009, 0.0045, 0.00225};   // [m]
+constexpr std::array kRadii{0.009, 0.0045, 0.003};     // [m]
 constexpr std::array kStrengths{4e4, 9000.0, 2000.0};  // c/R^2 [Pa]
 /// What is varied: the cohesion over the attraction at touch, and the shares of the mould and of the table.
 struct Shares {
