@@ -33,7 +33,10 @@ TEST_CASE("the curve that is exported is the one the engine acts by, for every s
       CHECK(attraction_n(contact, uneven, d) == Approx(law(constants, d)).epsilon(1e-12));
     }
     CHECK(attraction_n(contact, uneven, -1.001 * s * constants.rupture_gap) == 0);
-    CHECK(attraction_n(contact, uneven, 1e-5) == Approx(s * s * constants.cohesion));
+    // In overlap it passes over into the cohesion, in a straight line over a hundredth of a radius.
+    const double passage = s * constants.passage, touch = s * s * constants.bridge_c, held = s * s * constants.cohesion;
+    CHECK(attraction_n(contact, uneven, 1.001 * passage) == Approx(held));
+    CHECK(attraction_n(contact, uneven, 0.25 * passage) == Approx(0.75 * touch + 0.25 * held));
   };
   bridge.shape = BridgeShape::polynomial;
   compare([&](const auto& k, double d) { return PolynomialAttraction::at<double>(k, d, s).force; });

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>
@@ -108,6 +109,24 @@ TEST_CASE("a bridge pulls with a d^2 + b d + c down to the rupture gap, and not 
   apart.grain({0, 0, 0}).grain({0.0221, 0, 0});
   apart.run(1e-5, 1e-6);
   CHECK(apart.velocity(0).x == 0);
+}
+
+TEST_CASE("in overlap a bridge's pull passes over into the cohesion within a hundredth of a radius") {
+  const auto push = [](double overlap, double cohesion) {
+    ContactModel model = bridged(BridgeFormation::film, 0.001);
+    model.cohesion_n = cohesion;
+    Scene scene(model);
+    scene.grain({0, 0, 0}).grain({0.02 - overlap, 0, 0});
+    scene.run(1e-7, 1e-7);
+    return -scene.velocity(0).x * scene.mass(0) / 0.5e-7;  // a half kick
+  };
+  for (const double cohesion : {0.0, 0.03, 0.4}) {
+    INFO("cohesion " << cohesion);
+    for (const double share : {0.25, 0.5, 0.75, 1.5}) {
+      const double left = std::max(1 - share, 0.0), overlap = share * 1e-4;
+      CHECK(push(overlap, 0.1) - push(overlap, cohesion) == Approx((1 - left) * (cohesion - 0.1)).epsilon(1e-4));
+    }
+  }
 }
 
 TEST_CASE("a bridge forms at the formation gap and lives until rupture") {
