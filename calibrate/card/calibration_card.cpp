@@ -138,7 +138,8 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
     card.tests.push_back(card_test_of(study, i, values, shown.packings, store));
   card.material = material_of(study, values, card.tests.front());
 
-  card.confirmation = {shown.packings, fresh, shown.miss, fresh && verdict_on(shown) == Verdict::holds};
+  card.confirmation = {shown.packings, fresh, shown.miss,
+                       fresh && verdict_on(shown, rejected_share_of(study)) == Verdict::holds};
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

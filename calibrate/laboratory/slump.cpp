@@ -180,6 +180,10 @@ std::string conditions_in_words(const SlumpTest& test) {
                 plain(largest_pressure_pa(test)).c_str());
 }
 
+std::optional<bool> is_rejected(const SlumpTest& test, const Observables& run) {
+  return has_sheared(test, run);
+}
+
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {
   int sheared = 0, whole = 0;
   double all_mm = 0, whole_mm = 0;

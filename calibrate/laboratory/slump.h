@@ -72,6 +72,9 @@ std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun>
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);
 
+/// The heap sheared off (`has_sheared`): EN 12350-2 and ASTM C143 have such a test repeated.
+std::optional<bool> is_rejected(const SlumpTest& test, const Observables& run);
+
 /// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs);
 

@@ -138,6 +138,10 @@ std::string conditions_in_words(const Test& test) {
   return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
 }
 
+std::optional<bool> is_rejected(const Test& test, const Observables& run) {
+  return std::visit([&](const auto& one) { return is_rejected(one, run); }, test);
+}
+
 std::string remarks_on(const Test& test, std::span<const Observables> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }

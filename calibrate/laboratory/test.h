@@ -53,6 +53,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
+  { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { doubts_about(given, measurements) } -> std::same_as<Doubts>;
 };
@@ -80,6 +81,7 @@ std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs
                                  std::span<const Measurement> measured);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
+std::optional<bool> is_rejected(const Test& test, const Observables& run);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);
 

@@ -85,6 +85,11 @@ inline Doubts doubts_about(const Specimen&, std::span<const Measurement>) {
   return {};
 }
 
+/// Whether the standards have a laboratory reject this run and repeat it; nothing for a kind of which no run is.
+inline std::optional<bool> is_rejected(const Specimen&, const Observables&) {
+  return std::nullopt;
+}
+
 /// What a person should know of these runs besides their readings. A line, or nothing.
 inline std::string remarks_on(const Specimen&, std::span<const Observables>) {
   return {};

@@ -1,6 +1,7 @@
 #include "calibrate/search/conclusion.h"
 
 #include "calibrate/base/format.h"
+#include "calibrate/search/confirmation.h"
 
 namespace pastefit {
 
@@ -11,8 +12,13 @@ std::string tolerance_in_words(const MisfitUnit& unit) {
 }
 
 /// Why the best candidate does not count as confirmed.
-std::string doubt_about(const Calibration& result, const MisfitUnit& unit, const std::string& spent) {
+std::string doubt_about(const Calibration& result, const MisfitUnit& unit, double rejected_share,
+                        const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
+  if (told.rejected > 0 && verdict_on(told, rejected_share) != verdict_on(told))
+    return format("Of the best candidate's %zu heaps a laboratory would reject %d: ", told.evaluations.size(),
+                  told.rejected) +
+           format("a share of %g is not certain", rejected_share) + spent + " Allow more simulations.";
   const std::string tolerance = tolerance_in_words(unit);
   std::string words = "The best candidate misses the laboratory by " + unit.words(told.miss);
   if (told.miss > 1) return words + ", more than " + tolerance + spent;
@@ -50,7 +56,7 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
     result.reason = "No candidate was simulated to its end" + spent + " Allow more simulations.";
   } else {
     result.status = CalibrationStatus::unconfirmed;
-    result.reason = doubt_about(result, unit, spent);
+    result.reason = doubt_about(result, unit, ending.rejected_share, spent);
     for (std::size_t k = 0; k < result.reach.size(); ++k) {
       const Reach& reach = result.reach[k];
       const std::string name = k < readings.size() ? readings[k] : "reading " + std::to_string(k + 1);

@@ -16,6 +16,7 @@ struct Ending {
   bool any_feasible = false;  ///< some simulation did not fail
   bool with_coarse = false;   ///< coarse grains were simulated too
   std::optional<OutOfReach> out_of_reach;
+  double rejected_share = 1;      ///< of a candidate's heaps, at most; 1: not judged
   bool some_ended_early = false;  ///< of the simulations
 };
 

@@ -1,14 +1,28 @@
 #include "calibrate/search/confirmation.h"
 
 #include <algorithm>
+#include <boost/math/distributions/beta.hpp>
 #include <cmath>
 
 #include "calibrate/search/response.h"
 
 namespace pastefit {
+namespace {
 
-Verdict verdict_on(const Response& response) {
-  return is_whole(response) ? verdict_on(response.miss, response.noise) : Verdict::refuted;
+// Probabilities that the share of rejected heaps is no larger than it may be.
+constexpr double hardly_within = 0.1, surely_within = 0.8;
+
+}  // namespace
+
+Verdict verdict_on(const Response& response, double rejected_share) {
+  if (!is_whole(response)) return Verdict::refuted;
+  const Verdict readings = verdict_on(response.miss, response.noise);
+  if (readings == Verdict::refuted || rejected_share >= 1) return readings;
+  const double rejected = response.rejected, heaps = static_cast<double>(response.evaluations.size());
+  const boost::math::beta_distribution<> share(rejected + 1, heaps - rejected + 1);
+  const double within = boost::math::cdf(share, rejected_share);
+  if (within < hardly_within) return Verdict::refuted;
+  return within < surely_within ? Verdict::undecided : readings;
 }
 
 Verdict verdict_on(double miss, double noise) {

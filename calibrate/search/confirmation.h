@@ -16,8 +16,11 @@ enum class Verdict {
 ///     holds      m <= 1 and s <= 1
 ///     refuted    sqrt(m^2 - s^2) > 1; the mean of m^2 over fillings is that of a mean without noise, plus s^2
 ///     undecided  otherwise
+/// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected: with an even prior the
+/// share p has a beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 (for c = 0.2 none of 8,
+/// 1 of 16), and is refuted with P(p <= c) < 0.1 (3 of 8).
 /// Limit: of a single packing the noise is not known and counts as none.
-Verdict verdict_on(const Response& response);
+Verdict verdict_on(const Response& response, double rejected_share = 1);
 
 /// The same by the numbers.
 Verdict verdict_on(double miss, double noise);

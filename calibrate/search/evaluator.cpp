@@ -316,6 +316,7 @@ Evaluation SimulationObjective::evaluation_of(const UnitPoint& point, const Stor
   out.packing = stored.packing;
   out.failure = stored.failure;
   out.ended_early = !out.failure && stored.run.ended_early;
+  out.rejected = is_rejected(study_, fitted_, stored);
   if (!out.failure)
     for (const auto& reading : readings_)
       out.observables.push_back(out.ended_early ? stored.observables.find(reading.name).value_or(std::nan(""))
@@ -354,6 +355,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
       continue;
     }
     out.ended_early = out.ended_early || evaluation.ended_early;
+    out.rejected += evaluation.rejected ? 1 : 0;
     for (Eigen::Index i = 0; i < count; ++i)
       out.observables[i] += evaluation.observables[static_cast<std::size_t>(i)] / packings;
   }

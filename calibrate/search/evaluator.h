@@ -16,6 +16,7 @@
 #include "calibrate/laboratory/engine.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/search/onlooker.h"
+#include "calibrate/search/record.h"
 #include "calibrate/search/worker_pool.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
@@ -92,6 +93,7 @@ class SimulationObjective : public Objective {
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
   double allowance(std::size_t reading) const override;
+  double rejected_share() const override { return rejected_share_of(study_); }
   MisfitUnit misfit_unit() const override { return misfit_unit_of(study_); }
   std::vector<Response> earlier() const override;
   bool stop_requested() const override;

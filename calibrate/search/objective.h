@@ -24,6 +24,8 @@ class Scoring {
   virtual double allowance(std::size_t) const { return 1; }
   /// In which people are told what a candidate misses by.
   virtual MisfitUnit misfit_unit() const { return {}; }
+  /// What share of a candidate's heaps a laboratory may reject; 1: it is not judged.
+  virtual double rejected_share() const { return 1; }
   /// Simulations behind a point on one packing: one for each test that is fitted.
   virtual int simulations_each() const { return 1; }
   /// What one candidate answers on the packings of these evaluations. Requirement: at least one.

@@ -36,7 +36,7 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
     const std::size_t known = archive_.coarse_singles().size();
     archive_.evaluate_coarse({&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
     if (archive_.coarse_singles().size() == known) break;
-    Surrogate model(archive_.evidence(), archive_.allowances());
+    Surrogate model(archive_.evidence(), archive_.allowances(), archive_.scoring().rejected_share());
     fantasise_answers(model);
     const auto misfit = [&](const UnitPoint& point) { return model.outlook(point).mean(); };
     const UnitPoint better = least_point(misfit, proposal);

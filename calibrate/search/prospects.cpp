@@ -1,6 +1,7 @@
 #include "calibrate/search/prospects.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <limits>
 
 #include "calibrate/search/response.h"
@@ -9,13 +10,17 @@ namespace pastefit {
 namespace {
 
 constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts what is known
+
+// A confirmation with these counts holds (`verdict_on`).
+constexpr double confirmed_heaps = 16, confirmed_rejected = 1;
+
 constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger than any
 
 }  // namespace
 
 Prospects::Prospects(const Archive& archive, std::span<const UnitPoint> refuted)
     : archive_(archive),
-      surrogate_(archive.evidence(), archive.allowances()),
+      surrogate_(archive.evidence(), archive.allowances(), archive.scoring().rejected_share()),
       misfit_of_best_(no_misfit),
       least_misfit_(no_misfit) {
   const auto is_refuted = [&](const UnitPoint& point) {
@@ -41,7 +46,10 @@ double Prospects::chance_of(const UnitPoint& point, double tolerances) const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Constant(archive_.residuals(), far_from_prior);
   for (int k = 0; k < archive_.readings(); ++k)
     bounds[k] = tolerances * archive_.allowance(static_cast<std::size_t>(k));
-  return surrogate_.within(bounds, point);
+  if (archive_.scoring().rejected_share() >= 1) return surrogate_.within(bounds, point);
+  const boost::math::binomial_distribution<> rejected(confirmed_heaps,
+                                                      std::clamp(surrogate_.rejecting(point), 0.0, 1.0));
+  return surrogate_.within(bounds, point) * boost::math::cdf(rejected, confirmed_rejected);
 }
 
 }  // namespace pastefit

@@ -25,6 +25,7 @@ class Prospects {
   double least_misfit() const { return least_misfit_; }
 
   /// Probability that every fitted reading of a candidate is within so many tolerances, noise of the packings apart,
+  /// that a confirmation would hold by the heaps that a laboratory rejects,
   /// and every parameter of which something is known beforehand within two standard deviations of it.
   double chance_of(const UnitPoint& point, double tolerances) const;
 

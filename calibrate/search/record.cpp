@@ -113,6 +113,22 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
   return out;
 }
 
+bool is_rejected(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged) {
+  return !merged.failure && std::ranges::any_of(tests, [&](std::size_t index) {
+    const StudyTest& test = study.tests[index];
+    Observables run;
+    for (const ReadingKind& kind : reading_kinds(test.lab.test))
+      if (const auto value = merged.observables.find(reading_name(test, kind.name))) run.set(kind.name, *value);
+    return is_rejected(test.lab.test, run).value_or(false);
+  });
+}
+
+double rejected_share_of(const Study& study) {
+  const auto fitted = tests_of(study, false);
+  const auto may_be = [&](std::size_t test) { return is_rejected(study.tests[test].lab.test, {}).has_value(); };
+  return std::ranges::any_of(fitted, may_be) ? study.search.rejected_share : 1;
+}
+
 std::size_t holding(const Study& study, const Store& store) {
   const auto all = store.all();
   return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {

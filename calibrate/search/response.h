@@ -19,6 +19,7 @@ struct Evaluation {
   std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
   bool ended_early = false;  ///< see `Objective::try_out`
+  bool rejected = false;     ///< a laboratory would repeat it: the heap sheared off
   int simulations = 1;       ///< that were spent on it; 0: it was known, or cut off by a stop
 };
 
@@ -38,6 +39,7 @@ struct Response {
   /// tolerance. 0: a single packing, or a failure.
   double noise = 0;
   bool failed = false;  ///< some packing ended in a failure
+  int rejected = 0;     ///< packings on which a laboratory would repeat the test
   /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
   /// bound of that of the whole test, and not one that makes a candidate the best.
   bool ended_early = false;

@@ -244,7 +244,7 @@ class Strategy {
       if (!affordable(more)) break;
       std::ranges::copy(fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
       confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
-      verdict = verdict_on(confirmation);
+      verdict = verdict_on(confirmation, scoring_.rejected_share());
       if (packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
     }
     if (archive_.stop_requested()) return false;
@@ -284,7 +284,7 @@ class Strategy {
     std::ranges::copy(fresh_packings(static_cast<int>(all - fresh.size())), std::back_inserter(fresh));
     const Response confirmation = archive_.evaluate({&candidate, 1}, fresh).at(0);
     if (archive_.stop_requested()) return;
-    confirmed_ = verdict_on(confirmation) == Verdict::holds;
+    confirmed_ = verdict_on(confirmation, scoring_.rejected_share()) == Verdict::holds;
     report(confirmation);
   }
 
@@ -316,6 +316,7 @@ class Strategy {
     }
     Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), with_coarse_, out_of_reach_};
     ending.some_ended_early = std::ranges::any_of(archive_.singles(), &Response::ended_early);
+    ending.rejected_share = scoring_.rejected_share();
     explain(result_, ending, scoring_.misfit_unit(), readings_, parameters_);
     return std::move(result_);
   }

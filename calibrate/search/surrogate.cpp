@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calibrate/optimisers/nlopt.h"
+#include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/response.h"
 
 namespace pastefit {
@@ -14,6 +15,8 @@ namespace {
 /// Of candidates that meet the laboratory alike the one nearer to the middle of the bounds is the more plausible: each
 /// coordinate counts with a prior of this weight, normal about the middle with half the range as its deviation.
 constexpr double weight_of_middle = 0.1;
+
+constexpr double least_share = 0.05;  // of rejected heaps: a smaller one is not told from none
 
 /// What is confirmed is a mean over so many packings, and it may be off by half a tolerance.
 constexpr double packings_of_a_mean = 8;
@@ -31,7 +34,8 @@ double compressed(double residual, double far) {
 
 }  // namespace
 
-Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances) {
+Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances, double rejected_share) {
+  learn_rejections(seen, tolerances, rejected_share);
   std::vector<UnitPoint> all;
   std::vector<const Response*> feasible;
   Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
@@ -107,7 +111,7 @@ Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
 
 Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
   const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
-  double certain = 0, mean = odd + failing(point) * worst_, variance = 0;
+  double certain = rejected_misfit_ * std::pow(rejecting(point), 2), mean = odd + failing(point) * worst_, variance = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
     if (!models_[k]) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
@@ -117,6 +121,29 @@ Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
     variance += residual.variance * (0.5 * residual.variance + square);
   }
   return {certain, mean, variance};
+}
+
+/// Coarse grains shear off otherwise than fine ones: only fine ones tell.
+void Surrogate::learn_rejections(std::span<const Response> seen, const Eigen::VectorXd& tolerances,
+                                 double rejected_share) {
+  if (rejected_share >= 1) return;
+  std::vector<UnitPoint> points;
+  std::vector<bool> labels;
+  for (const Response& one : seen)
+    for (const Evaluation& evaluation : one.evaluations) {
+      if (evaluation.failure || evaluation.ended_early || evaluation.packing >= coarse_packings) continue;
+      points.push_back(one.point);
+      labels.push_back(evaluation.rejected);
+    }
+  if (std::ranges::none_of(labels, [](bool rejected) { return rejected; })) return;
+  rejections_.emplace(points, labels);
+  const double judged = static_cast<double>((tolerances.array() > 0).count());
+  const double allowed = judged > 0 ? tolerances.squaredNorm() / judged : 1;
+  rejected_misfit_ = 0.5 * allowed / std::pow(std::max(rejected_share, least_share), 2);
+}
+
+double Surrogate::rejecting(const UnitPoint& point) const {
+  return rejections_ ? rejections_->probability(point) : 0;
 }
 
 double Surrogate::failing(const UnitPoint& point) const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "calibrate/models/classifier.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/scatter.h"
 #include "calibrate/search/objective.h"
@@ -20,7 +21,10 @@ class Surrogate {
   /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered if it is likelier
   /// (a warped process: Snelson, Rasmussen & Ghahramani 2004), so that a misfit is true near the laboratory and may be
   /// too small far off. One of 0, or that is not given, is learnt as it is and may scatter as it likes.
-  explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {});
+  /// `rejected_share`: of heaps that a laboratory may reject, at most. So large a share is as bad as a reading that is
+  /// off by its tolerance: half the square of the likely share over this one, in squares of the mean tolerance, adds to
+  /// the misfit. 1: it does not matter.
+  explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {}, double rejected_share = 1);
 
   int residuals() const { return static_cast<int>(models_.size()); }
   /// What the residuals of a point are expected to be, in their own unit or compressed.
@@ -51,10 +55,14 @@ class Surrogate {
   /// one for each residual. Returns them.
   Eigen::VectorXd fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates);
 
+  /// Likely share of heaps that a laboratory would reject, e.g. that shear off.
+  double rejecting(const UnitPoint& point) const;
+
   /// Misfit that the noise of one simulation is likely to cause: half the sum of the noise variances.
   double noise() const;
 
  private:
+  void learn_rejections(std::span<const Response> seen, const Eigen::VectorXd& tolerances, double rejected_share);
   void compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far);
   void learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance);
   /// Variance of the mean of some packings beyond what does no harm.
@@ -66,6 +74,8 @@ class Surrogate {
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
   std::vector<std::optional<Scatter>> scatters_;        // likewise; none too where it does not matter
   std::optional<GaussianProcess> failures_;
+  std::optional<Classifier> rejections_;  // none: nothing was rejected, or it does not matter
+  double rejected_misfit_ = 0;            // of a share of 1
 };
 
 /// The point that is expected to improve most on a misfit (Jones, Schonlau & Welch 1998), failures counted as no

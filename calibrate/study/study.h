@@ -64,6 +64,7 @@ struct SearchOptions {
   int packings = 2;                  ///< random packings on which candidates are tried in turn
   int lag = 0;                       ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
+  double rejected_share = 0.2;       ///< of heaps that a laboratory would reject, at most; 1: not judged
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   double tolerance_mm = 5;           ///< of each fitted length that has none of its own
   bool coarse_first = false;         ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)

@@ -28,6 +28,7 @@ Study coarse_study() {
   study.search.confirmation_packings = 2;
   study.search.examination_simulations = 2;
   study.search.tolerance_mm = 40;
+  study.search.rejected_share = 1;  // so few grains break as they like
   return study;
 }
 

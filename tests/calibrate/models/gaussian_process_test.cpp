@@ -13,11 +13,11 @@ using namespace pastefit;
 namespace {
 
 /// 24 noisy answers of a smooth function at 12 points, two at each.
-struct Answers {
+struct NoisyAnswers {
   std::vector<UnitPoint> points;
   Eigen::VectorXd values = Eigen::VectorXd::Zero(24);
 
-  Answers() {
+  NoisyAnswers() {
     for (const UnitPoint& point : screening_points(2, 12, 3))
       for (int repeat = 0; repeat < 2; ++repeat) points.push_back(point);
     for (Eigen::Index i = 0; i < 24; ++i) {
@@ -42,7 +42,7 @@ TEST_CASE("the Matern correlation has the values of an independent implementatio
 }
 
 TEST_CASE("predictions are those of the textbook's formula, without pooling") {
-  const Answers seen;
+  const NoisyAnswers seen;
   const GaussianProcess process(seen.points, seen.values);
   const Eigen::Index n = seen.values.size();
   Eigen::MatrixXd covariance(n, n);
@@ -67,7 +67,7 @@ TEST_CASE("predictions are those of the textbook's formula, without pooling") {
 }
 
 TEST_CASE("the noise is learnt from repeats, and the function between the points") {
-  const Answers seen;
+  const NoisyAnswers seen;
   const GaussianProcess process(seen.points, seen.values);
   CHECK(std::sqrt(process.noise_variance()) == Approx(0.05).epsilon(0.6));
   double squares = 0;
@@ -78,7 +78,7 @@ TEST_CASE("the noise is learnt from repeats, and the function between the points
 }
 
 TEST_CASE("a fantasised answer draws the mean to it and takes the uncertainty away, as a true one would") {
-  const Answers seen;
+  const NoisyAnswers seen;
   GaussianProcess process(seen.points, seen.values);
   const Eigen::Vector2d point(0.9, 0.95);
   const auto before = process.predict(point);
@@ -88,7 +88,7 @@ TEST_CASE("a fantasised answer draws the mean to it and takes the uncertainty aw
 }
 
 TEST_CASE("answers that are all the same are predicted everywhere, without uncertainty") {
-  const Answers seen;
+  const NoisyAnswers seen;
   const GaussianProcess process(seen.points, Eigen::VectorXd::Constant(24, 3));
   CHECK(process.predict(Eigen::Vector2d(0.1, 0.7)).mean == 3);
   CHECK(process.predict(Eigen::Vector2d(0.1, 0.7)).variance == 0);

@@ -158,3 +158,62 @@ TEST_CASE("packings are not asked for where their scatter says that no affordabl
   CHECK(calibration.confirmation.packings.size() == 8);
   CHECK(packings_to_decide(calibration.confirmation) > 64);
 }
+
+namespace {
+
+/// The mean of so many heaps, which meets the laboratory.
+Response heaps_with(int rejected, int heaps) {
+  Response response;
+  response.point = UnitPoint::Constant(1, 0.5);
+  response.residuals = Eigen::VectorXd::Zero(1);
+  response.evaluations.resize(static_cast<std::size_t>(heaps));
+  response.packings.resize(static_cast<std::size_t>(heaps));
+  response.rejected = rejected;
+  return response;
+}
+
+}  // namespace
+
+TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, many refute, few of few say nothing") {
+  // P(p <= 0.2) of a beta distribution of k + 1 and n - k + 1 is that of more than k of n + 1 in a binomial one.
+  CHECK(verdict_on(heaps_with(0, 4), 0.2) == Verdict::undecided);  // 0.67
+  CHECK(verdict_on(heaps_with(0, 8), 0.2) == Verdict::holds);      // 0.87
+  CHECK(verdict_on(heaps_with(1, 8), 0.2) == Verdict::undecided);  // 0.56
+  CHECK(verdict_on(heaps_with(3, 8), 0.2) == Verdict::refuted);    // 0.09
+  CHECK(verdict_on(heaps_with(1, 16), 0.2) == Verdict::holds);     // 0.88
+  CHECK(verdict_on(heaps_with(2, 16), 0.2) == Verdict::undecided);
+  CHECK(verdict_on(heaps_with(8, 8), 1) == Verdict::holds);
+  Response off = heaps_with(0, 8);
+  off.miss = 2;
+  CHECK(verdict_on(off, 0.2) == Verdict::refuted);
+}
+
+TEST_CASE("a material is confirmed for how its heaps stand, not for their mean alone", "[campaign]") {
+  const auto chance = [](const UnitPoint& x) { return 1 / (1 + std::exp(-10 * (x[3] - 0.6))); };
+  int confirmed = 0, stand = 0, would_stand = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double share : {0.2, 1.0}) {
+      Synthetic slump = fake_slump(150, seed);
+      slump.budget = 200;
+      slump.rejects = [&, seed](const UnitPoint& x, std::uint64_t packing) {
+        return uniform(hash_of(seed, digest(x)), packing) < chance(x);
+      };
+      slump.allowed_share = share;
+      SearchOptions options = options_with(seed);
+      options.budget_simulations = 200;
+      options.confirmation_packings = 8;
+      const Calibration found = search(slump, options);
+      if (found.status != CalibrationStatus::confirmed) continue;
+      if (share == 1) {
+        would_stand += chance(found.best.point) <= 0.2 ? 1 : 0;
+        continue;
+      }
+      ++confirmed;
+      stand += chance(found.best.point) <= 0.25 ? 1 : 0;
+    }
+  }
+  INFO(confirmed << " of 20 confirmed, " << stand << " stand; not judged: " << would_stand);
+  CHECK(confirmed >= 18);
+  CHECK(stand >= 0.85 * confirmed);
+  CHECK(would_stand < 0.8 * stand);
+}

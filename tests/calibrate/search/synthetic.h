@@ -49,6 +49,11 @@ class Synthetic : public Objective {
   std::function<bool(const UnitPoint&, std::uint64_t packing)> fails = [](const UnitPoint&, std::uint64_t) {
     return false;
   };
+  /// A laboratory would repeat the test.
+  std::function<bool(const UnitPoint&, std::uint64_t packing)> rejects = [](const UnitPoint&, std::uint64_t) {
+    return false;
+  };
+  double allowed_share = 1;  ///< of rejected heaps; 1: not judged
   /// Residuals of what is known beforehand.
   std::function<std::vector<double>(const UnitPoint&)> known = [](const UnitPoint&) { return std::vector<double>{}; };
   FailureKind failure_kind = FailureKind::graded;
@@ -75,6 +80,7 @@ class Synthetic : public Objective {
   }
   double allowance(std::size_t reading) const override { return tolerance(reading) / standard_deviations.at(reading); }
   MisfitUnit misfit_unit() const override { return {tolerance_mm}; }
+  double rejected_share() const override { return allowed_share; }
   bool stop_requested() const override { return stop(); }
 
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override {
@@ -113,6 +119,7 @@ class Synthetic : public Objective {
         if (cut_off) evaluation.failure->reason = FailureReason::stopped;
       } else {
         evaluation.observables = observe(point, packing);
+        evaluation.rejected = rejects(point, packing);
         if (tried) end_early(evaluation);
       }
       evaluation.simulations = known_.insert({digest(point), packing, evaluation.ended_early}).second ? 1 : 0;
@@ -132,6 +139,7 @@ class Synthetic : public Objective {
       response.packings.push_back(evaluation.packing);
       response.failed = response.failed || evaluation.failure;
       response.ended_early = response.ended_early || evaluation.ended_early;
+      response.rejected += evaluation.rejected ? 1 : 0;
       for (int k = 0; k < count && !evaluation.failure; ++k) response.observables[k] += evaluation.observables[k];
     }
     response.observables /= static_cast<double>(evaluations.size());
