@@ -121,7 +121,7 @@ class Readme(unittest.TestCase):
             result = subprocess.run(["sh", "-exc", commands], cwd=folder, env=environment, capture_output=True,
                                     text=True)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-            verdict = re.search(r"^The material (meets|does not meet) the laboratory: .*$", result.stdout, re.M)
+            verdict = re.search(r"^The material (meets|does not meet) the laboratory[:,] .*$", result.stdout, re.M)
             self.assertIsNotNone(verdict, result.stdout)
             print(verdict.group(0))
             for file in ("card.json", "summary.txt", "evaluations.sqlite", "report.html"):
