@@ -9,6 +9,7 @@
 #include "calibrate/inference/words.h"
 #include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/memory.h"
+#include "calibrate/search/residual_size.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"
@@ -71,6 +72,7 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
 Faults validate(const Study& study, const CalibrateOptions& options) {
   const auto fitted = static_cast<int>(tests_of(study, false).size());
   if (auto faults = validate(options_of_the_search(study), free_count(study), fitted); !faults.empty()) return faults;
+  if (auto faults = validate_residuals(study); !faults.empty()) return faults;
   if (auto faults = validate_memory(study, options.threads); !faults.empty()) return faults;
   return study.search.coarse_first ? coarse_faults(study) : Faults{};
 }

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -18,10 +17,13 @@
 
 namespace pastefit {
 
+/// No quantity of a file is larger: squares and products of a few of them stay finite.
+inline constexpr double largest_quantity = 1e15;
+
 /// The admissible values of a number, in the unit of its key.
 struct Range {
-  double smallest = std::numeric_limits<double>::lowest();
-  double largest = std::numeric_limits<double>::max();
+  double smallest = -largest_quantity;
+  double largest = largest_quantity;
   bool open = false;  ///< `smallest` itself is refused
 };
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -20,7 +19,7 @@ using nlohmann::json;
 
 constexpr Range kAny;
 constexpr Range kNotNegative{0};
-constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
+constexpr Range kPositive{0, largest_quantity, true};
 constexpr auto kRequired = Need::required;
 constexpr auto kOptional = Need::optional;
 

@@ -12,6 +12,7 @@
 #include "calibrate/laboratory/softness.h"
 #include "calibrate/search/early_end.h"
 #include "calibrate/search/record.h"
+#include "calibrate/search/residual_size.h"
 #include "calibrate/search/response.h"
 #include "calibrate/study/parameters.h"
 
@@ -25,14 +26,6 @@ constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall 
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The worst miss a heap can have, in the measurement's unit.
-double worst_miss(const Measurement& measurement, const Test& test) {
-  const auto kinds = reading_kinds(test);
-  const ReadingKind* kind = find_kind(kinds, measurement.observable);
-  const double bound = kind && kind->worst_miss ? *kind->worst_miss : 10 * measurement.standard_deviation;
-  return std::max(std::abs(measurement.value), bound);
 }
 
 Failure stopped(std::string message) {
@@ -369,8 +362,7 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
   }
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
-    if (out.failed)
-      out.observables[i] = measurement.value + failure_factor * worst_miss(measurement, study_.tests[test].lab.test);
+    if (out.failed) out.observables[i] = measurement.value + failure_factor * worst_miss(study_, test, measurement);
     double miss = out.observables[i] - measurement.value;
     if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;

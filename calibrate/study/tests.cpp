@@ -41,7 +41,7 @@ std::vector<Target> read_targets(ObjectReader& document, const Lab& lab, bool ho
                      "give at least one measurement a weight above 0");
   });
   document.object("tolerances", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, lab, targets, {0, 1e6, true},
+    read_numbers(reader, lab, targets, {1e-6, 1e6},
                  [](Target& target, double tolerance) { target.tolerance = tolerance; });
   });
   return targets;

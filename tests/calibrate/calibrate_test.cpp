@@ -63,3 +63,22 @@ TEST_CASE("a study that cannot be calibrated is told so before anything is simul
   CHECK(result.faults().at(0).where == "search.budget_simulations");
   CHECK(store.size() == 0);
 }
+
+TEST_CASE("a study whose residuals would not be finite is refused, whoever put it together") {
+  const auto fault_of = [](auto spoil) {
+    Study study = coarse_study();
+    spoil(study);
+    const Faults faults = validate(study, {});
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].what.find("not finite") != std::string::npos);
+    return faults[0].where;
+  };
+  CHECK(validate(coarse_study(), {}).empty());
+  const std::string prior = "parameters.strength_pa.prior.standard_deviation", height = "step1.height_mm";
+  // The square overflows at 1e-153, the residual itself at 1e-310, and 0/0 is no number.
+  for (const double deviation : {1e-160, 1e-310, 0.0})
+    CHECK(fault_of([&](Study& study) { study.parameters.at(0).prior = Prior{1000, deviation}; }) == prior);
+  CHECK(fault_of([](Study& study) { study.tests.at(0).lab.measurements.at(0).standard_deviation = 1e-170; }) == height);
+  CHECK(fault_of([](Study& study) { study.tests.at(0).targets.at(0).tolerance = 1e-170; }) == height);
+  CHECK(fault_of([](Study& study) { study.tests.at(0).targets.at(0).weight = 1e308; }) == height);
+}

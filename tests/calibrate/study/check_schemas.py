@@ -98,10 +98,26 @@ SPOILED = {
 }
 
 
+def without_range(schema, place="#"):
+    """Where the schema has a number that may be as large, or as far below nothing, as one likes."""
+    if isinstance(schema, list):
+        for i, part in enumerate(schema):
+            yield from without_range(part, f"{place}/{i}")
+    if not isinstance(schema, dict):
+        return
+    kinds = schema.get("type", [])
+    if {"number", "integer"} & set([kinds] if isinstance(kinds, str) else kinds):
+        if "maximum" not in schema or not {"minimum", "exclusiveMinimum"} & set(schema):
+            yield place
+    for key, part in schema.items():
+        yield from without_range(part, f"{place}/{key}")
+
+
 def main(data):
     failures = []
     for kind, folder in FOLDERS.items():
         check = validator(data, kind)
+        failures += [f"{kind}.schema.json: the number {place} has no range" for place in without_range(check.schema)]
         files = sorted((data / folder).glob("*.json"))
         if not files:
             failures.append(f"{data / folder}: no files")

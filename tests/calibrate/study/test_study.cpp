@@ -261,9 +261,31 @@ TEST_CASE("what is known of a parameter beforehand is read, and must agree with 
              "known already"));
   CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.6, "standard_deviation": 0.1}})"),
              "contradicts the bounds"));
-  CHECK(
-      says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0}})"), "above 0"));
+  CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0}})"),
+             "a number from 4e-07 to 400000"));
   CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3}})"), "is missing"));
+}
+
+TEST_CASE("a prior or bounds that would leave residuals without digits are refused with their range") {
+  const Desk desk;
+  const auto refused = [&](const char* name, const char* content, const char* key, const char* what) {
+    json document = Desk::study();
+    document["parameters"][name] = json::parse(content);
+    const Faults faults = desk.faults(document);
+    INFO(content << "\n" << message_of(faults));
+    REQUIRE(faults.size() == 1);
+    CHECK(says(at(faults, "parameters." + std::string(name) + "." + key), what));
+  };
+  const char* prior = "prior.standard_deviation";
+  const auto strength = [](const std::string& deviation) {
+    return R"({"free": [100, 10000], "scale": "log", "prior": {"value": 1000, "standard_deviation": )" + deviation +
+           "}}";
+  };
+  for (const char* deviation : {"1e-152", "1e-153", "5e-324", "1e-4", "1e12", "-1"})
+    refused("strength_pa", strength(deviation).c_str(), prior, "a number from 0.00460517 to 4.60517e+09");
+  refused("friction", R"({"free": [1e-320, 1], "scale": "log"})", "free", "at least 1e-12");
+  refused("friction", R"({"free": [0.3, 0.30000000000000004]})", "free", "the same within a millionth");
+  refused("youngs_modulus_pa", R"({"free": [1e6, 1.0000001e6]})", "free", "the same within a millionth");
 }
 
 TEST_CASE("the inputs of a study change with what decides the search, not with its budget or title") {
