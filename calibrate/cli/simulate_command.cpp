@@ -26,6 +26,7 @@
 #include "calibrate/store/outcome_json.h"
 #include "core/observe/outline.h"
 #include "core/step/journal.h"
+#include "core/step/state.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -203,6 +204,7 @@ class SavedRun {
   /// All sessions together.
   double wall_s() const { return found_.wall_s + std::chrono::duration<double>(Clock::now() - start_).count(); }
   void remove() const { file_.remove(); }
+  const Checkpoint& file() const { return file_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -218,6 +220,20 @@ class SavedRun {
   Clock::time_point start_ = Clock::now(), next_ = start_ + kBetweenCheckpoints;
   Faults unwritten_;
 };
+
+/// The outcome of a run, which may go on from a checkpoint. Errors: what that holds is no state of this run, though it
+/// is what was written: it was made by hand.
+Result<Outcome> outcome_of(const Scene& test, const RunOptions& run, const std::optional<SavedRun>& saved) {
+  const auto simulate_it = [&] { return std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test); };
+  if (!saved) return simulate_it();
+  try {
+    Outcome outcome = simulate_it();
+    if (run.journal->is_told()) return outcome;
+    return saved->file().no_state_of_this_run("it holds more than this run has");
+  } catch (const BadState& bad) {
+    return saved->file().no_state_of_this_run(bad.what());
+  }
+}
 
 int simulate_file(const SimulateOptions& options) {
   auto found = read_scene(options.file, options.settings, options.test);
@@ -249,7 +265,11 @@ int simulate_file(const SimulateOptions& options) {
     saved.emplace(std::move(file), std::move(state).value(), stop);
     if (saved->goes_on())
       note("pastefit: goes on from %s, after %.0f s\n", options.checkpoint.c_str(), saved->wall_s());
-    run.journal = saved->journal();
+    try {
+      run.journal = saved->journal();
+    } catch (const BadState& bad) {
+      return report(saved->file().no_state_of_this_run(bad.what()));
+    }
   }
 
   std::optional<OutputFolder> folder;
@@ -282,8 +302,10 @@ int simulate_file(const SimulateOptions& options) {
     return !stop && (!saved || saved->unwritten().empty());
   };
   const auto start = std::chrono::steady_clock::now();
-  const auto outcome = std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test);
+  const auto ended = outcome_of(test, run, saved);
   sign.reset();
+  if (!ended.ok()) return report(ended.faults());
+  const Outcome& outcome = ended.value();
   const double wall_s =
       saved ? saved->wall_s() : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!unwritten.empty()) return report(unwritten, kFailed);

@@ -1,7 +1,7 @@
 #include "calibrate/store/checkpoint.h"
 
 #include <cerrno>
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -42,6 +42,8 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
+constexpr double kLongest_s = 1e9;  // of a run, thirty years
+
 const char* const kAnew = "delete it to start anew, or name another file";
 
 }  // namespace
@@ -77,7 +79,11 @@ Result<RunState> Checkpoint::read() const {
   const std::string wall(next_line(left)), hash(next_line(left));
   if (content_hash(wall + "\n" + std::string(left)) != hash || left.empty())
     return fault("is damaged: its state is not what was written", kAnew);
-  return RunState{std::string(left), std::strtod(wall.c_str(), nullptr)};
+  double wall_s = 0;
+  const auto [end, problem] = std::from_chars(wall.data(), wall.data() + wall.size(), wall_s);
+  if (problem != std::errc() || end != wall.data() + wall.size() || !(wall_s >= 0 && wall_s <= kLongest_s))
+    return fault("is damaged: the time it has taken is no number of seconds", kAnew);
+  return RunState{std::string(left), wall_s};
 }
 
 Faults Checkpoint::write(const RunState& state) const {
@@ -85,6 +91,10 @@ Faults Checkpoint::write(const RunState& state) const {
   const auto end = body.find('\n') + 1;
   return write_atomically(file_, kFormat + "\n" + program_identity() + "\n" + run_ + "\n" + body.substr(0, end) +
                                      content_hash(body) + "\n" + state.bytes);
+}
+
+Faults Checkpoint::no_state_of_this_run(std::string_view why) const {
+  return {{file_.string(), "is damaged: " + std::string(why), kAnew}};
 }
 
 void Checkpoint::remove() const {

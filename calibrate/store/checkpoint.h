@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "calibrate/laboratory/test.h"
 #include "core/result.h"
@@ -27,6 +28,9 @@ class Checkpoint {
 
   /// Replaces the file, whole or not at all. Errors: it cannot be written.
   Faults write(const RunState& state) const;
+
+  /// The fault of a state that the run which went on from it found not to be its own, for this reason (`BadState`).
+  Faults no_state_of_this_run(std::string_view why) const;
 
   /// The run is over.
   void remove() const;

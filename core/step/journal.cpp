@@ -11,6 +11,8 @@ Journal::Journal(std::function<bool()> due, std::function<void(const std::string
   if (state.empty()) return;
   StateReader reader(state);
   reader(ended_, interrupted_.emplace());
+  reader.end();
+  demand(!interrupted_->hidden.empty(), "the wait that was under way left nothing");
 }
 
 const Journal::Wait* Journal::next_ended() {

@@ -28,8 +28,12 @@ class Journal {
   };
 
   /// `due`: whether a state is asked for, every `kStepsPerPulse` steps; `keep`: takes it. `state`: what `keep` was last
-  /// given by the run that is to go on; empty for one that starts.
+  /// given by the run that is to go on; empty for one that starts. Errors: throws `BadState` (core/step/state.h) where
+  /// it is no state at all; the run that goes on does so where it is not one of this run.
   Journal(std::function<bool()> due, std::function<void(const std::string& state)> keep, std::string_view state = {});
+
+  /// Whether all of the state was told: otherwise it was not one of the run that is over.
+  bool is_told() const { return !interrupted_; }
 
   // For the runner.
 

@@ -26,6 +26,12 @@ struct Ledger {
   double work_of_walls = 0;    ///< on the grains
   double effort_of_walls = 0;  ///< the same without sign
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(kinetic, stored, height, start, start_height, start_kinetic, start_elastic, earlier_error, earlier_put_in);
+    archive(heat_normal, heat_sliding, heat_rolling, heat_bridges, heat_drag, heat_sleep, work_of_walls,
+            effort_of_walls);
+  }
   double mechanical() const { return kinetic + stored + height; }
   double heat() const { return heat_normal + heat_sliding + heat_rolling + heat_bridges + heat_drag + heat_sleep; }
   double error() const { return mechanical() + heat() - start - work_of_walls + earlier_error; }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/step/state.h"
+#include "core/step/state_check.h"
+
 namespace pastefit {
 
 namespace {
@@ -43,6 +46,23 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   select_at_walls(walls_due || relisted);
   std::fill(strayed_.begin(), strayed_.end(), false);
   return deepest;
+}
+
+void Lists::check_state() const {
+  check_pairs(world_, valid_);
+  demand(wall_leeway_ >= 0 && wall_way_ >= 0 && rounding_ >= 0, "a leeway is below nothing");
+  if (!valid_) return;  // the rest is made anew
+  const auto grains = static_cast<std::size_t>(world_.particles.count());
+  demand(leeway_.rooms.size() == grains && leeway_.own.size() == grains && listed_.size() == grains &&
+             strayed_.size() == world_.pairs.blocks.size(),
+         "the lists are of another number of grains");
+  const auto finite = [](const float(&place)[3]) {
+    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+  };
+  for (const Room& room : leeway_.rooms)
+    demand(finite(room.from) && room.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
+  for (const Listed& listed : listed_) demand(finite(listed.at), "a place is not finite");
+  for (const char strayed : strayed_) demand(strayed == 0 || strayed == 1, "a yes or no is neither");
 }
 
 /// Prepares to choose from the candidates as they are; false if that would not do.

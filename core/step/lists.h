@@ -32,6 +32,12 @@ class Lists {
     archive(leeway_.rooms, leeway_.own, rounding_, listed_, strayed_, valid_, wall_leeway_, wall_way_);
   }
 
+  /// Throws `BadState` unless what was read is of the world as it is.
+  void check_state() const;
+
+  /// Whether the lists are those of the world as it is, and not to be made anew before the next step.
+  bool hold() const { return valid_; }
+
   /// A grain of the block is not in its room any more.
   void note_strayed(std::size_t block) { strayed_[block] = true; }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/step/state_check.h"
+
 namespace pastefit {
 
 namespace {
@@ -47,10 +49,31 @@ Journal::Wait Runner::state() {
 }
 
 void Runner::recall(const Journal::Wait& left) {
+  const Fixtures fixtures(world_);
   StateReader visible(left.seen), rest(left.hidden);
   seen(visible);
   if (read_own_) read_own_(visible);
-  if (!left.hidden.empty()) hidden(rest);
+  visible.end();
+  fixtures.check(world_);
+  demand(world_.time >= 0 && world_.step >= 0, "its clock is before the beginning");
+  is_whole_ = !left.hidden.empty();
+  if (!is_whole_) return;
+  hidden(rest);
+  rest.end();
+  stepper_.check_state();
+  demand(summary_.steps >= 0 && summary_.steps <= options_.step_limit && asleep_steps_ >= 0 &&
+             summary_.particle_steps >= asleep_steps_,
+         "its steps are not those of this run");
+}
+
+/// A wait that goes on is as far as one of this length can be.
+void Runner::check_progress(double longest_s, double cap_s) const {
+  const double rounding = 1e-9 * (world_.time + longest_s);
+  demand(progress_.end <= world_.time + longest_s + rounding && progress_.cap == cap_s && progress_.waited >= 0 &&
+             progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= options_.rest.windows,
+         "the wait that was under way is another one");
+  demand(cap_s == 0 || progress_.before.size() == posture_(world_.particles).size(),
+         "the posture that was seen is of another specimen");
 }
 
 template <class Body>
@@ -64,6 +87,7 @@ std::optional<Failure> Runner::journaled(const Body& wait) {
   }
   const auto interrupted = journal->take_interrupted();
   if (interrupted) recall(*interrupted);
+  demand(is_whole_, "a wait that the run goes on from left too little");
   if (auto problem = wait(interrupted.has_value())) return problem;
   last_ended_ = journal->add(state(), last_ended_);
   return {};
@@ -84,6 +108,7 @@ PhaseLeft Runner::left(const Phase& phase) const {
 }
 
 std::optional<Failure> Runner::tell(const Phase& phase) {
+  if (stepper_.has_failed()) return {};  // the next step says so; no run can go on from here
   if (options_.journal && world_.step % kStepsPerPulse == 0 && options_.journal->due()) options_.journal->keep(state());
   if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
       !options_.pulse({phase.name, world_.time, world_.step, &world_, 0, left(phase)}))
@@ -108,7 +133,10 @@ std::optional<Failure> Runner::show(std::string_view phase) {
 
 std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {
   return journaled([&](bool midway) {
-    if (!midway) progress_ = {.end = world_.time + duration_s};
+    if (midway)
+      check_progress(duration_s, 0);
+    else
+      progress_ = {.end = world_.time + duration_s};
     return advance(phase);
   });
 }
@@ -174,7 +202,10 @@ Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway
   const double radius = world_.reference_radius;
   const double slow = criterion.speed_over_fall * std::sqrt(kGravity * radius);
   Wait wait;
-  if (!midway) progress_ = {.before = posture_(world_.particles), .cap = cap_s};
+  if (midway)
+    check_progress(criterion.window_s, cap_s);
+  else
+    progress_ = {.before = posture_(world_.particles), .cap = cap_s};
   for (bool begun = midway; progress_.waited < cap_s; progress_.waited += criterion.window_s, begun = false) {
     if (!begun) progress_.end = world_.time + criterion.window_s;
     wait.failure = advance(phase);

@@ -48,11 +48,15 @@ class Runner {
   std::optional<Failure> show(std::string_view phase);
 
   /// What the caller changes while a wait of this runner is under way: part of the state of a run that may be
-  /// interrupted (`Journal`). To be called before the first wait, once; the parts have to outlive it.
+  /// interrupted (`Journal`). To be called before the first wait, once; the parts have to outlive it. `sound`: whether
+  /// they can be those of this test, when they were read.
   template <class... Parts>
-  void remember(Parts&... parts) {
+  void remember(std::function<bool()> sound, Parts&... parts) {
     write_own_ = [&parts...](StateWriter& state) { state(parts...); };
-    read_own_ = [&parts...](StateReader& state) { state(parts...); };
+    read_own_ = [&parts..., sound = std::move(sound)](StateReader& state) {
+      state(parts...);
+      demand(sound(), "what the test has summed up is not of this test");
+    };
   }
 
   /// Takes the last wall away, with what sticks to it let go.
@@ -91,6 +95,7 @@ class Runner {
   std::optional<Failure> journaled(const Body& wait);
   Journal::Wait state();
   void recall(const Journal::Wait& left);
+  void check_progress(double longest_s, double cap_s) const;
   /// What a rig sees of the world, and changes of it.
   template <class Archive>
   void seen(Archive& archive) {
@@ -102,7 +107,8 @@ class Runner {
   }
   template <class Archive>
   void hidden(Archive& archive) {
-    archive(world_.pairs, stepper_, summary_, asleep_steps_, progress_, next_watch_);
+    archive(world_.pairs, stepper_, summary_.steps, summary_.particle_steps, summary_.settled, summary_.ended_early,
+            asleep_steps_, progress_, next_watch_);
   }
 
   /// Steps until `progress_.end`, or the phase is done.
@@ -126,6 +132,7 @@ class Runner {
   std::int64_t asleep_steps_ = 0;  ///< of a grain
   Progress progress_;
   std::optional<std::size_t> last_ended_;  ///< wait in the journal
+  bool is_whole_ = true;                   ///< all of what was recalled last is there, and the run can go on from it
   std::function<void(StateWriter&)> write_own_;
   std::function<void(StateReader&)> read_own_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/step/state.h"
+
 namespace pastefit {
 
 namespace {
@@ -48,6 +50,26 @@ void Sleepers::take_place(const World& world) {
   woken_.assign(blocks, false);
   asleep_.assign(blocks, 0);
   if (heat_.size() < blocks) heat_.resize(blocks);
+}
+
+void Sleepers::check_state(const World& world, bool listed) const {
+  const std::size_t blocks = world.pairs.blocks.size(), grains = world.particles.identity.size();
+  const auto counts = [](std::uint8_t calm) { return calm <= kLooks || calm == kAsleep; };
+  demand(calm_.size() <= grains && std::ranges::all_of(calm_, counts), "a grain is calm for longer than it can be");
+  if (!listed) return;  // the rest is made anew
+  demand(calm_.size() == grains && held_[0].size() == world.particles.load.size() &&
+             held_[1].size() == held_[0].size() && energy_.size() >= blocks && chosen_.size() == blocks &&
+             woken_.size() == blocks && asleep_.size() == blocks && heat_.size() >= blocks,
+         "the sleepers are of another number of grains");
+  for (const std::vector<Load>& held : held_)
+    for (const Load& load : held)
+      demand(std::isfinite(load.force[0] + load.force[1] + load.force[2]) &&
+                 std::isfinite(load.torque[0] + load.torque[1] + load.torque[2]) &&
+                 std::isfinite(load.damping + load.stiffness),
+             "what a sleeper holds is not finite");
+  for (const EnergySums& energy : energy_) demand(energy.is_finite(), "an energy is not finite");
+  for (std::size_t b = 0; b < blocks; ++b)
+    demand(asleep_[b] >= 0 && static_cast<std::size_t>(asleep_[b]) <= grains, "more grains sleep than there are");
 }
 
 void Sleepers::fall_asleep(World& world, std::size_t block) {

@@ -43,6 +43,9 @@ class Sleepers {
     archive(calm_, held_[0], held_[1], energy_, chosen_, woken_, asleep_, heat_);
   }
 
+  /// Throws `BadState` unless what was read is of this world; `listed`: its blocks are those of the world as it is.
+  void check_state(const World& world, bool listed) const;
+
   bool is_asleep(std::int32_t identity) const { return calm_[identity] == kAsleep; }
   /// Of all blocks in the last step.
   std::int64_t count() const;

@@ -1,16 +1,32 @@
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace pastefit {
 
 // A state as bytes, for the same program on the same kind of machine. What belongs to it is said once for both ways, by
 // a member `serialize(archive)`, which calls `archive(member, member, ...)`; numbers and plain structs are taken as
 // they lie in memory, vectors with their length.
+//
+// A state comes from a file, which may be anybody's. What is read is therefore checked: here lengths, and that numbers
+// are finite; in core/step/state_check.h what else the step relies on.
+
+/// Bytes that are no state of the run that reads them. What it has read by then is of no use.
+class BadState : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws `BadState` with this reason unless it holds.
+inline void demand(bool holds, const char* otherwise) {
+  if (!holds) throw BadState(otherwise);
+}
 
 /// Writes a state.
 class StateWriter {
@@ -43,7 +59,8 @@ class StateWriter {
   std::string bytes_;
 };
 
-/// Reads it back into the same things in the same order. Requirement: what `StateWriter` wrote of them.
+/// Reads it back into the same things in the same order.
+/// Errors: throws `BadState` for bytes that are too few, too many, or numbers that are not finite.
 class StateReader {
  public:
   explicit StateReader(std::string_view bytes) : left_(bytes) {}
@@ -51,6 +68,8 @@ class StateReader {
   void operator()(Parts&... parts) {
     (take(parts), ...);
   }
+  /// To be called after the last part.
+  void end() const { demand(left_.empty(), "it holds more than this run has"); }
 
  private:
   template <class Part>
@@ -60,21 +79,35 @@ class StateReader {
     } else if constexpr (requires { part.resize(0); }) {
       auto size = part.size();
       take(size);
-      if (size > left_.size()) throw std::logic_error("a state is not that of this run");
-      part.resize(size);
-      if constexpr (std::is_trivially_copyable_v<typename Part::value_type>)
-        take_bytes(part.data(), size * sizeof(typename Part::value_type));
-      else
-        for (auto& element : part) take(element);
+      if constexpr (std::is_trivially_copyable_v<typename Part::value_type>) {
+        constexpr std::size_t each = sizeof(typename Part::value_type);
+        demand(size <= left_.size() / each, kTooShort);
+        part.resize(size);
+        take_bytes(part.data(), size * each);
+      } else {
+        part.clear();  // and grows as it is read: the length is not believed
+        for (; size > 0; --size) take(part.emplace_back());
+      }
+      if constexpr (std::is_floating_point_v<typename Part::value_type>)
+        for (const auto value : part) demand(std::isfinite(value), kNotFinite);
+    } else if constexpr (std::is_same_v<Part, bool>) {
+      char byte = 0;
+      take_bytes(&byte, 1);
+      demand(byte == 0 || byte == 1, "a yes or no is neither");
+      part = byte == 1;
     } else {
       take_bytes(&part, sizeof part);
+      if constexpr (std::is_floating_point_v<Part>) demand(std::isfinite(part), kNotFinite);
     }
   }
   void take_bytes(void* to, std::size_t size) {
-    if (size > left_.size()) throw std::logic_error("a state is not that of this run");
+    demand(size <= left_.size(), kTooShort);
     if (size > 0) std::memcpy(to, left_.data(), size);
     left_.remove_prefix(size);
   }
+
+  static constexpr const char* kTooShort = "it holds less than this run has";
+  static constexpr const char* kNotFinite = "a number is not finite";
 
   std::string_view left_;
 };

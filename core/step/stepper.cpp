@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "core/step/state.h"
 #include "core/world/nearest.h"
 
 namespace pastefit {
@@ -115,6 +116,21 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
   ++world_.step;
   dt_ = dt;
   return {};
+}
+
+void Stepper::check_state() const {
+  lists_.check_state();
+  if (sleepers_) sleepers_->check_state(world_, lists_.hold());
+  demand(dt_ >= 0 && fastest_ >= 0 && fastest_ <= kRunawaySpeed && stiffest_ >= 0 && time_step_.is_sound(),
+         "a time step, a speed or a stiffness is below nothing, or beyond any");
+  demand(pierced_ == -1 && runaway_ == -1, "the run has failed");
+  for (const EnergySums& energy : energy_) demand(energy.is_finite(), "an energy is not finite");
+  double smallest_radius = 1e300, smallest_mass = 1e300;
+  for (std::int32_t i = 0; i < world_.particles.count(); ++i) {
+    smallest_radius = std::min(smallest_radius, world_.particles.motion[i].radius);
+    smallest_mass = std::min(smallest_mass, world_.particles.mass(i));
+  }
+  demand(smallest_radius == smallest_radius_ && smallest_mass == smallest_mass_, "its smallest grain is another one");
 }
 
 std::optional<Failure> Stepper::maintain_lists() {

@@ -35,6 +35,8 @@ class Stepper {
   /// Takes the last wall away, and with it what its contacts and bridges hold: the work of whoever removes it.
   void take_away_last_wall();
 
+  /// Whether the next step will fail for what this one did.
+  bool has_failed() const { return runaway_ >= 0; }
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
@@ -50,6 +52,8 @@ class Stepper {
     archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, smallest_radius_, smallest_mass_, time_step_, energy_,
             ledger_, looked_);
   }
+  /// Throws `BadState` unless what was read is of the world as it is.
+  void check_state() const;
   /// Grains asleep in the last step.
   std::int64_t sleeping() const { return sleepers_ ? sleepers_->count() : 0; }
 

@@ -52,6 +52,11 @@ double advised_step(const World& world, const Pace& pace, const StepOptions& opt
                    bridge_limit(world, pace) / options.bridge_resolution});
 }
 
+bool TimeStep::is_sound() const {
+  return step_ >= 0 && lowest_ > 0 && lowest_before_ > 0 && first_ >= 0 && smallest_ > 0 && in_window_ >= 0 &&
+         in_window_ < kWindow;
+}
+
 double TimeStep::next(double advised) {
   if (first_ == 0) first_ = advised;
   smallest_ = std::min(smallest_, advised);

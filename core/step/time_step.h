@@ -30,6 +30,12 @@ class TimeStep {
  public:
   /// Takes the advice for the next step [s] and returns the step [s].
   double next(double advised);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step_, lowest_, lowest_before_, in_window_, first_, smallest_);
+  }
+  /// Whether it can have come about by `next`.
+  bool is_sound() const;
   double first() const { return first_; }
   double smallest() const { return smallest_; }  ///< of all the advice so far
 

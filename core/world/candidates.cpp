@@ -11,6 +11,11 @@ void Candidates::clear() {
   pairs_.clear();
 }
 
+bool Candidates::is_of(std::int32_t grains) const {
+  if (std::ssize(ends_) != grains || !std::ranges::is_sorted(ends_)) return false;
+  return ends_.empty() ? pairs_.empty() : ends_.front() >= 0 && ends_.back() == std::ssize(pairs_);
+}
+
 Vicinity::Vicinity(const Particles& particles, const Domain& domain, double farthest, double skin)
     : domain_(domain), gap_(2 * farthest) {
   constexpr double kRounding = 1e-6;  // several times that of differences and squares in single precision

@@ -52,6 +52,8 @@ class Candidates {
   void serialize(Archive& archive) {
     archive(ends_, pairs_);
   }
+  /// Whether they are of so many grains, as far as the lengths say.
+  bool is_of(std::int32_t grains) const;
 
  private:
   static constexpr std::size_t kAhead = 12;

@@ -5,6 +5,7 @@
 #include "core/rigs/pellet_crush/die.h"
 #include "core/rigs/pellet_crush/pellet_crush.h"
 #include "core/step/runner.h"
+#include "core/step/state_check.h"
 
 namespace pastefit {
 
@@ -25,7 +26,7 @@ class Pressing {
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
       : test_(test), options_(options), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
     runner_.follow(filled.fall);
-    runner_.remember(sum_, summed_, curve_);
+    runner_.remember([this] { return summed_ >= 0 && is_finite(curve_); }, sum_, summed_, curve_);
   }
 
   std::optional<Failure> run() {

@@ -7,6 +7,7 @@
 #include "core/rigs/granules.h"
 #include "core/rigs/servo.h"
 #include "core/rigs/shear_cell/shear_cell.h"
+#include "core/step/state_check.h"
 
 namespace pastefit {
 
@@ -71,7 +72,8 @@ class Shearing {
     runner_.follow(filled.fall);
     double mass = 0;
     for (std::int32_t i = 0; i < world_.particles.count(); ++i) mass += world_.particles.mass(i);
-    runner_.remember(stress_sum_, height_sum_, summed_, curve_, heights_);
+    runner_.remember([this] { return curve_.size() == heights_.size() && summed_ >= 0 && is_finite(curve_); },
+                     stress_sum_, height_sum_, summed_, curve_, heights_);
     servo_ = {-test.normal_stress_pa * area_m2(test), mass, test.lid_speed_m_s};
   }
 

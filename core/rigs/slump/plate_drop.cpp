@@ -21,7 +21,7 @@ class Drop {
   Drop(const SlumpTest& test, World world, const Ledger& before, const RunOptions& options)
       : test_(test), world_(std::move(world)), runner_(world_, options, posture_of_heap), table_(world_.walls[kTable]) {
     runner_.follow(before);
-    runner_.remember(stopped_);
+    runner_.remember([] { return true; }, stopped_);
   }
 
   std::optional<Failure> run() {

@@ -4,7 +4,9 @@ usage: test_checkpoint.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
+import math
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -85,6 +87,40 @@ class Checkpoint(Desk):
         self.file.write_text("my notes")
         self.fails(run(*self.simulate("--checkpoint", self.file)), 2, "is no checkpoint", "name another file")
         self.assertEqual(self.file.read_text(), "my notes")
+
+    def forged(self, good, state=None, wall=None):
+        """The checkpoint with another state, or another time taken, and the right hash of them."""
+        lines = good.split(b"\n", 5)
+        wall, state = wall if wall is not None else lines[3], state if state is not None else lines[5]
+        hashed = 0xCBF29CE484222325
+        for byte in wall + b"\n" + state:
+            hashed = (hashed ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+        return b"\n".join([*lines[:3], wall, b"%016x" % hashed, state])
+
+    def test_a_forged_checkpoint_is_refused_whatever_was_forged_although_its_hash_is_right(self):
+        self.fails(self.stopped_midway(), 1)
+        good = self.file.read_bytes()
+        state = good.split(b"\n", 5)[5]
+        self.assertEqual(self.forged(good), good)
+        forgeries = {f"time {wall}": self.forged(good, wall=wall.encode())
+                     for wall in ("nan", "inf", "-1", "1e300", "", "12 s", "0x10")}
+        forgeries |= {"cut": self.forged(good, state[:-8]), "longer": self.forged(good, state + bytes(8)),
+                      "half": self.forged(good, state[:len(state) // 2]), "one byte": self.forged(good, b"x"),
+                      "nothing": self.forged(good, bytes(len(state)))}
+        for waits in (0, 1000, 2**40, 2**64 - 1):  # their number stands first
+            forgeries[f"{waits} waits"] = self.forged(good, struct.pack("<Q", waits) + state[8:])
+        for name, number in (("nan", math.nan), ("inf", math.inf), ("huge", 1e300)):
+            for share in (0.3, 0.5, 0.7):  # several words, so that grains, lists and sums are among them
+                words = bytearray(state)
+                begin = int(share * len(words)) // 8 * 8
+                words[begin:begin + 512] = struct.pack("<d", number) * 64
+                forgeries[f"{name} at {share}"] = self.forged(good, bytes(words))
+        self.assertGreaterEqual(len(forgeries), 24)
+        for name, content in forgeries.items():
+            with self.subTest(name):
+                self.file.write_bytes(content)
+                self.fails(run(*self.simulate("--checkpoint", self.file)), 2, "run.checkpoint", "is damaged", "start anew")
+                self.assertEqual(self.file.read_bytes(), content)
 
     def test_what_has_no_checkpoint_says_so(self):
         drop = self.folder / "drop.json"
