@@ -175,6 +175,22 @@ bool CheckedReading::agrees() const {
   return std::abs(got - expected) <= band;
 }
 
+int simulations_to_check(const Card& card, const CheckOptions& options) {
+  std::size_t count = 0;
+  for (const auto& test : card.tests) {
+    auto packings = packings_of(card, test);
+    if (options.quick) keep_quick(packings);
+    count += packings.size();
+  }
+  return static_cast<int>(count);
+}
+
+int simulations_to_check_against(const Card& card, const CheckOptions& options) {
+  auto packings = packings_of(card);
+  if (options.quick) keep_quick(packings);
+  return static_cast<int>(std::max<std::size_t>(packings.size(), kQuickPackings));
+}
+
 CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
   CardCheck out;
   out.card = card.title;

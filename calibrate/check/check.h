@@ -64,6 +64,10 @@ struct CardCheck {
   int simulations = 0;
 };
 
+/// How many simulations a check of the card takes, and one against a laboratory's readings.
+int simulations_to_check(const Card& card, const CheckOptions& options);
+int simulations_to_check_against(const Card& card, const CheckOptions& options);
+
 /// Simulates again what the card promises.
 ///
 /// First the contact law: the attraction of two grains that are pulled apart, against the card's formula at several

@@ -14,6 +14,7 @@
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/work_line.h"
 
 namespace pastefit {
 
@@ -38,13 +39,21 @@ int rebaseline_all(const CheckCommand& options) {
       cards.push_back(std::move(card).value());
     else
       faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+    for (Fault& fault : output_file_faults("--rebaseline", file, true))
+      if (card.ok()) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) return report(faults);
+  int simulations = 0;
+  for (const auto& card : cards)
+    simulations += std::max(simulations_to_check(card, {}), options.packings * static_cast<int>(card.tests.size()));
+  WorkLine line("simulations", simulations);
+  const CheckEngine engine = counted(CheckEngine::ours(), line);
   for (auto& card : cards) {
-    auto changed = rebaselined(std::move(card), options.why, options.packings, options.check);
+    auto changed = rebaselined(std::move(card), options.why, options.packings, options.check, engine);
     if (!changed.ok()) return report(changed.faults(), kFailed);
     card = std::move(changed).value();
   }
+  line.clear();
   for (std::size_t i = 0; i < cards.size(); ++i) {
     if (const auto unwritten = write_atomically(options.cards[i], json_text(to_json(cards[i]))); !unwritten.empty())
       return report(unwritten, kFailed);
@@ -75,16 +84,28 @@ int check_all(const CheckCommand& options) {
     if (!read.ok()) return report(read.faults());
     lab = std::move(read).value();
   }
-  std::vector<CheckedFile> checked;
+  std::vector<Result<Card>> cards;
+  int simulations = 0;
   for (const auto& file : options.cards) {
-    CheckedFile one{file, {}};
-    const auto card = read_card(file);
+    cards.push_back(read_card(file));
+    if (!cards.back().ok()) continue;
+    const Card& card = cards.back().value();
+    simulations += lab ? simulations_to_check_against(card, options.check) : simulations_to_check(card, options.check);
+  }
+  WorkLine line("simulations", simulations);
+  const CheckEngine engine = counted(CheckEngine::ours(), line);
+  std::vector<CheckedFile> checked;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    CheckedFile one{options.cards[i], {}};
+    const Result<Card>& card = cards[i];
     if (!card.ok()) {
       one.check.card = "unreadable card";
       one.check.reason = message_of(card.faults());
     } else {
-      one.check = lab ? check_against(card.value(), *lab, options.check) : check(card.value(), options.check);
+      one.check =
+          lab ? check_against(card.value(), *lab, options.check, engine) : check(card.value(), options.check, engine);
     }
+    line.clear();
     if (!options.json && !is_standard_output(options.junit)) print("%s", text_of(one).c_str());
     checked.push_back(std::move(one));
   }

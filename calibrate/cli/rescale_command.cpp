@@ -11,6 +11,7 @@
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/work_line.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/search/memory.h"
 
@@ -45,7 +46,9 @@ int rescale(const RescaleOptions& options) {
       if (const auto faults = validate_memory(test.test, options.check.threads); !faults.empty()) return report(faults);
     note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
          options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
-    result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check);
+    WorkLine line("simulations", 2 * options.packings * static_cast<int>(card.value().tests.size()));
+    result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check,
+                                counted(CheckEngine::ours(), line));
     if (!result.ok()) return report(result.faults(), kFailed);
   }
   const std::string card_text = json_text(to_json(result.value()));

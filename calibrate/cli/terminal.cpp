@@ -13,10 +13,14 @@ namespace pastefit {
 
 namespace {
 
+constexpr double kLongestToldDays = 999;
+
 std::string time_in_words(double seconds) {
   if (seconds < 99.5) return format("%.0f s", seconds);
   if (seconds < 99.5 * 60) return format("%.0f min", seconds / 60);
-  return format("%.0f h", seconds / 3600);
+  if (seconds < 99.5 * 3600) return format("%.0f h", seconds / 3600);
+  if (seconds < kLongestToldDays * 86400) return format("%.0f days", seconds / 86400);
+  return "years";
 }
 
 }  // namespace
@@ -44,6 +48,7 @@ std::string range_of_time(double least_s, double most_s) {
   std::string least = time_in_words(least_s);
   const std::string most = time_in_words(most_s);
   if (least == most) return least;
+  if (most == "years") return least + " or more";
   const auto unit = [](const std::string& words) { return words.substr(words.find(' ')); };
   return (unit(least) == unit(most) ? least.substr(0, least.find(' ')) : least) + " to " + most;
 }

@@ -8,6 +8,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/work_line.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {
@@ -97,18 +98,27 @@ int verify_cases(const VerifyOptions& options) {
 
   Faults faults;
   std::vector<VerifiedCase> cases;
+  std::vector<fs::path> readable;
+  std::size_t points = 0;
   for (const fs::path& file : files) {
     auto test = read_case(file);
     if (!test.ok()) {
       faults.insert(faults.end(), test.faults().begin(), test.faults().end());
       continue;
     }
-    auto rows = verify(test.value());
-    if (rows.ok())
-      cases.push_back({std::move(test).value(), std::move(rows).value()});
-    else
-      for (Fault& fault : in_file(rows.faults(), file)) faults.push_back(std::move(fault));
+    points += test.value().points.size();
+    readable.push_back(file);
+    cases.push_back({std::move(test).value(), {}});
   }
+  WorkLine line("points", static_cast<int>(points));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    auto rows = verify(cases[i].test, [&] { line.one_done(); });
+    if (rows.ok())
+      cases[i].rows = std::move(rows).value();
+    else
+      for (Fault& fault : in_file(rows.faults(), readable[i])) faults.push_back(std::move(fault));
+  }
+  line.clear();
   if (!faults.empty()) return report(faults);
 
   std::size_t checks = 0, failed = 0, known = 0;

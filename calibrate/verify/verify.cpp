@@ -99,7 +99,7 @@ std::string_view name_of(CaseVerdict verdict) {
   return verdict == CaseVerdict::pass ? "pass" : verdict == CaseVerdict::known ? "known" : "FAIL";
 }
 
-Result<std::vector<CheckRow>> verify(const Case& test) {
+Result<std::vector<CheckRow>> verify(const Case& test, const std::function<void()>& point_done) {
   std::vector<CheckRow> rows;
   Faults faults;
   for (const Point& point : test.points) {
@@ -118,6 +118,7 @@ Result<std::vector<CheckRow>> verify(const Case& test) {
         faults.insert(faults.end(), row.faults().begin(), row.faults().end());
       }
     }
+    if (point_done) point_done();
   }
   if (!faults.empty()) return faults;
   return rows;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ struct CheckRow {
 };
 
 /// Runs every point of a case. Rows: for each point, for each check.
+/// `point_done` is called after each point.
 /// Errors: faults of the scene, and formulas that do not hold for it; nothing is then reported.
-Result<std::vector<CheckRow>> verify(const Case& test);
+Result<std::vector<CheckRow>> verify(const Case& test, const std::function<void()>& point_done = {});
 
 /// For each check of the case the row with the largest error over its tolerance.
 std::vector<CheckRow> worst_rows(const std::vector<CheckRow>& rows);
