@@ -15,17 +15,23 @@ namespace {
 constexpr double kFarthest = 1e3;  // [m]; of a grain or a wall from the middle of the table
 constexpr double kFastestWall = kRunawaySpeed;
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// No number of a state is larger, in whatever unit; written so that one that is no number is not possible either.
+bool is_possible(double value) {
+  constexpr double kLargest = 1e15;
+  return std::fabs(value) <= kLargest;
+}
+
+bool is_possible(const Vec3& v) {
+  return is_possible(v.x) && is_possible(v.y) && is_possible(v.z);
 }
 
 void demand_within(const Vec3& v, double most, const char* otherwise) {
-  demand(is_finite(v) && norm(v) <= most, otherwise);
+  demand(is_possible(v) && norm(v) <= most, otherwise);
 }
 
 template <std::size_t N>
-bool all_finite(const float (&values)[N]) {
-  return std::all_of(values, values + N, [](float value) { return std::isfinite(value); });
+bool all_possible(const float (&values)[N]) {
+  return std::all_of(values, values + N, [](float value) { return is_possible(value); });
 }
 
 /// The kind of a shape, and its lengths.
@@ -83,7 +89,7 @@ void check_memory(const ContactList& list, std::int32_t k) {
   const Contact contact = list.contact(k);
   const float numbers[] = {contact.root_radius, contact.root_mass,           contact.damper,
                            contact.drag,        contact.root_contact_radius, contact.bridge};
-  demand(all_finite(numbers) && all_finite(contact.slip) && all_finite(contact.roll), "a contact is not finite");
+  demand(all_possible(numbers) && all_possible(contact.slip) && all_possible(contact.roll), "a contact is not finite");
 }
 
 void check_candidates(const Block& block, const Ends& ends) {
@@ -146,13 +152,13 @@ void Fixtures::check(const World& world) const {
   }
   for (std::size_t i = 0; i < all; ++i) {
     const Motion& motion = particles.motion[i];
-    demand(is_finite(motion.position) && all_finite(motion.velocity) && all_finite(motion.spin) &&
-               std::isfinite(motion.damping_rate) && is_finite(particles.velocity[i].linear) &&
-               is_finite(particles.velocity[i].angular),
+    demand(is_possible(motion.position) && all_possible(motion.velocity) && all_possible(motion.spin) &&
+               is_possible(motion.damping_rate) && is_possible(particles.velocity[i].linear) &&
+               is_possible(particles.velocity[i].angular),
            "the motion of a grain is not finite");
     const Load& load = particles.load[i];
-    demand(all_finite(load.force) && all_finite(load.torque) && std::isfinite(load.damping) &&
-               std::isfinite(load.stiffness),
+    demand(all_possible(load.force) && all_possible(load.torque) && is_possible(load.damping) &&
+               is_possible(load.stiffness),
            "the load of a grain is not finite");
   }
   for (std::size_t w = 0; w < sizes_.size(); ++w) {
@@ -162,8 +168,8 @@ void Fixtures::check(const World& world) const {
     for (const Vec3& place : places_of(wall.shape)) demand_within(place, kFarthest, "a wall is not in the laboratory");
     for (const Vec3& velocity : {wall.velocity, wall.velocity_before})
       demand_within(velocity, kFastestWall, "a wall is faster than any can be");
-    demand(is_finite(wall.angular_velocity) && is_finite(wall.angular_velocity_before) && is_finite(wall.pivot) &&
-               is_finite(wall.force) && is_finite(wall.torque),
+    demand(is_possible(wall.angular_velocity) && is_possible(wall.angular_velocity_before) && is_possible(wall.pivot) &&
+               is_possible(wall.force) && is_possible(wall.torque),
            "the motion of a wall is not finite");
   }
 }
@@ -190,9 +196,9 @@ void check_pairs(const World& world, bool listed) {
     for (std::int32_t k = 0; k < block.contacts.count; ++k)
       if (!ends.is_dummy(block.contacts.first(k))) check_memory(block.contacts, k);
     for (std::int32_t k = 0; k < block.bridges.count; ++k)
-      demand(std::isfinite(block.bridges.bridge(k)) &&
-                 std::isfinite(block.bridges.batches[k / kBatch].size_scale[k % kBatch]),
-             "a bridge is not finite");
+      demand(
+          is_possible(block.bridges.bridge(k)) && is_possible(block.bridges.batches[k / kBatch].size_scale[k % kBatch]),
+          "a bridge is not finite");
     check_candidates(block, ends);
     demand(!listed || block.walls.size() == world.walls.size(), "the blocks know another number of walls");
     for (const WallContacts& touching : block.walls) check_wall_contacts(touching, ends);
