@@ -81,6 +81,12 @@ std::vector<Row> Database::run(const std::string& sql, const Row& parameters) {
   return rows;
 }
 
+int Database::number(const std::string& sql) {
+  const std::vector<Row> rows = run(sql);
+  if (rows.empty() || rows[0].empty()) throw std::runtime_error("nothing stands where a number belongs");
+  return whole_number_of<int>(rows[0][0]);
+}
+
 void Database::check(int status) {
   if (status != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(handle_));
 }

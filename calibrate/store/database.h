@@ -1,7 +1,10 @@
 #pragma once
 
+#include <charconv>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 struct sqlite3;
@@ -9,6 +12,17 @@ struct sqlite3;
 namespace pastefit {
 
 using Row = std::vector<std::string>;
+
+/// The whole number that a column is, as text. Errors: throws `std::runtime_error` for any other text, and for a number
+/// beyond its type.
+template <class Number>
+Number whole_number_of(const std::string& text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw std::runtime_error("what should be a whole number is none");
+  return number;
+}
 
 /// `read`: the file is not changed where it cannot be, as in a folder that is read-only.
 enum class DatabaseUse { read, write };
@@ -25,7 +39,8 @@ class Database {
   /// Runs one statement with text parameters; answers all rows as text.
   std::vector<Row> run(const std::string& sql, const Row& parameters = {});
 
-  int number(const std::string& sql) { return std::stoi(run(sql).at(0).at(0)); }
+  /// The number that a statement answers. Errors: it answers none.
+  int number(const std::string& sql);
 
  private:
   void check(int status);

@@ -146,6 +146,13 @@ std::vector<std::string> changes_of(const std::string& before, const std::string
   return places;
 }
 
+/// So many columns has a row; a table of another form answers other ones.
+void demand_columns(const Row& row, std::size_t count) {
+  if (row.size() != count)
+    throw std::runtime_error("a table has " + std::to_string(row.size()) + " columns where " + std::to_string(count) +
+                             " belong");
+}
+
 /// Throws std::invalid_argument for what no simulation can have stored. Readings are in mm, Pa, kg or shares, none of
 /// which comes near the bound; beyond it squares of them would not be finite.
 void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
@@ -162,10 +169,10 @@ void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
 StoredEvaluation evaluation_of(const Row& row) {
   StoredEvaluation out;
   out.key = row.at(1);
-  out.epoch = std::stoi(row.at(2));
+  out.epoch = whole_number_of<int>(row[2]);
   out.point = numbers_of(row.at(3));
   out.values = parameters_from_json(nlohmann::json::parse(row.at(4)));
-  out.packing = std::stoull(row.at(5));
+  out.packing = whole_number_of<std::uint64_t>(row[5]);
   out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(6)));
   out.failure = failure_from_json(nlohmann::json::parse(row.at(7)));
   const auto run = nlohmann::json::parse(row.at(8));
@@ -205,14 +212,15 @@ struct Store::State {
   /// Takes what the file holds and is as it was written; answers its last inputs.
   std::string load() {
     for (const auto& row : database.run("SELECT * FROM evaluations ORDER BY sequence")) {
+      demand_columns(row, 10);
       if (!agrees(row)) {
-        damaged.push_back(row.at(0));
+        damaged.push_back(row[0]);
         continue;
       }
       StoredEvaluation evaluation;
       try {
         evaluation = evaluation_of(row);
-        sequence = std::stoll(row.at(0));
+        sequence = whole_number_of<long long>(row[0]);
       } catch (const std::exception&) {  // whole, but not what a simulation stores
         damaged.push_back(row.at(0));
         continue;
@@ -222,10 +230,8 @@ struct Store::State {
     }
     const int known = static_cast<int>(evaluations.size() + damaged.size()) + database.number(kCountSetAside);
     const auto added = database.run("SELECT value FROM identity WHERE name = 'evaluations'");
-    if (added.empty() || added[0][0].empty() || added[0][0].size() > 9 ||
-        added[0][0].find_first_not_of("0123456789") != std::string::npos)
-      throw std::runtime_error("its number of evaluations is missing or damaged");
-    written = std::stoi(added[0][0]);
+    if (added.empty()) throw std::runtime_error("its number of evaluations is missing");
+    written = whole_number_of<int>(added[0][0]);
     if (known != written)
       remarks.push_back("of " + std::to_string(written) + " evaluations that were written, " + std::to_string(known) +
                         " are there");
@@ -234,8 +240,9 @@ struct Store::State {
     if (!damaged.empty())
       remarks.push_back("damaged and set aside, to be simulated again if asked for: evaluation " + numbers);
     const auto inputs = database.run("SELECT * FROM inputs ORDER BY epoch DESC LIMIT 1");
+    if (!inputs.empty()) demand_columns(inputs[0], 3);
     if (inputs.empty() || !agrees(inputs[0])) throw std::runtime_error("its record of the study is missing or damaged");
-    epoch = std::stoi(inputs[0].at(0));
+    epoch = whole_number_of<int>(inputs[0][0]);
     return inputs[0].at(1);
   }
 

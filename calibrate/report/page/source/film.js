@@ -6,7 +6,12 @@ const perDecade = 51;
 async function inflated(text) {
   const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  try {
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  } catch {
+    // What the browser says of it, "Failed to fetch", sends people to look at their network.
+    throw new Error("its bytes are damaged; pastefit report makes the page anew");
+  }
 }
 
 /// Takes columns of numbers off the bytes, one after the other.
