@@ -6,10 +6,12 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/effort_checks.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/option_checks.h"
@@ -21,6 +23,7 @@
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
+#include "calibrate/search/effort.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
@@ -151,6 +154,14 @@ Faults faults_of(const Study& study, const CalibrateOptions& how, const Calibrat
   return faults;
 }
 
+/// A calibration of more than a day has to be asked for: by a budget of time, by going on with it, or by force.
+Faults effort_faults(const Study& study, const CalibrateArguments& options) {
+  const bool asked_for = options.force || options.resume || options.wall_budget_s > 0 || options.core_budget_s > 0;
+  return long_run_faults(options.study + ": search.budget_simulations",
+                         format("%d simulations", study.search.budget_simulations), least_effort_s(study),
+                         options.threads, asked_for, "larger grains, a smaller budget, a --wall-budget");
+}
+
 Result<OutputFolder> open_folder(const Study& study, const CalibrateArguments& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
@@ -196,6 +207,8 @@ int run_calibrate(const CalibrateArguments& options) {
   CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
   if (const auto faults = faults_of(study, how, options); !faults.empty()) return report(faults);
 
+  if (const auto faults = effort_faults(study, options); !faults.empty()) return report(faults);
+
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;
   const auto folder = open_folder(study, options);
@@ -230,7 +243,8 @@ Command add_calibrate(CLI::App& verb) {
       ->required()
       ->type_name("DIR");
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
-  verb.add_flag("--force", options->force, "replace the earlier result in DIR")->excludes(resume);
+  verb.add_flag("--force", options->force, "replace the earlier result in DIR; compute for more than a day")
+      ->excludes(resume);
   verb.add_flag("--json", options->json, "print the card instead of the summary");
   add_threads(verb, options->threads);
   verb.add_option("--budget", options->budget, "simulations in all, instead of the study's")

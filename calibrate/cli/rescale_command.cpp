@@ -4,15 +4,18 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/effort_checks.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"
 #include "calibrate/report/card_text.h"
+#include "calibrate/search/effort.h"
 #include "calibrate/search/memory.h"
 
 namespace pastefit {
@@ -44,6 +47,13 @@ int rescale(const RescaleOptions& options) {
   if (options.packings > 0) {
     for (const auto& test : result.value().tests)
       if (const auto faults = validate_memory(test.test, options.check.threads); !faults.empty()) return report(faults);
+    double effort_s = 0;
+    for (const auto& test : result.value().tests) effort_s += options.packings * least_effort_s(test.test);
+    if (const auto faults =
+            long_run_faults("--radius", format("%d simulations of each test", options.packings), effort_s,
+                            options.check.threads, options.force, "larger grains, or fewer --packings");
+        !faults.empty())
+      return report(faults);
     note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
          options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
     WorkLine line("simulations", 2 * options.packings * static_cast<int>(card.value().tests.size()));
@@ -69,7 +79,7 @@ Command add_rescale(CLI::App& verb) {
       ->check(number_from(0.01, 1000))
       ->type_name("MM");
   verb.add_option("--out", options->out, "file for the new card; -: standard output")->type_name("FILE");
-  verb.add_flag("--force", options->force, "replace FILE");
+  verb.add_flag("--force", options->force, "replace FILE; compute for more than a day");
   verb.add_flag("--json", options->json, "print the new card itself");
   verb.add_option("--packings", options->packings,
                   "simulations with either size that measure the bias; 0: carry over without measuring")

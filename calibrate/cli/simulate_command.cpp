@@ -13,6 +13,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/effort_checks.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/option_checks.h"
@@ -21,6 +22,7 @@
 #include "calibrate/cli/sign_of_life.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/vtk.h"
+#include "calibrate/search/effort.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/store/checkpoint.h"
 #include "calibrate/store/outcome_json.h"
@@ -186,6 +188,27 @@ Faults checkpoint_faults(const SimulateOptions& options, const Scene& scene) {
   return output_file_faults("--checkpoint", options.checkpoint, true);
 }
 
+/// What the run would take of time and, with pictures, of the disk beyond what anyone asks for by chance.
+Faults effort_faults(const SimulateOptions& options, const Scene& scene) {
+  double pictures = 0, grains = 1;
+  if (const auto* test = std::get_if<Test>(&scene)) {
+    grains = grains_needed(*test);
+    const double steps = least_steps(*test, options.time_step_s);
+    const std::string work = format("%.3g grains in %.3g steps", grains, steps);
+    const double effort_s = least_effort_s(*test, options.time_step_s);
+    if (auto faults =
+            long_run_faults(options.file + ": grains", work, effort_s, options.threads, options.force, "larger grains");
+        !faults.empty())
+      return faults;
+    if (options.vtk_interval_s) pictures = std::min(steps, moved_time_s(*test) / *options.vtk_interval_s);
+  } else if (options.vtk_interval_s) {
+    const auto& impact = std::get<Impact>(scene);
+    grains = static_cast<double>(impact.grains.size());
+    pictures = impact.duration_s / *options.vtk_interval_s;
+  }
+  return options.vtk_interval_s ? picture_faults(options.out, pictures, grains, options.force) : Faults{};
+}
+
 constexpr std::chrono::minutes kBetweenCheckpoints{2};
 
 /// What a run leaves on the disk, now and then and when it is asked to stop, and goes on from.
@@ -250,6 +273,7 @@ int simulate_file(const SimulateOptions& options) {
     if (const auto faults = validate_memory(*of_lab, 1); !faults.empty()) return report(in_file(faults, options.file));
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
+  if (const auto faults = effort_faults(options, test); !faults.empty()) return report(faults);
   if (const auto faults = checkpoint_faults(options, test); !faults.empty()) return report(faults);
 
   RunOptions run;
@@ -358,7 +382,9 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--out", options->out,
                   "folder for " + kResult + ", " + kCurve + " of a test that draws one, and the ParaView series")
       ->type_name("DIR");
-  verb.add_flag("--force", options->force, "replace an earlier result in DIR");
+  verb.add_flag("--force", options->force,
+                "replace an earlier result in DIR; compute for more than a day, or write more pictures than the disk "
+                "has room for");
   verb.add_option("--checkpoint", options->checkpoint,
                   "file in which the run is kept every two minutes and when it is stopped; if it is there the run goes "
                   "on from it, with the same result bit for bit; it is removed when the run is over")

@@ -125,6 +125,11 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
   return places;
 }
 
+double moved_time_s(const PelletCrush& test) {
+  return (test.fill_height_m - test.pressed_height_m) / (test.punch_speed_m_s * test.press_speedup) +
+         test.final_strain * test.pressed_height_m / test.platen_speed_m_s;
+}
+
 nlohmann::json to_json(const PelletCrush& test) {
   nlohmann::json document;
   ObjectWriter writer(document);

@@ -25,6 +25,9 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
 void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need);
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const PelletCrush&);
 
+/// Of the punch and the platen.
+double moved_time_s(const PelletCrush& test);
+
 nlohmann::json to_json(const PelletCrush& test);
 PelletCrush usual_test(const PelletCrush&);
 void read_test(ObjectReader& reader, PelletCrush& test);

@@ -157,6 +157,10 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
   return places;
 }
 
+double moved_time_s(const ShearCell& test) {
+  return test.final_displacement_m / (test.shear_speed_m_s * test.shear_speedup);
+}
+
 nlohmann::json to_json(const ShearCell& test) {
   nlohmann::json document;
   ObjectWriter writer(document);

@@ -25,6 +25,9 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&);
 
+/// Of the base.
+double moved_time_s(const ShearCell& test);
+
 nlohmann::json to_json(const ShearCell& test);
 ShearCell usual_test(const ShearCell&);
 void read_test(ObjectReader& reader, ShearCell& test);

@@ -127,6 +127,10 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
   return places;
 }
 
+double moved_time_s(const SlumpTest& test) {
+  return test.mould.height_m / test.lift_velocity_m_s;
+}
+
 nlohmann::json to_json(const SlumpTest& test) {
   nlohmann::json document;
   ObjectWriter writer(document);

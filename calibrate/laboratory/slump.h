@@ -42,6 +42,9 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
 /// The apparatus' places in `validate`'s words and in those of laboratory and rig files.
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&);
 
+/// Of the mould, until it is off the heap.
+double moved_time_s(const SlumpTest& test);
+
 /// Complete and in SI, the unit in each key.
 nlohmann::json to_json(const SlumpTest& test);
 /// A test that has every part, with usual values.

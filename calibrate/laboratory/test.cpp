@@ -81,6 +81,10 @@ std::string preparation_key(const Test& test) {
   return std::visit([](const auto& one) { return preparation_key(one); }, test);
 }
 
+double moved_time_s(const Test& test) {
+  return std::visit([](const auto& one) { return moved_time_s(one); }, test);
+}
+
 double grains_needed(const Test& test) {
   return std::visit([](const auto& one) { return grains_needed(one); }, test);
 }

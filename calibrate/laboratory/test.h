@@ -36,6 +36,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { preparation_key(given) } -> std::same_as<std::string>;
   { grains_needed(given) } -> std::same_as<double>;
   { simulate(given, options) } -> std::same_as<Outcome>;
+  { moved_time_s(given) } -> std::same_as<double>;
   { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
   {read_apparatus(reader, test, Need::required)};
   {read_outline(reader, reading, test)};
@@ -67,6 +68,7 @@ std::vector<Surface> surfaces_of(Test& test);
 std::shared_ptr<const Packing> prepare(const Test& test, const RunOptions& options = {});
 std::string preparation_key(const Test& test);
 double grains_needed(const Test& test);
+double moved_time_s(const Test& test);
 Outcome simulate(const Test& test, const RunOptions& options = {});
 std::vector<ReadingKind> reading_kinds(const Test& test);
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);

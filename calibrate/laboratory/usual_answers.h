@@ -42,6 +42,11 @@ inline std::string preparation_key(const Specimen&) {
   return {};
 }
 
+/// Simulated time in which the apparatus moves [s]; to fill it and waits for rest come on top.
+inline double moved_time_s(const Specimen&) {
+  return 0;
+}
+
 /// A laboratory's outline; called for readings that come from one only (`ReadingKind::from_outline`).
 inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
 
