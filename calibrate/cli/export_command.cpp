@@ -84,6 +84,7 @@ int export_to_folder(const ExportOptions& options) {
   }
   const auto card = read_card(options.card);
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
   if (!faults.empty()) return report(faults);
 
   const auto test = test_to_export(card.value(), options.test);

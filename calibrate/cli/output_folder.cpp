@@ -55,6 +55,18 @@ Faults output_faults(const std::string& option, const fs::path& file, bool force
   return is_stream(file) ? Faults{} : output_file_faults(option, file, force);
 }
 
+Faults output_folder_faults(const std::string& option, const fs::path& folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) there = there.parent_path();
+  const std::string where = option + " " + folder.string();
+  if (!fs::is_directory(there, error))
+    return {{where, there.string() + " is no folder", "choose a folder that can be made"}};
+  if (::access(there.c_str(), W_OK | X_OK) == 0) return {};
+  return {
+      {where, there.string() + " cannot be written: " + std::strerror(errno), "choose a folder that can be written"}};
+}
+
 Faults write_output(const fs::path& file, std::string_view content) {
   if (is_standard_output(file)) {
     print("%.*s", static_cast<int>(content.size()), content.data());

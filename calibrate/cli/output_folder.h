@@ -33,6 +33,10 @@ Faults output_file_faults(const std::string& option, const std::filesystem::path
 /// The same where a stream will do, too.
 Faults output_faults(const std::string& option, const std::filesystem::path& file, bool force);
 
+/// What keeps a folder, given as `option`, from being made or written. To be asked before anything runs; nothing is
+/// made.
+Faults output_folder_faults(const std::string& option, const std::filesystem::path& folder);
+
 /// Writes to a stream, or replaces the file (`write_atomically`).
 Faults write_output(const std::filesystem::path& file, std::string_view content);
 

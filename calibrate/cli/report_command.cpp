@@ -24,6 +24,7 @@ int write_report(const ReportOptions& options) {
   auto findings = read_findings(options.folder, kStore);
   if (!findings.ok()) return report(findings.faults());
   const std::filesystem::path folder = options.folder;
+  if (const auto faults = output_folder_faults("DIR", folder); !faults.empty()) return report(faults);
   const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
                                     {.threads = options.threads, .simulate = !options.quick});
   for (const std::string& sentence : findings.value().missing) note("pastefit: %s\n", one_line(sentence).c_str());

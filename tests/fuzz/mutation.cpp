@@ -12,7 +12,7 @@ namespace pastefit::fuzz {
 namespace {
 
 /// What a number or a word is replaced with: beyond bounds, of another kind, or nothing at all.
-constexpr std::array<std::string_view, 26> kOdd{"0",          "-0.0",
+constexpr std::array<std::string_view, 32> kOdd{"0",          "-0.0",
                                                 "-1",         "1e-300",
                                                 "5e-324",     "1e308",
                                                 "1e999",      "-1e999",
@@ -24,7 +24,10 @@ constexpr std::array<std::string_view, 26> kOdd{"0",          "-0.0",
                                                 "{}",         "[[]]",
                                                 "\"\"",       "\"nan\"",
                                                 "NaN",        "[1, 2]",
-                                                "\"x\"",      "18446744073709551616"};
+                                                "\"x\"",      "18446744073709551616",
+                                                "1e-152",     "1e-160",
+                                                "-1e200",     "1e16",
+                                                "1e-320",     "0.30000000000000004"};
 
 /// Where a number or a string begins and ends.
 struct Token {

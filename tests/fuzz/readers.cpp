@@ -13,6 +13,7 @@
 #include "calibrate/base/json_document.h"
 #include "calibrate/card/card.h"
 #include "calibrate/report/card_text.h"
+#include "calibrate/search/residual_size.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
@@ -73,7 +74,10 @@ void judge(const Result<T>& read) {
 void study(const fs::path& file) {
   const auto read = read_study(file);
   judge(read);
-  if (read.ok()) inputs_of(read.value());
+  if (!read.ok()) return;
+  inputs_of(read.value());
+  if (const Faults faults = validate_residuals(read.value()); !faults.empty())
+    throw std::logic_error("a study that was read has no finite residuals: " + message_of(faults));
 }
 
 /// A card that was read can be shown, and written so that it reads as the same one.
@@ -109,6 +113,7 @@ void row(const fs::path& file) {
   try_to([&] { to_json(observables_from_json(nlohmann::ordered_json(part("observables")))); });
   try_to([&] { to_json(failure_from_json(part("failure"))); });
   try_to([&] { to_json(run_from_json(part("run")), 0); });
+  try_to([&] { to_json(sketch_from_json(part("sketch"))); });
   try_to([&] { parameters_to_json(parameters_from_json(part("parameter_values"))); });
 }
 

@@ -88,6 +88,30 @@ TEST_CASE("what is stored as a number of steps or grains is a whole number or re
     CHECK_THROWS_AS(whole_number_from_json(other), std::invalid_argument);
 }
 
+TEST_CASE("a store of another form is refused in words for people, not in those of a library") {
+  const Folder folder;
+  const auto file = folder.path() / "evaluations.sqlite";
+  CHECK(opened(file).add(evaluation(0.5)).empty());
+  const char* spoil = GENERATE("UPDATE identity SET value = '' WHERE name = 'evaluations'",
+                               "UPDATE identity SET value = 'x' WHERE name = 'evaluations'",
+                               "UPDATE identity SET value = '99999999999999999999' WHERE name = 'evaluations'",
+                               "DELETE FROM identity WHERE name = 'evaluations'", "DELETE FROM inputs",
+                               "DROP TABLE inputs; CREATE TABLE inputs (epoch INTEGER PRIMARY KEY);"
+                               "INSERT INTO inputs VALUES (1)",
+                               "DROP TABLE evaluations; CREATE TABLE evaluations (sequence INTEGER PRIMARY KEY);"
+                               "INSERT INTO evaluations VALUES (1)",
+                               "ALTER TABLE evaluations ADD COLUMN more TEXT");
+  execute(file, spoil);
+  const auto judge = [&](const Result<Store>& store) {
+    INFO(spoil);
+    REQUIRE_FALSE(store.ok());
+    for (const char* word : {"stoi", "stoul", "stoll", "_M_", "vector", "from_chars"})
+      CHECK_THAT(store.faults()[0].what, !Catch::Contains(word));
+  };
+  judge(Store::open(file, kIdentity));
+  judge(Store::read(file));
+}
+
 TEST_CASE("evaluations that are missing are said") {
   const Folder folder;
   const auto file = folder.path() / "evaluations.sqlite";
