@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFarthest = 1e3;  // [m]; of a grain or a wall from the middle of the table
 constexpr double kFastestWall = kRunawaySpeed;
+constexpr double kSizeChange = 0.01;  // of a grain by its rig, between two waits
 
 /// No number of a state is larger, in whatever unit; written so that one that is no number is not possible either.
 bool is_possible(double value) {
@@ -123,8 +124,7 @@ void check_wall_contacts(const WallContacts& touching, const Ends& ends) {
 }  // namespace
 
 Fixtures::Grain Fixtures::grain_of(const Particles& particles, std::size_t i) {
-  return {particles.motion[i].radius, particles.velocity[i].inverse_mass, particles.velocity[i].inverse_inertia,
-          particles.motion[i].rounded_radius};
+  return {particles.motion[i].radius, particles.velocity[i].inverse_mass, particles.velocity[i].inverse_inertia};
 }
 
 Fixtures::Fixtures(const World& world) {
@@ -147,6 +147,9 @@ void Fixtures::check(const World& world) const {
     demand(identity < n && !seen[identity], "a grain stands twice in it");
     seen[identity] = true;
     demand(grain_of(particles, i) == grains_[identity], "a grain has another size or mass");
+    // Rounded anew in every step: a rig may have changed the size since.
+    const Motion& grain = particles.motion[i];
+    demand(std::fabs(grain.rounded_radius - grain.radius) <= kSizeChange * grain.radius, "a grain has two sizes");
     demand_within(particles.motion[i].position, kFarthest, "a grain is not in the laboratory");
     demand_within(particles.velocity[i].linear, kRunawaySpeed, "a grain is faster than any can be");
   }

@@ -22,7 +22,6 @@ class Fixtures {
  private:
   struct Grain {
     double radius, inverse_mass, inverse_inertia;
-    float rounded_radius;
     bool operator==(const Grain&) const = default;
   };
   static Grain grain_of(const Particles& particles, std::size_t i);

@@ -125,12 +125,6 @@ void Stepper::check_state() const {
          "a time step, a speed or a stiffness is below nothing, or beyond any");
   demand(pierced_ == -1 && runaway_ == -1, "the run has failed");
   for (const EnergySums& energy : energy_) demand(energy.is_finite(), "an energy is not finite");
-  double smallest_radius = 1e300, smallest_mass = 1e300;
-  for (std::int32_t i = 0; i < world_.particles.count(); ++i) {
-    smallest_radius = std::min(smallest_radius, world_.particles.motion[i].radius);
-    smallest_mass = std::min(smallest_mass, world_.particles.mass(i));
-  }
-  demand(smallest_radius == smallest_radius_ && smallest_mass == smallest_mass_, "its smallest grain is another one");
 }
 
 std::optional<Failure> Stepper::maintain_lists() {

@@ -49,8 +49,7 @@ class Stepper {
   template <class Archive>
   void serialize(Archive& archive) {
     if (sleepers_) archive(*sleepers_);
-    archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, smallest_radius_, smallest_mass_, time_step_, energy_,
-            ledger_, looked_);
+    archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, time_step_, energy_, ledger_, looked_);
   }
   /// Throws `BadState` unless what was read is of the world as it is.
   void check_state() const;

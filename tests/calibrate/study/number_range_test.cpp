@@ -44,8 +44,10 @@ std::string taken_by(const fs::path& folder, Read read, std::size_t& tried) {
   for (const fs::path& file : files_in(folder)) {
     const json document = json::parse(std::ifstream(file), nullptr, true, true);
     REQUIRE(read(document));
-    for (const auto& [pointer, value] : document.flatten().items()) {
-      if (!value.is_number() || !seen.insert(key_of(pointer)).second) continue;
+    const json numbers = document.flatten();
+    for (const auto& [pointer, value] : numbers.items()) {
+      const bool only_told = pointer.find("/conditions/") != std::string::npos;  // made anew with every card, not read
+      if (only_told || !value.is_number() || !seen.insert(key_of(pointer)).second) continue;
       ++tried;
       for (const double number : {1e300, -1e300, 1e16}) {
         json spoiled = document;
@@ -71,12 +73,7 @@ TEST_CASE("every number of a file has a range, and what lies far beyond it is re
     return read_study(desk.write("studies/study.json", document.dump())).ok();
   };
   CHECK(taken_by(kData / "studies", study, tried) == "");
-  const auto card = [](json document) {
-    // What is only told of a test, and made anew whenever a card is written, is not read.
-    for (json& test : document.at("tests"))
-      if (test.is_object()) test.erase("conditions");
-    return card_from_json(document).ok();
-  };
+  const auto card = [](const json& document) { return card_from_json(document).ok(); };
   CHECK(taken_by(kData / "cards", card, tried) == "");
   CHECK(tried > 200);
 }

