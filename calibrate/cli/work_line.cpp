@@ -58,13 +58,19 @@ std::string WorkLine::text(Clock::time_point now) const {
 }
 
 CheckEngine counted(CheckEngine engine, WorkLine& line) {
-  engine.run = [run = std::move(engine.run), &line](const Test& test, const RunOptions& asked) {
+  const auto seen = [&line](const RunOptions& asked) {
     RunOptions options = asked;
     options.pulse = [&line, pulse = asked.pulse](const Moment& moment) {
       line.look();
       return !pulse || pulse(moment);
     };
-    Outcome outcome = run(test, options);
+    return options;
+  };
+  engine.prepare = [prepare = std::move(engine.prepare), seen](const Test& test, const RunOptions& options) {
+    return prepare(test, seen(options));
+  };
+  engine.run = [run = std::move(engine.run), seen, &line](const Test& test, const RunOptions& options) {
+    Outcome outcome = run(test, seen(options));
     line.one_done();
     return outcome;
   };

@@ -38,14 +38,14 @@ class Progress(Desk):
         fifty.write_text(json.dumps(card))
         line, after_s = self.lines_of("check", fifty, "--threads", 1)
         self.assertRegex(line, r"^\d+ of 50 simulations, \d+ s gone")
-        self.assertLess(after_s, 30)
+        self.assertLess(after_s, 60)  # a second or two, unless the machine is busy
         line, _ = self.lines_of("rescale", CARD, "--radius", 10, "--packings", 40, "--threads", 1)
         self.assertRegex(line, r"^\d+ of 80 simulations, \d+ s gone")
 
     def test_verify_tells_how_many_points_are_done(self):
         line, after_s = self.lines_of("verify")
         self.assertRegex(line, r"^\d+ of \d+ points, \d+ s gone.*left$")
-        self.assertLess(after_s, 30)
+        self.assertLess(after_s, 60)
 
     def test_what_is_quiet_or_short_says_nothing(self):
         self.assertEqual(run("verify", "--quiet").stderr, "")
