@@ -155,7 +155,7 @@ Faults faults_of(const Study& study, const CalibrateOptions& how, const Calibrat
 }
 
 /// A calibration of more than a day has to be asked for: by a budget of time, by going on with it, or by force.
-Faults effort_faults(const Study& study, const CalibrateArguments& options) {
+Faults too_long_faults(const Study& study, const CalibrateArguments& options) {
   const bool asked_for = options.force || options.resume || options.wall_budget_s > 0 || options.core_budget_s > 0;
   return long_run_faults(options.study + ": search.budget_simulations",
                          format("%d simulations", study.search.budget_simulations), least_effort_s(study),
@@ -207,7 +207,7 @@ int run_calibrate(const CalibrateArguments& options) {
   CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
   if (const auto faults = faults_of(study, how, options); !faults.empty()) return report(faults);
 
-  if (const auto faults = effort_faults(study, options); !faults.empty()) return report(faults);
+  if (const auto faults = too_long_faults(study, options); !faults.empty()) return report(faults);
 
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;

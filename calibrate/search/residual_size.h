@@ -14,8 +14,8 @@ inline constexpr double worst_factor = 3;
 double worst_miss(const Study& study, std::size_t test, const Measurement& measurement);
 
 /// Every prior and every fitted reading whose residual, or its square, is not finite somewhere between the bounds,
-/// places as in study and laboratory files. A study that was read has none (its numbers have ranges); one that a program
-/// put together may.
+/// places as in study and laboratory files. A study that was read has none (its numbers have ranges); one that a
+/// program put together may.
 Faults validate_residuals(const Study& study);
 
 }  // namespace pastefit
