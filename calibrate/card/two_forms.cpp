@@ -39,6 +39,7 @@ Numbers numbers_of_surfaces(Test test) {
   for (const Surface& surface : surfaces_of(test)) {
     const std::string place = std::string(surface.name) + "_wall.";
     numbers.emplace_back(place + "friction", surface.contact.friction);
+    numbers.emplace_back(place + "rolling_friction", surface.contact.rolling_friction);
     numbers.emplace_back(place + "cohesion_factor", surface.contact.cohesion_factor);
   }
   return numbers;

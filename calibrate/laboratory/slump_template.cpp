@@ -74,6 +74,7 @@ constexpr std::string_view slump_study =
     "formation_ratio": {"value": 0.3},           // gap at which a bridge forms over the one at which it ruptures
     "friction": {"free": [0.05, 0.8]},           // between grains; where the spread is not fitted: {"value": 0.15}
     "rolling_friction": {"free": [0, 1]}         // the same: {"value": 0.02}
+    // "table_rolling_friction": {"value": 0.1}  // decides the heap where grains are dry or weak
     // "adhesion_pa": {"free": [100, 10000]}  // of jkr: surface energy over R
   },
 

@@ -6,8 +6,8 @@
 
 namespace pastefit {
 
-/// A surface of a test's apparatus that grains touch. Its parameters are `<name>_friction` and
-/// `<name>_cohesion_factor`.
+/// A surface of a test's apparatus that grains touch. Its parameters are `<name>_friction`,
+/// `<name>_rolling_friction` and `<name>_cohesion_factor`.
 struct Surface {
   std::string_view name;
   WallContact& contact;

@@ -15,7 +15,7 @@ constexpr Scale linear = Scale::linear;
 constexpr Scale logarithmic = Scale::logarithmic;
 
 // Files and stored evaluations know a parameter by its name; the order is that of tables for people.
-constexpr std::array<ParameterKind, 17> kinds{{
+constexpr std::array<ParameterKind, 19> kinds{{
     {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
     {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
@@ -30,6 +30,8 @@ constexpr std::array<ParameterKind, 17> kinds{{
     {"cohesion_ratio", 0, 10, 1, linear, "constant attraction of overlapping grains over the one at touch, F_coh/c"},
     {"mould_friction", 0, 2, 0.1, linear, "sliding friction between grains and mould"},
     {"table_friction", 0, 2, 0.5, linear, "sliding friction between grains and table"},
+    {"mould_rolling_friction", 0, 1, 0, linear, "rolling friction between grains and mould"},
+    {"table_rolling_friction", 0, 1, 0.1, linear, "rolling friction between grains and table"},
     {"table_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the table"},
     {"mould_cohesion_factor", 0, 2, 0, linear, "share of the grains' attraction that acts on the mould"},
     {"adhesion_pa", 1, 1e6, 1000, logarithmic, "surface energy of the grains over the mean grain radius, gamma/R"},
@@ -179,6 +181,7 @@ Test with_contact_of(Test test, std::span<const double> values) {
   contact.poissons_ratio = values[at("poissons_ratio")];
   for (const Surface& surface : surfaces_of(test)) {
     surface.contact.friction = values[parameter_at(std::string(surface.name) + "_friction")];
+    surface.contact.rolling_friction = values[parameter_at(std::string(surface.name) + "_rolling_friction")];
     surface.contact.cohesion_factor = values[parameter_at(std::string(surface.name) + "_cohesion_factor")];
   }
   return test;

@@ -54,7 +54,7 @@ constexpr std::array<Range, 7> kDrawn{{{"rupture_force_ratio", 0, 0.5},
                                        {"rolling_friction", 0, 1},
                                        {"table_friction", 0.1, 1}}};
 
-/// All 17 parameters: the usual ones, those drawn, and those of the grid.
+/// All parameters: the usual ones, those drawn, and those of the grid.
 std::vector<double> values_of(double strength, const Shares& shares, const RandomStream& drawn) {
   std::vector<double> values = usual_values();
   const auto set = [&](std::string_view name, double value) {

@@ -18,7 +18,8 @@ namespace {
 // Parameter j of corner n is at its upper end where n and column j have an odd number of bits in common. No four or
 // fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Found one after the other,
 // each the smallest that will do.
-constexpr std::array<unsigned, 17> kColumns{1, 2, 4, 8, 15, 16, 32, 51, 64, 85, 106, 128, 150, 171, 219, 237, 247};
+constexpr std::array<unsigned, 19> kColumns{1,   2,   4,   8,   15,  16,  32,  51,  64, 85,
+                                            106, 128, 150, 171, 219, 237, 247, 256, 279};
 
 constexpr bool have_strength_4() {
   for (const unsigned a : kColumns)
@@ -79,7 +80,7 @@ StressCase case_at(const std::vector<double>& unit, int number, const RandomStre
 }  // namespace
 
 std::vector<StressCase> parameter_cases(int first, int count, std::uint64_t seed) {
-  static_assert(kParameterCorners == 1 << 8, "as many as there are bits in the columns");
+  static_assert(kParameterCorners == 1 << 9, "as many as there are bits in the columns");
   const RandomStream points(seed, "points of the parameters"), laws(seed, "laws");
   std::vector<StressCase> cases;
   for (int number = first; number < first + count; ++number) {

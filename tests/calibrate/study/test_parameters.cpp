@@ -87,7 +87,7 @@ TEST_CASE("with formation by touch the shells reach as far as the bridge, whatev
 
 TEST_CASE("each parameter reaches its own place in the test") {
   std::vector<double> values = usual_values();
-  for (std::size_t i = 5; i < 15; ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
+  for (std::size_t i = 5; i < 17; ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
   const auto test = std::get<SlumpTest>(with_contact_of(with_usual_contact(SlumpTest{}), values));
   CHECK(test.contact.friction == values[5]);
   CHECK(test.contact.rolling_friction == values[6]);
@@ -97,8 +97,16 @@ TEST_CASE("each parameter reaches its own place in the test") {
   CHECK(test.contact.cohesion_n == values[10] * test.contact.bridge.c_n);
   CHECK(test.mould_wall.friction == values[11]);
   CHECK(test.table_wall.friction == values[12]);
-  CHECK(test.table_wall.cohesion_factor == values[13]);
-  CHECK(test.mould_wall.cohesion_factor == values[14]);
+  CHECK(test.mould_wall.rolling_friction == values[13]);
+  CHECK(test.table_wall.rolling_friction == values[14]);
+  CHECK(test.table_wall.cohesion_factor == values[15]);
+  CHECK(test.mould_wall.cohesion_factor == values[16]);
+}
+
+TEST_CASE("mould and table resist rolling as a study says, and as before where it says nothing") {
+  const auto usual = std::get<SlumpTest>(with_contact_of(with_usual_contact(SlumpTest{}), usual_values()));
+  CHECK(usual.mould_wall.rolling_friction == SlumpTest{}.mould_wall.rolling_friction);
+  CHECK(usual.table_wall.rolling_friction == SlumpTest{}.table_wall.rolling_friction);
 }
 
 TEST_CASE("the unit interval spans the bounds exactly, in equal steps or equal ratios") {
@@ -193,7 +201,7 @@ TEST_CASE("without an attraction nothing of one is left, and no cohesion") {
 
 TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has none") {
   std::vector<double> values = usual_values();
-  values[15] = 2000;
+  values[17] = 2000;
   Test test = with_usual_contact(SlumpTest{});
   CHECK(specimen_of(with_contact_of(test, values)).contact.surface_energy_j_m2 == 0);
   specimen_of(test).contact.normal = NormalLaw::jkr;
@@ -205,8 +213,8 @@ TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has 
 
 TEST_CASE("DMT has JKR's surface energy, SJKR an energy density, and neither has the other's") {
   std::vector<double> values = usual_values();
-  values[15] = 2000;
-  values[16] = 30000;
+  values[17] = 2000;
+  values[18] = 30000;
   Test test = with_usual_contact(SlumpTest{});
   specimen_of(test).contact.bridge.shape = BridgeShape::none;
   specimen_of(test).contact.normal = NormalLaw::dmt;
@@ -271,7 +279,8 @@ TEST_CASE("a parameter belongs to the laws that name it, and to every test if no
   laws.normal = NormalLaw::hertz;
   laws.rolling = RollingModel::none;
   Names dry = of_attractions;
-  dry.insert({"adhesion_pa", k, "rolling_friction", "table_cohesion_factor", "mould_cohesion_factor"});
+  dry.insert({"adhesion_pa", k, "rolling_friction", "mould_rolling_friction", "table_rolling_friction",
+              "table_cohesion_factor", "mould_cohesion_factor"});
   CHECK(missing() == dry);
 }
 
