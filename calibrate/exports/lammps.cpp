@@ -22,9 +22,6 @@ if "${pastefit_style} != 1" then &
 const char* const kConventions = R"(#
 # Conventions. Names and numbers of the laws are those of the card; style/README.md explains them.
 #
-#   lmp_pastefit -in DECK                              one core
-#   mpirun -np 2 lmp_pastefit -in DECK                 two ranks
-
 )";
 
 const char* const kBuild =
@@ -72,11 +69,10 @@ std::string pair_style(const ExportScene& scene) {
          "\npair_coeff   * *\n";
 }
 
-std::string wall_fix(const std::string& name, const WallContact& wall) {
-  return "fix          " + name + " all wall/pastefit " + name + number("youngs_modulus_pa", wall.youngs_modulus_pa) +
-         number("poissons_ratio", wall.poissons_ratio) + number("restitution", wall.restitution) +
-         number("friction", wall.friction) + number("rolling_friction", wall.rolling_friction) +
-         number("cohesion_factor", wall.cohesion_factor) + "\n";
+std::string wall_words(const WallContact& wall) {
+  return format("youngs_modulus_pa %.17g poissons_ratio %.17g restitution %.17g friction %.17g ",
+                wall.youngs_modulus_pa, wall.poissons_ratio, wall.restitution, wall.friction) +
+         format("rolling_friction %.17g cohesion_factor %.17g", wall.rolling_friction, wall.cohesion_factor);
 }
 
 }  // namespace
@@ -86,9 +82,8 @@ Result<Export> export_lammps(const ExportScene& scene) {
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
-  const std::string pairs = pair_style(scene);
-  LammpsLaws laws{kGuard, kConventions, pairs, pairs, {}, true};
-  for (const auto& [name, wall] : walls_in_deck(scene)) laws.walls.push_back(wall_fix(name, wall));
+  LammpsLaws laws{"lmp_pastefit", kGuard, kConventions, pair_style(scene), {}, "wall/pastefit @", "", true};
+  for (const auto& [name, wall] : walls_in_deck(scene)) laws.walls.push_back({name, wall_words(wall)});
   Export out;
   out.notes.push_back(
       "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "

@@ -28,10 +28,18 @@ unfix        over
 )";
 const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
-std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
+std::string header(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
   if (!notes.empty()) out += "#\n# What is lost or changed:\n";
   for (const auto& note : notes) out += deck_comment("- " + note);
+  return out + format("#\n#   %s -in DECK                  one core\n#   mpirun -np 2 %s -in DECK     two ranks\n",
+                      laws.program.c_str(), laws.program.c_str());
+}
+
+/// "fix ..." of a wall, whose law is the variable NAME_law.
+std::string wall_fix(const LammpsLaws& laws, const std::string& name) {
+  std::string out = "fix          " + name + " all " + laws.before_law + " ${" + name + "_law}" + laws.after_law + "\n";
+  for (std::size_t at = 0; (at = out.find('@', at)) != std::string::npos;) out.replace(at, 1, name);
   return out;
 }
 
@@ -88,12 +96,24 @@ double deck_time_step_s(const ExportScene& scene) {
   return std::floor(step / digit) * digit;
 }
 
+std::string material_file(const ExportScene& scene, const LammpsLaws& laws) {
+  std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
+  out += laws.conventions;
+  out += "# Include it where the grains are there (read_data, create_box), in a script with:\n";
+  out += "#   units si, atom_style sphere, newton off, comm_modify mode single vel yes\n";
+  out += format("#   density of a grain %.9g kg/m^3, mean radius %.9g m, time steps of %.6g s at most\n",
+                scene.grain_density_kg_m3, scene.radius_m(), deck_time_step_s(scene));
+  for (const auto& wall : laws.walls) out += "#   " + wall_fix(laws, wall.name);
+  out += "\n" + laws.guard + laws.pairs;
+  for (const auto& wall : laws.walls) out += "variable     " + wall.name + "_law string \"" + wall.law + "\"\n";
+  return out;
+}
+
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
   const auto& mould = test.mould;
-  std::string out = header(scene, notes) + laws.conventions;
-  out += deck_begin("# the scene") + laws.guard;
-  out += "processors   * * 1\nread_data    grains.data\n" + laws.pairs;
+  std::string out = header(scene, laws, notes) + deck_begin("\n# the scene");
+  out += "processors   * * 1\nread_data    grains.data\ninclude      material.inc\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
   out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
@@ -107,7 +127,7 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   out += "variable     rise equal 0\n";
   out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
                 mould.base_radius_m, mould.top_radius_m, mould.height_m);
-  for (const auto& wall : laws.walls) out += wall;
+  for (const auto& wall : laws.walls) out += wall_fix(laws, wall.name);
   out += "compute      top all reduce max z\n";
   out += "variable     speed equal sqrt(2*ke/mass(all))   # root mean square [m/s]\n";
   out += "thermo_style custom step time atoms ke c_top v_speed\nthermo       1000\n";
@@ -139,26 +159,15 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, co
   constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
   const auto [nearest, farthest] = two_grain_distances(scene.contact(), radius);
-  std::string out = header(scene, notes);
-  if (!scene.slump()) {
-    out += laws.conventions;
-    out += format("# For a machine of your own: pair_style and pair_coeff below, time steps of %.6g s at most, and\n",
-                  deck_time_step_s(scene));
-    for (std::string wall : laws.walls) {
-      for (std::size_t at = 0; (at = wall.find('\n', at)) + 1 < wall.size(); at += 2) wall.replace(at, 1, "\n#");
-      out += "# " + wall;
-    }
-    out += "#\n";
-  }
-  out +=
-      deck_begin("# force of two grains against their distance; prints \"apart r F\", then \"back r F\"") + laws.guard;
+  std::string out = header(scene, laws, notes);
+  out += deck_begin("\n# force of two grains against their distance; prints \"apart r F\", then \"back r F\"");
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
                 4 * radius, -4 * radius, 4 * radius);
-  out += "create_box   1 box\ncreate_atoms 1 single 0 0 0\n";
+  out += format("create_box   %zu box\ncreate_atoms 1 single 0 0 0\n", scene.sizes.radii_m.size());
   out += format("create_atoms 1 single %.17g 0 0\n", nearest);
   out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
                 scene.grain_density_kg_m3);
-  out += laws.first_pair;
+  out += "include      material.inc\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\n", 0.15 * radius);
   out += "fix          motion all nve/sphere\n";
   out += "group        second id 2\ncompute      push second reduce sum fx\ncompute      at second reduce sum x\n";
@@ -183,9 +192,11 @@ std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
 
 std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
                                     const std::vector<std::string>& notes, std::span<const double> radii) {
-  if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, laws, notes)}};
+  const ExportFile material{"material.inc", material_file(scene, laws)};
+  if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, laws, notes)}, material};
   return {{"in.slump", slump_deck(scene, laws, notes)},
           {"in.two_grains", two_grains_deck(scene, laws, {})},
+          material,
           {"grains.data", grains_data(scene, radii)}};
 }
 

@@ -8,14 +8,25 @@
 
 namespace pastefit {
 
+/// The law of a wall, for the variable NAME_law of a material file.
+struct LammpsWall {
+  std::string name;  ///< of its region
+  std::string law;   ///< words of the fix
+};
+
 /// The contact laws of a scene in LAMMPS's words; everything else of a deck does not depend on them.
 struct LammpsLaws {
-  std::string guard;               ///< commands that stop a program which would misread the deck
-  std::string conventions;         ///< comment
-  std::string pairs, first_pair;   ///< pair style and coefficients; of the first size class only
-  std::vector<std::string> walls;  ///< "fix ..." with a region of the wall's name, in the order of `walls_in_deck`
-  bool hinge = false;              ///< fix hinge/pastefit is there
+  std::string program;                ///< that runs the deck
+  std::string guard;                  ///< commands that stop a program which would misread the deck
+  std::string conventions;            ///< comment
+  std::string pairs;                  ///< pair style and coefficients
+  std::vector<LammpsWall> walls;      ///< in the order of `walls_in_deck`
+  std::string before_law, after_law;  ///< of "fix NAME all BEFORE ${NAME_law} AFTER", @ for the name of the region
+  bool hinge = false;                 ///< fix hinge/pastefit is there
 };
+
+/// material.inc: the laws alone, to be included once the grains are there, by the decks and by scripts of others.
+std::string material_file(const ExportScene& scene, const LammpsLaws& laws);
 
 /// The slump test: relax in the mould, lift, rest; and, where the laws have a hinge and the card a drop plate, step 2:
 /// turn the plate up, rest, let it fall, rest. Notes become comments.
@@ -23,10 +34,10 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
 
 /// Two grains of the first class at distances from an overlap (`two_grain_distances`) to beyond rupture, and back;
 /// prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive. Where there is no other deck
-/// it has the notes, and the walls for who copies the laws into a machine of their own.
+/// it has the notes.
 std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
-/// in.two_grains and, of a slump test, in.slump and grains.data with these radii.
+/// material.inc, in.two_grains and, of a slump test, in.slump and grains.data with these radii.
 std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
                                     const std::vector<std::string>& notes, std::span<const double> radii_m);
 

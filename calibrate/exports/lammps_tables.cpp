@@ -33,9 +33,6 @@ const char* const kTableConventions = R"(#
 # jkr, dmt: Young's modulus and Poisson's ratio of the grains instead of k, surface energy.
 # rolling sds: stiffness, dashpot, friction. Walls: E*, G* of grain and wall. Attraction: tables, negative = pull.
 #
-#   lmp -in DECK                              one core
-#   mpirun -np 2 lmp -in DECK                 two ranks
-
 )";
 
 constexpr int kTablePoints = 4001;
@@ -235,7 +232,7 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const GrainPair mean = scene.mean_pair();
   const bool attracts = cohesion_n(contact, mean) > 0 || attraction_n(contact, mean, 0) > 0;
 
-  LammpsLaws laws{kVersionGuard, kTableConventions, {}, {}, {}, false};
+  LammpsLaws laws{"lmp", kVersionGuard, kTableConventions, {}, {}, "wall/gran/region", " region @", false};
   const std::string style = attracts ? format("pair_style   hybrid/overlay granular table linear %d\n", kTablePoints)
                                      : "pair_style   granular\n";
   const PairConstants grains = grain_pair(contact, radius);
@@ -255,7 +252,6 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
         tables += table_text(contact, pair, name, cutoff);
         laws.pairs += types + format("table attraction.table %s %.17g\n", name.c_str(), cutoff);
       }
-      if (j == 0) laws.first_pair = style + laws.pairs;
     }
   laws.pairs = style + laws.pairs;
 
@@ -263,10 +259,9 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   const auto wall = [&](const std::string& name, const WallContact& surface) {
     const PairConstants pair = wall_pair(contact, surface, radius);
     const double overlap = std::pow(load / (pair.hertz * std::sqrt(radius)), 2.0 / 3.0);
-    return "fix          " + name + " all wall/gran/region granular " +
-           granular_model(normal_model(pair, surface.restitution), pair, contact.rolling, mass_of(radius, density),
-                          std::sqrt(on_wall.effective_radius_m() * overlap)) +
-           " region " + name + "\n";
+    return LammpsWall{name, "granular " + granular_model(normal_model(pair, surface.restitution), pair, contact.rolling,
+                                                         mass_of(radius, density),
+                                                         std::sqrt(on_wall.effective_radius_m() * overlap))};
   };
   for (const auto& [name, surface] : walls_in_deck(scene)) laws.walls.push_back(wall(name, surface));
 

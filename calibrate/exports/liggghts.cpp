@@ -109,6 +109,26 @@ std::string properties(const ExportScene& scene, const ContactModel& contact, co
   return out;
 }
 
+/// material.inc: properties, pair style and the model of walls, for a script with types for the grains and each wall.
+std::string liggghts_material(const ExportScene& scene, const ContactModel& contact, const Models& models,
+                              const SoulieFit* fit) {
+  const auto walls = walls_of(scene.test);
+  std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
+  out += format("# Include it where the grains are there (read_data, create_box of %zu types), in a script with:\n",
+                walls.size() + 1);
+  out += "#   units lj, atom_style granular, atom_modify map array, newton off, communicate single vel yes\n";
+  out += format("#   density of a grain %.9g kg/m^3, mean radius %.9g m, time steps of %.6g s at most\n",
+                scene.grain_density_kg_m3, scene.radius_m(), deck_time_step_s(scene));
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    out +=
+        "#   fix " + walls[i].name +
+        format(" all wall/gran ${wall_model} mesh n_meshes ... meshes ..., each fix mesh/surface file ... type %zu\n",
+               i + 2);
+  out += "\n" + properties(scene, contact, fit);
+  out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
+  return out + "variable     wall_model string \"" + models.walls + "\"\n";
+}
+
 std::string liggghts_begin(const ExportScene& scene, const std::string& what, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# " + what + "; written by " + program_identity() + "\n";
   out += "# For LIGGGHTS-PUBLIC 3.8.0. Numbers are SI; \"units lj\" means \"as they are\" and, unlike \"units si\",\n";
@@ -124,20 +144,18 @@ communicate  single vel yes
 )";
 }
 
-std::string liggghts_slump(const ExportScene& scene, const ContactModel& contact, const Models& models,
-                           const SoulieFit* fit, const std::vector<std::string>& notes) {
+std::string liggghts_slump(const ExportScene& scene, const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
   const double step = deck_time_step_s(scene);
   const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
   std::string out = liggghts_begin(scene, "the slump test, step 1", notes);
   out += "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump\n\nread_data    grains.data\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * test.grains.radius_m);
-  out += properties(scene, contact, fit);
-  out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
+  out += "include      material.inc\n";
   out += format("timestep     %.6g\nfix          weight all gravity 9.81 vector 0 0 -1\n", step);
-  out += "fix          table all wall/gran " + models.walls + " primitive type 3 zplane 0.0\n";
+  out += "fix          table all wall/gran ${wall_model} primitive type 3 zplane 0.0\n";
   out += "fix          cone all mesh/surface file mould.stl type 2\n";
-  out += "fix          mould all wall/gran " + models.walls + " mesh n_meshes 1 meshes cone\n";
+  out += "fix          mould all wall/gran ${wall_model} mesh n_meshes 1 meshes cone\n";
   out += "fix          motion all nve/sphere\ncompute      energy all ke\ncompute      top all reduce max z\n";
   out += "thermo_style custom step c_energy c_top\nthermo       1000\nthermo_modify norm no lost error\n\n";
   const double mass = 4.0 / 3.0 * std::numbers::pi * std::pow(test.grains.radius_m, 3) * scene.grain_density_kg_m3;
@@ -154,30 +172,21 @@ std::string liggghts_slump(const ExportScene& scene, const ContactModel& contact
 }
 
 /// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
-std::string liggghts_two_grains(const ExportScene& scene, const ContactModel& contact, const Models& models,
-                                const SoulieFit* fit, const std::vector<std::string>& notes) {
+std::string liggghts_two_grains(const ExportScene& scene, const ContactModel& contact, const SoulieFit* fit,
+                                const std::vector<std::string>& notes) {
   constexpr int kDistances = 240;
   const double radius = scene.radius_m(), speed = 1e-9;
   const double nearest = two_grain_distances(contact, radius).nearest_m;
   const double farthest = 2 * radius + 1.05 * (fit ? fit->bridge.rupture_gap_m() : 0.05 * radius);
   std::string out = liggghts_begin(scene, "force of two grains against their distance; prints \"apart r F\"",
                                    scene.slump() ? std::vector<std::string>{} : notes);
-  const auto walls = walls_of(scene.test);
-  if (!scene.slump()) {
-    out += format("# For a machine of your own: properties and pair_style below, time steps of %.6g s at most, and\n",
-                  deck_time_step_s(scene));
-    for (std::size_t i = 0; i < walls.size(); ++i)
-      out += "# fix " + walls[i].name + " all wall/gran " + models.walls +
-             format(" mesh n_meshes ... meshes ..., each fix mesh/surface file ... type %zu\n", i + 2);
-  }
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   %zu box\n", -4 * radius,
-                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius, walls.size() + 1);
+                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius, walls_of(scene.test).size() + 1);
   out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", nearest);
   out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
                 scene.grain_density_kg_m3);
   out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * radius);
-  out += properties(scene, contact, fit);
-  out += "pair_style   gran " + models.grains + "\npair_coeff   * *\n";
+  out += "include      material.inc\n";
   out += format("timestep     %.17g\n", (farthest - nearest) / kDistances / speed);
   out += "group        first id 1\ngroup        second id 2\n";
   out += format("fix          pull second move linear %.17g 0 0 units box\n", speed);
@@ -311,14 +320,14 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   const bool attracts = bridge_gaps(contact, pair).rupture_m > 0 && attraction_n(contact, pair, 0) > 0;
   const SoulieFit fit = attracts ? fit_soulie(contact, radius) : SoulieFit{};
   const SoulieFit* const fitted = attracts ? &fit : nullptr;
-  const Models models = models_of(contact, attracts);
   Export out;
   out.notes = liggghts_losses(scene, contact, fitted);
   if (scene.slump())
-    out.files = {{"in.slump", liggghts_slump(scene, contact, models, fitted, out.notes)},
+    out.files = {{"in.slump", liggghts_slump(scene, out.notes)},
                  {"grains.data", liggghts_data(scene)},
                  {"mould.stl", mould_stl(scene.slump()->mould)}};
-  out.files.push_back({"in.two_grains", liggghts_two_grains(scene, contact, models, fitted, out.notes)});
+  out.files.push_back({"in.two_grains", liggghts_two_grains(scene, contact, fitted, out.notes)});
+  out.files.push_back({"material.inc", liggghts_material(scene, contact, models_of(contact, attracts), fitted)});
   if (attracts) out.files.push_back(bridge_curves(scene, fit));
   if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "liggghts"));
   out.instructions = "liggghts -in DECK, which is in.slump or in.two_grains\n";

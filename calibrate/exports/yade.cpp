@@ -17,6 +17,17 @@ namespace pastefit {
 
 namespace {
 
+/// How a script uses the module.
+constexpr const char* kUse =
+    R"PY(SI units. In a script of your own, beside this file, with the walls of WALLS in their order:
+
+    from material import *
+    grain, *walls = materials()           # appended to the scene; density GRAIN_DENSITY, mean radius RADIUS
+    ip2, law2 = laws(grain, *walls)       # for the InteractionLoop
+    attraction = Attraction(ids, radii)   # of the grains; attraction.act() in every step after the InteractionLoop
+    O.dt = TIME_STEP                      # or less
+)PY";
+
 /// What follows the numbers in the module: the same for every card.
 constexpr const char* kModule = R"PY(
 
@@ -127,7 +138,10 @@ constexpr const char* kSlump = R"PY(# The slump test, step 1. In this folder:   
 # Writes filled.dump and heap.dump (id x y z radius), prints the highest grain.
 import os, sys
 sys.path.insert(0, os.getcwd())
-from pastefit_material import *
+from material import *
+
+MOULD_BASE_RADIUS, MOULD_TOP_RADIUS, MOULD_HEIGHT = @MOULD_BASE_RADIUS, @MOULD_TOP_RADIUS, @MOULD_HEIGHT
+LIFT_VELOCITY, REST_TIME = @LIFT_VELOCITY, 2
 
 grain, mould_material, table_material = materials()
 rows = np.loadtxt('grains.csv', delimiter=',', skiprows=1)
@@ -186,10 +200,10 @@ constexpr const char* kTwoGrains = R"PY(# Force of two grains against their dist
 # repulsion positive.
 import os, sys
 sys.path.insert(0, os.getcwd())
-from pastefit_material import *
+from material import *
 
 grain, *wall_materials = materials()
-nearest, farthest, distances = NEAREST, FARTHEST, 240
+nearest, farthest, distances = @NEAREST, @FARTHEST, 240
 ids = [O.bodies.append(sphere((x, 0, 0), RADIUS, material=grain, fixed=True)) for x in (0, nearest)]
 ip2, law2 = laws(grain, *wall_materials)
 attraction = Attraction(ids, [RADIUS, RADIUS])
@@ -217,7 +231,7 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   const auto walls = walls_of(scene.test);
 
   std::string out =
-      "\"\"\"Written by " + program_identity() + " for Yade.\n\nSI units.\n\"\"\"\n" + deck_comment(scene.title);
+      "\"\"\"Written by " + program_identity() + " for Yade.\n\n" + kUse + "\"\"\"\n" + deck_comment(scene.title);
   out +=
       "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
   out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";
@@ -253,19 +267,31 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   out += "# rolling: stiffness over the shear stiffness [m^2], largest moment over the normal force [m]\n";
   number("KROT", rolls ? 2.25 * lever * lever / constants.tangential_ratio : 0);
   number("ETA", rolls ? contact.rolling_friction * pair.effective_radius_m() : 0);
-  if (const SlumpTest* test = scene.slump()) {
-    number("MOULD_BASE_RADIUS", test->mould.base_radius_m);
-    number("MOULD_TOP_RADIUS", test->mould.top_radius_m);
-    number("MOULD_HEIGHT", test->mould.height_m);
-    number("LIFT_VELOCITY", test->lift_velocity_m_s);
-    number("REST_TIME", 2);
-  }
+  out += "# longest time step, density of a grain\n";
   number("TIME_STEP", deck_time_step_s(scene));
-  out += "# distances of the two grains\n";
-  const Distances distances = two_grain_distances(contact, radius);
-  number("NEAREST", distances.nearest_m);
-  number("FARTHEST", distances.farthest_m);
+  number("GRAIN_DENSITY", scene.grain_density_kg_m3);
   return out + kModule;
+}
+
+/// A script with its numbers in place of their names with @.
+std::string with_numbers(std::string script, std::initializer_list<std::pair<std::string, double>> numbers) {
+  for (const auto& [name, value] : numbers) {
+    const auto at = script.find("@" + name);
+    script.replace(at, name.size() + 1, format("%.17g", value));
+  }
+  return script;
+}
+
+std::string slump_script(const SlumpTest& test) {
+  return with_numbers(kSlump, {{"MOULD_BASE_RADIUS", test.mould.base_radius_m},
+                               {"MOULD_TOP_RADIUS", test.mould.top_radius_m},
+                               {"MOULD_HEIGHT", test.mould.height_m},
+                               {"LIFT_VELOCITY", test.lift_velocity_m_s}});
+}
+
+std::string two_grains_script(const ExportScene& scene, const ContactModel& contact) {
+  const Distances distances = two_grain_distances(contact, scene.radius_m());
+  return with_numbers(kTwoGrains, {{"NEAREST", distances.nearest_m}, {"FARTHEST", distances.farthest_m}});
 }
 
 }  // namespace
@@ -306,11 +332,11 @@ Result<Export> export_yade(const ExportScene& scene) {
         "no dashpot.");
   const double weight = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * scene.grain_density_kg_m3 * kGravity;
   if (const auto note = note_of_constant_torque(scene, 10 * weight); !note.empty()) out.notes.push_back(note);
-  out.files = {{"pastefit_material.py", module_of(scene, contact)}, {"two_grains.py", kTwoGrains}};
+  out.files = {{"material.py", module_of(scene, contact)}, {"two_grains.py", two_grains_script(scene, contact)}};
   if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "yade"));
   if (const SlumpTest* test = scene.slump()) {
     if (test->drop) out.notes.push_back("The script runs step 1. The drop of the plate, step 2, is not part of it.");
-    out.files.push_back({"slump.py", kSlump});
+    out.files.push_back({"slump.py", slump_script(*test)});
     out.files.push_back(grains_csv(scene));
   }
   out.instructions = "yade -n -x SCRIPT, which is slump.py or two_grains.py\n";

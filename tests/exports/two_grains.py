@@ -202,7 +202,7 @@ def main(program, card_file, target, law=None):
             print(f"skipped: {missing} is not installed")
             return engines.SKIP
         run = subprocess.run(command, cwd=deck, capture_output=True, text=True, timeout=300, env=engines.environment())
-        fit = fit_of(deck / "in.two_grains", test) if target == "liggghts" and not law else None
+        fit = fit_of(deck / "material.inc", test) if target == "liggghts" and not law else None
         if target.startswith("lammps"):
             test = of_deck_grains(test, deck / "in.two_grains")
     apart, back = distances(run.stdout, "apart"), distances(run.stdout, "back")

@@ -46,8 +46,9 @@ class HostileInput(Desk):
 
     def test_a_title_in_a_deck_is_a_comment_of_one_line(self):
         plain, titled = coarse_card(), self.titled(coarse_card())
-        for target, decks in (("lammps", ("in.slump", "in.two_grains")), ("lammps-tables", ("in.slump", "in.two_grains")),
-                              ("liggghts", ("in.slump", "in.two_grains")), ("yade", ("pastefit_material.py",))):
+        for target, decks in (("lammps", ("in.slump", "in.two_grains", "material.inc")),
+                              ("lammps-tables", ("in.slump", "in.two_grains", "material.inc")),
+                              ("liggghts", ("in.slump", "in.two_grains", "material.inc")), ("yade", ("material.py",))):
             with self.subTest(target):
                 for name, card in (("plain", plain), ("titled", titled)):
                     result = run("export", card, "--to", target, "--out", self.folder / target / name)
@@ -66,7 +67,7 @@ class HostileInput(Desk):
     def test_a_title_in_a_module_of_python_runs_nothing(self):
         result = run("export", self.titled(coarse_card()), "--to", "yade", "--out", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
-        module = (self.out / "pastefit_material.py").read_bytes()
+        module = (self.out / "material.py").read_bytes()
         self.assertNotIn(b"coding", b"\n".join(module.split(b"\n")[:2]))
         for statement in ast.walk(ast.parse(module)):
             self.assertNotIn("pwned", ast.dump(statement) if isinstance(statement, ast.stmt) else "")

@@ -120,6 +120,9 @@ class Pipe(Desk):
             text = self.done("export", out / "card.json", "--to", target, "--out", out / "deck" / target)
             files = {file.name for file in (out / "deck" / target).iterdir()}
             self.assertIn(script, files)
+            material = "material.py" if target == "yade" else "material.inc"
+            self.assertIn(material, files)
+            self.assertIn(material.split(".")[0], (out / "deck" / target / script).read_text())
             self.assertEqual("in.slump" in files or "slump.py" in files, is_slump(kind))
             self.assertIn("contact laws is lost" if kind == "drop" else "What is lost or changed", text)
             if is_slump(kind) or not shutil.which(command[0]):

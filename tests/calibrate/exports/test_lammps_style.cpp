@@ -165,21 +165,26 @@ TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it")
     scene.test = test;
     const auto written = export_lammps(scene);
     REQUIRE(written.ok());
-    const std::string& deck = written.value().files[0].content;
-    const auto after = [&](const std::string& command, const std::string& end) {
-      const auto from = deck.find(command) + command.size();
-      std::string text = deck.substr(from, deck.find(end, from) - from);
+    const auto file = [&](std::string_view name) {
+      return std::ranges::find(written.value().files, name, &ExportFile::name)->content;
+    };
+    const std::string deck = file("in.slump"), material = file("material.inc");
+    const auto between = [](const std::string& whole, const std::string& command, const std::string& end) {
+      const auto from = whole.find(command) + command.size();
+      std::string text = whole.substr(from, whole.find(end, from) - from);
       std::erase(text, '&');
       std::ranges::replace(text, '\n', ' ');
       return words(text);
     };
     style::Law law;
-    CHECK(style::read_law(after("pair_style   pastefit ", "\npair_coeff"), law) == "");
+    CHECK(style::read_law(between(material, "pair_style   pastefit ", "\npair_coeff"), law) == "");
     style::WallLaw wall;
-    CHECK(style::read_wall_law(after("wall/pastefit mould ", "\nfix"), wall) == "");
+    CHECK(style::read_wall_law(between(material, "mould_law string \"", "\""), wall) == "");
     CHECK(wall.friction == test.mould_wall.friction);
+    CHECK_THAT(deck, Catch::Contains("\ninclude      material.inc\n") &&
+                         Catch::Contains("wall/pastefit mould ${mould_law}\n") && !Catch::Contains("pair_style"));
     style::Hinge plate;
-    CHECK(style::read_hinge(after("hinge/pastefit table ", "\nvariable"), plate) == "");
+    CHECK(style::read_hinge(between(deck, "hinge/pastefit table ", "\nvariable"), plate) == "");
     CHECK(plate.angle_rad == Approx(-std::asin(0.04 / 0.7)));
     if (shape == BridgeShape::polynomial) CHECK(law.a_n_m2 == -1500);
   }

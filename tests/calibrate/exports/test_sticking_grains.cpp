@@ -175,12 +175,12 @@ TEST_CASE("where another law stands in for JKR the notes say what differs, with 
   }
 }
 
-TEST_CASE("a card without a slump test goes to DEM programs as its law: two grains, and the walls to copy") {
+TEST_CASE("a card without a slump test goes to DEM programs as its law: two grains, and the walls' laws") {
   const std::map<std::string_view, std::pair<std::string, std::string>> lines{
-      {"lammps-tables", {"pair_coeff   1 1 jkr 2000000 ", "# fix          tools all wall/gran/region granular hertz"}},
+      {"lammps-tables", {"pair_coeff   1 1 jkr 2000000 ", "tools_law string \"granular hertz"}},
       {"liggghts",
        {"pair_style   gran model hertz tangential history cohesion sjkr2 rolling_friction cdt",
-        "# fix tools all wall/gran"}},
+        "#   fix tools all wall/gran ${wall_model} mesh"}},
       {"yade", {"SURFACE_ENERGY = ", "WALLS = ['tools', ]"}}};
   for (const auto& exporter : exporters()) {
     INFO(exporter.name);
