@@ -56,6 +56,17 @@ std::string comparison_text(const ExportOptions& options, const Card& card, cons
   return out + "\n";
 }
 
+/// What another law in place of the card's does to the heap, and how to do without it.
+std::string bias_text(const Export& written) {
+  if (written.own_law.empty()) return {};
+  std::string out = "\nAnother law than the card's is written, so expect another heap.\n";
+  if (!written.heap.empty())
+    out +=
+        "To measure by how much: run the deck in three or more packings (pastefit export with --packing 1, 2, 3)\n"
+        "and compare each heap by the command at the end; the mean difference is the bias of the law.\n";
+  return out + "To have none: calibrate with a law that this program has, in the study\n    " + written.own_law + "\n";
+}
+
 std::string notes_text(const ExportOptions& options, const Exporter& exporter, const Card& card, const CardTest& test,
                        const Export& written) {
   std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
@@ -63,6 +74,7 @@ std::string notes_text(const ExportOptions& options, const Exporter& exporter, c
   out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
+  out += lines_of(bias_text(written));
   if (!written.heap.empty()) out += lines_of(comparison_text(options, card, test, written.heap));
   return out;
 }

@@ -96,9 +96,12 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
-  return Export{
+  Export out{
       law_files(scene, {{"edem.txt", laws_in_words(scene) + bridge_instructions(scene)}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
+  if (contact.bridge.shape != BridgeShape::none)
+    out.own_law = R"("contact": {"normal": "jkr", "attraction": "none"}, with "adhesion_pa" free)";
+  return out;
 }
 
 }  // namespace pastefit

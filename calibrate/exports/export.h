@@ -53,6 +53,7 @@ struct Export {
   std::vector<std::string> notes;  ///< what the target cannot represent, each with a number; for people
   std::string instructions = {};   ///< how to run it
   std::string heap = {};           ///< the dump that the deck of the whole test leaves; empty: there is no such deck
+  std::string own_law = {};        ///< where another law stands in: what to choose in a study so that none has to
 };
 
 /// A target. Errors: a law the target lacks and nothing can stand in for.

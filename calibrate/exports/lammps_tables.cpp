@@ -273,6 +273,8 @@ Result<Export> export_lammps_tables(const ExportScene& scene) {
   out.notes = table_losses(scene, load / 10);
   out.files = lammps_deck(scene, laws, out.notes, radii);
   if (attracts) out.files.push_back({"attraction.table", tables});
+  if (attracts && (bridge_gaps(contact, mean).remembers() || contact.friction_basis != FrictionBasis::elastic))
+    out.own_law = R"("contact": {"friction_basis": "elastic"} and "formation_ratio": {"value": 1})";
   if (scene.slump()) out.heap = "heap.dump";
   return out;
 }

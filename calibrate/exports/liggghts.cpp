@@ -330,6 +330,8 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   out.files.push_back({"material.inc", liggghts_material(scene, contact, models_of(contact, attracts), fitted)});
   if (attracts) out.files.push_back(bridge_curves(scene, fit));
   if (contact.normal != card.normal) out.files.push_back(sticking_curves(scene, contact, "liggghts"));
+  if (attracts || contact.normal != card.normal)
+    out.own_law = R"("contact": {"normal": "sjkr", "attraction": "none"}, with "cohesion_energy_density_pa" free)";
   out.instructions = "liggghts -in DECK, which is in.slump or in.two_grains\n";
   if (scene.slump()) out.heap = "heap.dump";
   return out;

@@ -339,6 +339,8 @@ Result<Export> export_yade(const ExportScene& scene) {
     out.files.push_back({"slump.py", slump_script(*test)});
     out.files.push_back(grains_csv(scene));
   }
+  if (contact.normal != card.normal)
+    out.own_law = R"("contact": {"normal": "dmt", "attraction": "none"}, with "adhesion_pa" free)";
   out.instructions = "yade -n -x SCRIPT, which is slump.py or two_grains.py\n";
   if (scene.slump()) out.heap = "heap.dump";
   return out;
