@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "calibrate/exports/export.h"
@@ -109,6 +110,22 @@ TEST_CASE("every exporter writes files, and says what it loses") {
     CHECK_FALSE(written.value().notes.empty());
     const auto text = text_of(written.value());
     CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf ") && !Catch::Contains("inf\n"));
+  }
+}
+
+TEST_CASE("where another law stands in for the card's, the export says which one the program has itself") {
+  const std::map<std::string_view, std::string> own{
+      {"lammps", ""}, {"yade", ""}, {"liggghts", "sjkr"}, {"lammps-tables", "friction_basis"}, {"edem-notes", "jkr"}};
+  SlumpTest material = slump_of_paste();
+  material.contact.friction_basis = FrictionBasis::total;
+  for (const auto& exporter : exporters()) {
+    const auto expected = own.find(exporter.name);
+    if (expected == own.end()) continue;
+    INFO(exporter.name);
+    const auto written = exporter.write(scene(material));
+    REQUIRE(written.ok());
+    CHECK(written.value().own_law.empty() == expected->second.empty());
+    CHECK_THAT(written.value().own_law, Catch::Contains(expected->second));
   }
 }
 
