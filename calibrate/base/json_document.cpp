@@ -37,6 +37,54 @@ std::string complaint(const json::exception& error) {
   return text;
 }
 
+/// A character of word processors and other encodings in place of one that JSON has: what it is, and what to do.
+struct ForeignCharacter {
+  std::string_view bytes, what, remedy;
+};
+
+constexpr std::array<ForeignCharacter, 9> foreign_characters{{
+    {"\xC2\xA0", "a no-break space", "type a space in its place"},
+    {"\xE2\x80\xAF", "a no-break space", "type a space in its place"},
+    {"\xE2\x80\x9C", "a typographic quotation mark", "write \" in its place"},
+    {"\xE2\x80\x9D", "a typographic quotation mark", "write \" in its place"},
+    {"\xE2\x80\x9E", "a typographic quotation mark", "write \" in its place"},
+    {"\xE2\x80\x98", "a typographic quotation mark", "write \" in its place"},
+    {"\xE2\x80\x99", "a typographic quotation mark", "write \" in its place"},
+    {"\xE2\x88\x92", "a typographic minus sign", "write - in its place"},
+    {"\xE2\x80\x93", "a dash", "write - in its place"},
+}};
+
+constexpr std::string_view save_as_utf8 = "save the file as UTF-8 (Notepad: Save as, Encoding: UTF-8)";
+
+/// The fault of a text in UTF-16, which has a null byte beside every letter.
+std::optional<Fault> utf_16(std::string_view text) {
+  const bool marked = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const bool brace = text.starts_with(std::string_view("{\0", 2)) || text.starts_with(std::string_view("\0{", 2));
+  if (!marked && !brace) return std::nullopt;
+  return Fault{"", "is in the encoding UTF-16", std::string(save_as_utf8)};
+}
+
+/// Why the parser stopped after so many bytes, in the words of who typed the text; nothing if the parser knows best.
+std::optional<std::pair<std::string, std::string>> typed_there(std::string_view text, std::size_t bytes_read) {
+  const std::size_t last = std::min(bytes_read, text.size());
+  for (std::size_t at = last - std::min<std::size_t>(last, 3); at < last; ++at)
+    for (const auto& [bytes, what, remedy] : foreign_characters)
+      if (text.substr(at).starts_with(bytes)) return std::pair(std::string(what), std::string(remedy));
+  const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  std::size_t first = last;
+  while (first > 0 && is_digit(first - 1)) --first;
+  if (first > 1 && is_digit(first) && text[first - 1] == ',' && is_digit(first - 2)) {
+    std::size_t whole = first - 1;
+    while (whole > 0 && (is_digit(whole - 1) || text[whole - 1] == '-')) --whole;
+    std::size_t end = first;
+    while (is_digit(end)) ++end;
+    const std::string before(text.substr(whole, first - 1 - whole)), after(text.substr(first, end - first));
+    if (before.size() + after.size() < 20)
+      return std::pair("a decimal comma", "write " + before + "." + after + ", with a decimal point");
+  }
+  return std::nullopt;
+}
+
 /// First pass over the text: is it JSON, and does a key stand twice? (The document type keeps the last one silently.)
 class SyntaxCheck final : public nlohmann::json_sax<json> {
  public:
@@ -63,7 +111,13 @@ class SyntaxCheck final : public nlohmann::json_sax<json> {
   }
 
   bool parse_error(std::size_t position, const std::string&, const json::exception& error) override {
-    faults_.push_back({line_and_column(text_, position), "not JSON: " + complaint(error), "correct the text there"});
+    const auto typed = typed_there(text_, position);
+    const std::string what = typed ? typed->first : complaint(error);
+    const bool encoding = !typed && what.find("UTF-8") != std::string::npos;
+    faults_.push_back({line_and_column(text_, position), "not JSON: " + what,
+                       typed      ? typed->second
+                       : encoding ? "if letters such as ö stand there, " + std::string(save_as_utf8)
+                                  : "correct the text there"});
     return false;
   }
 
@@ -112,6 +166,10 @@ class SyntaxCheck final : public nlohmann::json_sax<json> {
 }  // namespace
 
 std::optional<json> parse_json(std::string_view text, Faults& faults) {
+  if (std::optional<Fault> foreign = utf_16(text)) {
+    faults.push_back(std::move(*foreign));
+    return std::nullopt;
+  }
   // The parser takes a null byte for the end.
   if (const auto null = text.find('\0'); null != std::string_view::npos) {
     faults.push_back({line_and_column(text, null + 1), "not JSON: a null byte", "correct the text there"});

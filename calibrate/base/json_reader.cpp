@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/units.h"
+
 namespace pastefit {
 namespace {
 
@@ -18,11 +20,65 @@ std::string listed(const Words& words) {
   return list;
 }
 
+/// What to write in place of a key that is known in another unit; empty if there is none.
+std::string in_unit_of_files(std::string_view key, const Words& known) {
+  const std::optional<Unit> unit = unit_of_key(key);
+  if (!unit) return "";
+  Words of_quantity;
+  for (const std::string& word : known) {
+    const std::optional<Unit> own = unit_of_key(word);
+    if (own && own->key == unit->key && own->factor == 1) of_quantity.insert(word);
+  }
+  const std::size_t cut = key.find_last_of('_', key.size() - 2);
+  std::optional<std::string> near = nearest(std::string(key.substr(0, cut + 1)) + std::string(unit->key), of_quantity);
+  if (!near && of_quantity.size() == 1) near = *of_quantity.begin();
+  if (!near || unit->factor == 1) return "";
+  const std::string own(unit_of_word(unit->key)->name);
+  return "give " + in_quotes(*near) + " in " + own + ": 1 " + std::string(unit->name) + " is " + shown(unit->factor) +
+         " " + own;
+}
+
+/// What to write in place of a text that holds a number, with a decimal comma or a unit; empty if it holds none.
+std::string as_number(const json& value, const std::optional<Unit>& unit) {
+  const std::string* text = value.get_ptr<const std::string*>();
+  const std::optional<WrittenNumber> written = text ? written_number(*text) : std::nullopt;
+  if (!written || (written->unit && (!unit || written->unit->key != unit->key))) return "";
+  const double factor = written->unit ? written->unit->factor : 1;
+  return "write " + shown(written->value * factor) + (written->comma ? ", with a decimal point and" : ",") +
+         " without quotes";
+}
+
+/// The numbers that a list was meant to hold, if decimal commas made two of each: [162,5, 165,0] is 162.5 and 165.0.
+std::string without_decimal_commas(const json& list, std::size_t wanted) {
+  const bool whole = std::ranges::all_of(list, [](const json& entry) { return entry.is_number_integer(); });
+  if (!whole || list.empty() || list.size() % 2 != 0 || (wanted > 0 && list.size() != 2 * wanted)) return "";
+  constexpr double most_digits = 99;
+  double smallest = std::numeric_limits<double>::max(), largest = 0, fraction = 0;
+  std::string out;
+  for (std::size_t i = 0; i < list.size(); i += 2) {
+    const double before = list[i].get<double>(), after = list[i + 1].get<double>();
+    if (before < 0 || after < 0 || after > most_digits) return "";
+    smallest = std::min(smallest, before);
+    largest = std::max(largest, before);
+    fraction = std::max(fraction, after);
+    out += (out.empty() ? "[" : ", ") + list[i].dump() + "." + list[i + 1].dump();
+  }
+  // Where the number of entries does not tell, only large and small numbers by turns do.
+  const bool by_turns = fraction < smallest / 2 && largest - smallest < (smallest - fraction) / 2;
+  return wanted > 0 || by_turns ? out + "]" : "";
+}
+
 }  // namespace
 
-std::string text_of(const Range& range) {
-  if (range.open) return "a number above " + shown(range.smallest) + " and at most " + shown(range.largest);
-  return "a number from " + shown(range.smallest) + " to " + shown(range.largest);
+std::string text_of(const Range& range, std::string_view unit) {
+  const bool below = range.smallest > std::numeric_limits<double>::lowest();
+  const bool above = range.largest < std::numeric_limits<double>::max();
+  const std::string end = unit.empty() ? "" : " " + std::string(unit);
+  if (!below && !above) return "a number";
+  if (!below) return "a number of at most " + shown(range.largest) + end;
+  if (!above) return (range.open ? "a number above " : "a number of at least ") + shown(range.smallest) + end;
+  if (range.open) return "a number above " + shown(range.smallest) + " and at most " + shown(range.largest) + end;
+  return "a number from " + shown(range.smallest) + " to " + shown(range.largest) + end;
 }
 
 ObjectReader::ObjectReader(const json& value, std::string place, Faults& faults)
@@ -32,13 +88,19 @@ ObjectReader::~ObjectReader() {
   for (const auto& [key, value] : object_.items()) {
     if (known_.contains(key)) continue;
     const std::optional<std::string> near = nearest(key, known_);
-    faults_.push_back({joined(place_, printable(key)), std::string(unknown_key),
-                       near ? "did you mean " + in_quotes(*near) + "?" : "known here: " + listed(known_)});
+    std::string remedy = in_unit_of_files(key, known_);
+    if (remedy.empty()) remedy = near ? "did you mean " + in_quotes(*near) + "?" : "known here: " + listed(known_);
+    faults_.push_back({joined(place_, printable(key)), std::string(unknown_key), std::move(remedy)});
   }
 }
 
 bool ObjectReader::has(std::string_view key) const {
   return object_.contains(key);
+}
+
+const json* ObjectReader::content(std::string_view key) const {
+  const auto value = object_.find(key);
+  return value == object_.end() ? nullptr : &*value;
 }
 
 void ObjectReader::former(std::string_view key, std::string instead) {
@@ -129,8 +191,15 @@ bool ObjectReader::numbers(std::string_view key, std::vector<double>& target, co
   const bool any_length = most == 0;
   if (!value->is_array() || value->size() < least || (!any_length && value->size() > most)) {
     const std::string count = std::to_string(least);
+    const std::string decimals = value->is_array() ? without_decimal_commas(*value, most) : "";
     fault(key, "is " + (value->is_array() ? "a list of " + std::to_string(value->size()) : text_of(*value)),
-          most == least ? "a list of " + count + " numbers" : "a list of at least " + count + " numbers");
+          (most == least ? "a list of " + count + " numbers" : "a list of at least " + count + " numbers") +
+              (decimals.empty() ? "" : "; with decimal points it is " + decimals));
+    return false;
+  }
+  if (const std::string decimals = any_length ? without_decimal_commas(*value, 0) : ""; !decimals.empty()) {
+    fault(key, "is a list of " + std::to_string(value->size()) + " whole numbers, large and small by turns",
+          "a decimal comma parts two numbers here: write " + decimals);
     return false;
   }
   bool good = true;
@@ -187,6 +256,18 @@ bool ObjectReader::integers(std::string_view key, std::vector<std::uint64_t>& ta
   return true;
 }
 
+bool ObjectReader::texts(std::string_view key, std::vector<std::string>& target, Need need) {
+  const json* value = find(key, need);
+  if (!value) return false;
+  const auto is_text = [](const json& entry) { return entry.is_string(); };
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_text)) {
+    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)), "a list of texts in quotes");
+    return false;
+  }
+  target = value->get<std::vector<std::string>>();
+  return true;
+}
+
 void ObjectReader::refuse(std::string_view key, std::string what, std::string remedy) {
   if (!has(key)) return;
   known_.emplace(key);
@@ -214,8 +295,16 @@ bool ObjectReader::check_number(std::string_view place, const json& value, const
     const double number = value.get<double>();
     good = number >= range.smallest && number <= range.largest && !(range.open && number == range.smallest);
   }
-  if (!good) faults_.push_back({std::string(place), "is " + text_of(value), text_of(range)});
-  return good;
+  if (good) return true;
+  const std::optional<Unit> unit = unit_of_place(place);
+  std::string remedy = as_number(value, unit);
+  if (remedy.empty()) remedy = text_of(range, unit ? unit->name : "");
+  if (value.is_number() && unit)
+    if (const std::string meant = in_other_units(value.get<double>(), unit->key, range.smallest, range.largest);
+        !meant.empty())
+      remedy += "; " + meant;
+  faults_.push_back({std::string(place), "is " + text_of(value), std::move(remedy)});
+  return false;
 }
 
 std::optional<std::size_t> ObjectReader::word(std::string_view key, std::span<const std::string_view> words,

@@ -27,8 +27,8 @@ struct Range {
   bool open = false;  ///< `smallest` itself is refused
 };
 
-/// "a number from 1 to 5000", for remedies.
-std::string text_of(const Range& range);
+/// "a number from 1 to 5000 mm", for remedies.
+std::string text_of(const Range& range, std::string_view unit = "");
 
 /// Whether an object must have the key.
 enum class Need { required, optional };
@@ -62,6 +62,8 @@ class ObjectReader {
   ObjectReader& operator=(const ObjectReader&) = delete;
 
   bool has(std::string_view key) const;
+  /// What stands there; null if nothing does.
+  const nlohmann::json* content(std::string_view key) const;
   /// A key of earlier programs is a fault that says what stands in its place.
   void former(std::string_view key, std::string instead);
   /// Names a key that was read elsewhere.
@@ -69,6 +71,8 @@ class ObjectReader {
   Faults& faults() { return faults_; }
   /// The path of a key of this object.
   std::string place(std::string_view key) const;
+  /// Of the object itself.
+  const std::string& place() const { return place_; }
   void fault(std::string_view key, std::string what, std::string remedy);
 
   /// target = number in the file / `per_si`, e.g. 1000 for millimetres into metres. `range` is in the key's unit.
@@ -88,6 +92,7 @@ class ObjectReader {
   /// A list of at least `least` pairs of numbers [first, second], the first ones ascending.
   bool pairs(std::string_view key, std::vector<std::array<double, 2>>& target, const Range& first, const Range& second,
              Need need, std::size_t least);
+  bool texts(std::string_view key, std::vector<std::string>& target, Need need);
   /// A list of whole numbers from 0, exact up to 64 bits (seeds).
   bool integers(std::string_view key, std::vector<std::uint64_t>& target, Need need);
   template <class T, std::size_t N>
@@ -96,9 +101,9 @@ class ObjectReader {
   bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Usual<T>) {
     return choice(key, target, words, Need::optional);
   }
-  /// Calls `body(ObjectReader&)` for an object of this object.
+  /// Calls `body(ObjectReader&)` for an object of this object. `remedy` is what to write where it is none.
   template <class Body>
-  bool object(std::string_view key, Need need, Body body);
+  bool object(std::string_view key, Need need, Body body, std::string_view remedy = "an object { ... }");
   /// As `object`, into `target`; null empties it, and an absent optional key leaves it as it is.
   template <class T, class Body>
   bool nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body);
@@ -130,8 +135,8 @@ bool ObjectReader::choice(std::string_view key, T& target, const std::array<Name
 }
 
 template <class Body>
-bool ObjectReader::object(std::string_view key, Need need, Body body) {
-  const nlohmann::json* value = find_object(key, need, "an object { ... }");
+bool ObjectReader::object(std::string_view key, Need need, Body body, std::string_view remedy) {
+  const nlohmann::json* value = find_object(key, need, remedy);
   if (!value) return false;
   ObjectReader reader(*value, place(key), faults_);
   body(reader);

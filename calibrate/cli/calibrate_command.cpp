@@ -99,6 +99,7 @@ std::string notes_on_readings(const Study& study) {
   std::string out;
   for (const StudyTest& test : study.tests) {
     if (!test.lab.note.empty()) out += test.lab_file + ": " + test.lab.note + ".\n";
+    for (const std::string& note : test.lab.notes) out += test.lab_file + ": " + note + ".\n";
     for (const std::string& note : doubts_about(test.lab.test, test.lab.measurements).notes)
       out += test.lab_file + ": " + note + ".\n";
   }

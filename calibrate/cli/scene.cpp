@@ -146,6 +146,14 @@ std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, F
   return std::nullopt;
 }
 
+/// What a person should know of a laboratory file before its test runs.
+std::vector<std::string> notes_of(const Lab& lab) {
+  std::vector<std::string> notes = lab.notes;
+  if (!lab.note.empty()) notes.insert(notes.begin(), lab.note);
+  for (std::string& note : doubts_about(lab.test, lab.measurements).notes) notes.push_back(std::move(note));
+  return notes;
+}
+
 std::optional<FoundScene> study_scene(const Settings& settings, const std::string& name,
                                       const std::filesystem::path& file, Faults& faults) {
   const auto study = read_study(file);
@@ -169,7 +177,7 @@ std::optional<FoundScene> study_scene(const Settings& settings, const std::strin
     specimen_of(test).contact = contact;
   }
   const std::vector<double> middle(static_cast<std::size_t>(free_count(study.value())), 0.5);
-  return FoundScene{with_parameters(test, values_at(study.value(), middle), settings, faults), of_study.lab.note};
+  return FoundScene{with_parameters(test, values_at(study.value(), middle), settings, faults), notes_of(of_study.lab)};
 }
 
 std::optional<FoundScene> card_scene(const json& document, const Settings& settings, const std::string& name,
@@ -185,8 +193,8 @@ std::optional<FoundScene> card_scene(const json& document, const Settings& setti
   const auto place = chosen(card.value().tests, name, faults);
   if (!place) return std::nullopt;
   const Test& test = card.value().tests[*place].test;
-  if (settings.parameters.empty()) return FoundScene{test, ""};
-  return FoundScene{with_parameters(test, values_of(card.value().material), settings, faults), ""};
+  if (settings.parameters.empty()) return FoundScene{test, {}};
+  return FoundScene{with_parameters(test, values_of(card.value().material), settings, faults), {}};
 }
 
 std::optional<FoundScene> test_scene(const json& document, const Settings& settings, const std::string& name,
@@ -199,12 +207,12 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
     if (lab.ok())
-      return FoundScene{with_parameters(lab.value().test, usual_values(), settings, faults), lab.value().note};
+      return FoundScene{with_parameters(lab.value().test, usual_values(), settings, faults), notes_of(lab.value())};
     return std::nullopt;
   }
   if (format == "pastefit-rig-1") {
     const auto rig = read_with(document, settings, file, faults, rig_from_json);
-    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, usual_values(), settings, faults), ""};
+    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, usual_values(), settings, faults), {}};
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),
@@ -227,7 +235,7 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
     if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
     const auto impact = read_with(*document, settings, file, faults, impact_from_json);
     if (!faults.empty()) return faults;
-    return FoundScene{impact.value(), ""};
+    return FoundScene{impact.value(), {}};
   }
   auto found = test_scene(*document, settings, name, file, faults);
   if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);

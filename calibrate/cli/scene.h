@@ -17,7 +17,7 @@ using Scene = std::variant<Test, Impact>;
 /// A scene of a file, and what a person should know of where it comes from; mostly nothing.
 struct FoundScene {
   Scene scene;
-  std::string note;
+  std::vector<std::string> notes;
 };
 
 /// The test that a file stands for: that of a study (free parameters in the middle of their bounds), a card,

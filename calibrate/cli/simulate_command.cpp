@@ -261,7 +261,7 @@ Result<Outcome> outcome_of(const Scene& test, const RunOptions& run, const std::
 int simulate_file(const SimulateOptions& options) {
   auto found = read_scene(options.file, options.settings, options.test);
   if (!found.ok()) return report(found.faults());
-  if (!found.value().note.empty()) note("pastefit: %s\n", found.value().note.c_str());
+  for (const std::string& remark : found.value().notes) note("pastefit: %s\n", remark.c_str());
   Scene test = std::move(found).value().scene;
   if (options.seed) {
     auto* of_lab = std::get_if<Test>(&test);

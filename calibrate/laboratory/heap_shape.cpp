@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/units.h"
 
 namespace pastefit {
 namespace {
@@ -58,30 +59,52 @@ double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
   return low;
 }
 
+/// Of the narrowest heap of this height, a flat cylinder.
+double narrowest_mm(const SlumpTest& test, double height_mm) {
+  return pancake * cone_width_mm(test, height_mm);
+}
+
+/// "; a radius of 236 mm, given as a width, is a width of 472 mm": what a heap that is too narrow may be. Empty if it
+/// is none of that.
+std::string slips_of(const SlumpTest& test, const Heap& heap) {
+  constexpr double widest = 1.15;  // over a cone: skirts
+  const double mould_mm = 1e3 * test.mould.height_m, other_mm = mould_mm - heap.height.value;
+  const double psi = psi_of(test, heap);
+  const auto is_heap = [](double share) { return share >= pancake && share <= widest; };
+  std::string out;
+  if (is_heap(2 * psi))
+    out += format("; if %.4g mm is a radius, the width is %.4g mm", heap.width.value, 2 * heap.width.value);
+  if (other_mm > 0 && is_heap(heap.width.value / cone_width_mm(test, other_mm)))
+    out += format("; if %.4g mm is a slump, the height is %.4g mm", heap.height.value, other_mm);
+  return out;
+}
+
 std::string in_words(const SlumpTest& test, const Heap& heap) {
   const double psi = psi_of(test, heap), deviation = deviation_of_psi(test, heap);
-  const std::string size =
-      format("%.4g mm high and %.4g mm wide (psi %.2f +- %.2f)", heap.height.value, heap.width.value, psi, deviation);
+  const std::string size = format("%.4g mm high and %.4g mm wide (%.2f +- %.2f of a cone's width)", heap.height.value,
+                                  heap.width.value, psi, deviation);
   if (psi > 1 + explained * deviation) {
     const double height_mm = nearest_cone_mm(test, heap);
     return "no convex heap of this volume is " + size +
            ": check the readings, or the heap has a peak on a skirt; a cone, the nearest that can be, is " +
            format("%.4g mm high and %.4g mm wide", height_mm, cone_width_mm(test, height_mm));
   }
+  if (psi < pancake)
+    return "check the readings: no heap of this volume is " + size +
+           format("; the narrowest, a flat cylinder, is %.4g mm wide", narrowest_mm(test, heap.height.value)) +
+           slips_of(test, heap);
   if (psi > 1) return "a heap of this volume " + size + " is wider than a cone, by no more than the readings' noise";
-  const char* shape = psi < pancake      ? "flatter than a pancake, by no more than the readings' noise"
-                      : psi < paraboloid ? "between a pancake and a paraboloid"
-                                         : "between a paraboloid and a cone";
-  return "a heap of this volume " + size + " is " + shape;
+  return "a heap of this volume " + size + " is " +
+         (psi < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
 }
 
 Fault missing_volume(const SlumpTest& test, const Heap& heap) {
-  const double volume_mm3 = 1e9 * volume_m3(test.mould);
   return {"measurements",
           heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
               format(" (%.4g): what the mould holds does not fit in; a flat cylinder of this height, the narrowest "
                      "heap, is %.4g mm wide",
-                     heap.width.value, std::sqrt(4 * volume_mm3 / (std::numbers::pi * heap.height.value))),
+                     heap.width.value, narrowest_mm(test, heap.height.value)) +
+              slips_of(test, heap),
           "look for a slump that was given as a height, for a radius that was given as a width, and at the mould"};
 }
 
@@ -91,12 +114,27 @@ double cone_width_mm(const SlumpTest& test, double height_mm) {
   return 2 * std::sqrt(3e9 * volume_m3(test.mould) / (std::numbers::pi * height_mm));
 }
 
+namespace {
+
+/// A slump that hardly is one may be in inches or centimetres.
+std::string small_slump(const SlumpTest& test, const Measurement& height) {
+  constexpr double small = 0.08;  // of the mould's height
+  const double mould_mm = 1e3 * test.mould.height_m, slump_mm = mould_mm - height.value;
+  if (slump_mm <= 0 || slump_mm > small * mould_mm) return "";
+  const std::string others = in_other_units(slump_mm, "mm", 0, mould_mm);
+  return others.empty() ? "" : format("a slump of %.4g mm hardly is one; look at its unit: ", slump_mm) + others;
+}
+
+}  // namespace
+
 Doubts doubts_about(const SlumpTest& test, std::span<const Measurement> measurements) {
   Doubts doubts;
   for (const std::string step : {"step1.", "step2."}) {
     const Measurement* height =
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
     const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
+    if (height)
+      if (std::string note = small_slump(test, *height); !note.empty()) doubts.notes.push_back(std::move(note));
     if (!height || !width || height->value <= 0) continue;
     const Heap heap{*height, *width};
     if (psi_of(test, heap) < pancake - sure * deviation_of_psi(test, heap))

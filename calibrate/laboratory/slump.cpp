@@ -172,6 +172,11 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& mome
   return NamedOutline{first ? "step1" : "step2", outline(on_table(moment.world->particles), test.grains.radius_m)};
 }
 
+std::vector<Experience> experience_of(const SlumpTest& test) {
+  return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 400, 5000},
+          {"apparatus.mould.height_mm", mm * test.mould.height_m, 20, 600}};
+}
+
 nlohmann::ordered_json conditions_of(const SlumpTest& test) {
   return {{"lift_velocity_m_s", test.lift_velocity_m_s}, {"largest_pressure_pa", largest_pressure_pa(test)}};
 }
@@ -199,7 +204,7 @@ std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs)
     if (!broke) whole_mm += height_mm;
   }
   if (sheared == 0) return {};
-  const double limit_mm = mm * kShearedShift * test.mould.base_radius_m;
+  const double limit_mm = mm * kShearedShift * wider_radius_m(test.mould);
   if (runs.size() == 1)
     return format("the heap sheared off: its top shifted by %.0f mm, more than %g mm; the standards reject such a test",
                   *runs[0].find("step1.lateral_shift_mm"), limit_mm);

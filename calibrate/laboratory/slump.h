@@ -71,6 +71,9 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& mome
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 
+/// Fresh foams, pastes and heavy concretes, in moulds from a small tube to the cone of a dam's concrete.
+std::vector<Experience> experience_of(const SlumpTest& test);
+
 /// What a fit in this test was made for, for cards, and in words.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);

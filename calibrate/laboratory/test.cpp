@@ -154,6 +154,10 @@ Doubts doubts_about(const Test& test, std::span<const Measurement> measurements)
   return std::visit([&](const auto& one) { return doubts_about(one, measurements); }, test);
 }
 
+std::vector<Experience> experience_of(const Test& test) {
+  return std::visit([](const auto& one) { return experience_of(one); }, test);
+}
+
 Faults validate(const Test& test) {
   return std::visit([](const auto& one) { return validate(one); }, test);
 }

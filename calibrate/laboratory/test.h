@@ -57,6 +57,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { doubts_about(given, measurements) } -> std::same_as<Doubts>;
+  { experience_of(given) } -> std::same_as<std::vector<Experience>>;
 };
 
 Specimen& specimen_of(Test& test);
@@ -86,6 +87,7 @@ std::string conditions_in_words(const Test& test);
 std::optional<bool> is_rejected(const Test& test, const Observables& run);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);
+std::vector<Experience> experience_of(const Test& test);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);

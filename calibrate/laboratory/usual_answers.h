@@ -31,6 +31,13 @@ struct NamedOutline {
   Outline outline;
 };
 
+/// A size of a test, in the unit of its key in files, and between which values such tests are made. What lies far
+/// from them is asked about.
+struct Experience {
+  std::string_view place;
+  double value = 0, smallest = 0, largest = 0;
+};
+
 // What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
 // kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
 
@@ -83,6 +90,11 @@ inline std::optional<NamedOutline> outline_at(const Specimen&, const Moment&) {
 /// The test as a drawing, or some: what was seen of these runs, all of one material, over what was measured.
 inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun>, std::span<const Measurement>) {
   return {};
+}
+
+/// Powders are hardly lighter than 250 kg/m^3, but in lb/ft3 and kg/l every paste is.
+inline std::vector<Experience> experience_of(const Specimen& test) {
+  return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 250, 10000}};
 }
 
 /// What these measurements, taken together, cannot be, or can hardly be.

@@ -5,11 +5,30 @@
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/units.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/questions.h"
 #include "calibrate/study/rig.h"
 
 namespace pastefit {
+
+namespace {
+
+/// Sizes that are far from those of such tests are mostly in another unit.
+void ask_about_sizes(const Test& test, Questions& questions) {
+  for (const auto& [place, value, smallest, largest] : experience_of(test)) {
+    if (value >= smallest && value <= largest) continue;
+    const Unit unit = unit_of_place(place).value();
+    const std::string own = " " + std::string(unit.name), others = in_other_units(value, unit.key, smallest, largest);
+    questions.ask(std::string(place),
+                  "is " + shown(value) + own + ", far from the " + shown(smallest) + " to " + shown(largest) + own +
+                      " of such tests",
+                  others.empty() ? "look for a slip" : "look at its unit (" + others + ")");
+  }
+}
+
+}  // namespace
 
 Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem::path& folder) {
   Faults faults;
@@ -21,6 +40,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     reader.known("format");
     reader.text("title", lab.title, Need::required);
     read_provenance(reader, lab.provenance);
+    Questions questions(reader);
     const std::size_t before = faults.size();
     read_kind(reader, lab.test);
     preset = read_apparatus(reader, lab.test, folder);
@@ -30,9 +50,13 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     // A test with a faulty section would only be judged by values nobody gave.
     if (values_are_good(faults, before))
       for (Fault& fault : validate_in_file_words(lab.test)) faults.push_back(std::move(fault));
-    lab.measurements = read_measurements(reader, lab.test);
-    if (values_are_good(faults, before))
-      for (Fault& fault : doubts_about(lab.test, lab.measurements).faults) faults.push_back(std::move(fault));
+    lab.measurements = read_measurements(reader, lab.test, questions);
+    if (values_are_good(faults, before)) {
+      ask_about_sizes(lab.test, questions);
+      Doubts doubts = doubts_about(lab.test, lab.measurements);
+      for (Fault& fault : doubts.faults) faults.push_back(std::move(fault));
+    }
+    lab.notes = questions.notes();
   }
   if (!faults.empty()) return faults;
   if (preset) lab.note = note_on_preset(*preset);

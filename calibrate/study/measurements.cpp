@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <array>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <span>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/units.h"
 
 namespace pastefit {
 namespace {
@@ -28,10 +33,47 @@ void average(const std::vector<double>& repeats, Measurement& measurement) {
   measurement.standard_deviation = std::sqrt(squares / (count - 1));
 }
 
-void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measurement) {
+/// The most by which so many repeats differ in 95 of 100 cases, over their deviation (critical range factor f(n) of
+/// ISO 5725-6); of more than 20 it hardly grows.
+double critical_range(std::size_t repeats) {
+  static constexpr std::array<double, 19> factors{2.8, 3.3, 3.6, 3.9, 4.0, 4.2, 4.3, 4.4, 4.5, 4.6,
+                                                  4.6, 4.7, 4.7, 4.8, 4.8, 4.9, 4.9, 5.0, 5.0};
+  return factors[std::min(repeats - 2, factors.size() - 1)];
+}
+
+/// The repeat that is farthest from the middle one.
+double farthest_of(std::vector<double> repeats) {
+  std::ranges::sort(repeats);
+  const double middle = (repeats[(repeats.size() - 1) / 2] + repeats[repeats.size() / 2]) / 2;
+  return std::abs(repeats.front() - middle) > std::abs(repeats.back() - middle) ? repeats.front() : repeats.back();
+}
+
+/// Twice the critical range and more is no chance.
+void judge_scatter(const std::string& place, const ReadingKind& kind, const std::vector<double>& repeats,
+                   Questions& questions) {
+  if (kind.published_deviation == 0) return;
+  const auto [least, most] = std::ranges::minmax(repeats);
+  const double explained = critical_range(repeats.size()) * kind.published_deviation;
+  if (most - least <= explained) return;
+  const auto unit = unit_of_key(kind.key);
+  const std::string end = unit ? " " + std::string(unit->name) : "";
+  std::string what = "has repeats that differ by " + shown(most - least) + end + "; the test's repeatability explains " +
+                     format("%.0f", explained) + end + " of " + std::to_string(repeats.size()) + " repeats (" +
+                     std::string(kind.repeatability) + ")";
+  if (repeats.size() > 2) what += "; " + shown(farthest_of(repeats)) + end + " is an outlier";
+  if (most - least <= 2 * explained)
+    questions.note(place, std::move(what));
+  else
+    questions.ask(place, std::move(what), "leave out what was misread, and look for decimal commas and other units");
+}
+
+void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measurement, Questions& questions) {
   const Range range{kind.possible.smallest, kind.possible.largest};
   std::vector<double> repeats;
-  if (reader.numbers("repeats", repeats, range, Need::optional, 2)) average(repeats, measurement);
+  if (reader.numbers("repeats", repeats, range, Need::optional, 2)) {
+    average(repeats, measurement);
+    judge_scatter(reader.place(), kind, repeats, questions);
+  }
   if (reader.has("repeats"))
     reader.refuse("value", "stands beside \"repeats\"", "leave it out: the mean of the repeats is taken");
   else
@@ -44,6 +86,23 @@ void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measur
   if (!stated && !tried && measurement.standard_deviation < deviations.smallest)
     reader.fault("standard_deviation", repeats.empty() ? "is missing" : "is missing, and the repeats are all the same",
                  advice_on_deviation(kind));
+}
+
+std::string cut_short(std::string text) {
+  constexpr std::size_t longest = 60;
+  if (text.size() > longest) text.replace(longest, std::string::npos, "...");
+  return text;
+}
+
+/// How to write a reading that is there as a bare number or list.
+std::string form_of(const ReadingKind& kind, const nlohmann::json* content) {
+  const std::string deviation = kind.published_deviation > 0 ? format("%.2g", kind.published_deviation) : "5";
+  if (content && content->is_number())
+    return "write {\"value\": " + text_of(*content) + ", \"standard_deviation\": " + deviation + "}";
+  if (content && content->is_array() && !kind.from_outline)
+    return "write {\"repeats\": " + cut_short(content->dump()) + "}";
+  return kind.from_outline ? R"({"points": [[x_mm, z_mm], ...], "standard_deviation": 6})"
+                           : R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]})";
 }
 
 /// Readings of one heap, or of one before and after the drop, have an order that no heap turns round.
@@ -87,7 +146,7 @@ bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const Read
 
 }  // namespace
 
-std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
+std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Questions& questions) {
   const auto kinds = reading_kinds(test);
   std::vector<Measurement> measurements;
   document.object("measurements", Need::required, [&](ObjectReader& reader) {
@@ -102,11 +161,11 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test) {
       Measurement measurement;
       measurement.observable = kind.measure;
       const auto read = [&](ObjectReader& one) {
-        if (!kind.from_outline) return read_one(one, kind, measurement);
+        if (!kind.from_outline) return read_one(one, kind, measurement, questions);
         read_outline(one, kind, test);
         one.number("standard_deviation", measurement.standard_deviation, deviations, Need::required);
       };
-      if (!reader.object(kind.key, Need::optional, read)) continue;
+      if (!reader.object(kind.key, Need::optional, read, form_of(kind, reader.content(kind.key)))) continue;
       if (!measurements.empty() && measurements.back().observable == kind.measure)
         reader.fault(kind.key, std::string(kind.measure) + " and this are one reading", "give one of them");
       if (kind.less_than) measurement.value = *kind.less_than - measurement.value;

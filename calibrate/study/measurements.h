@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/study/questions.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -14,6 +15,7 @@ namespace pastefit {
 /// reading the apparatus cannot give, a value that the test cannot have, the same reading twice, no spread of repeats
 /// and no standard deviation, no reading at all. A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"},
 /// becomes the outline of `test`, and its reading is the root mean square difference from it, measured as 0.
-std::vector<Measurement> read_measurements(ObjectReader& document, Test& test);
+/// Repeats that differ by more than the test's published repeatability are asked about.
+std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Questions& questions);
 
 }  // namespace pastefit

@@ -28,6 +28,7 @@ struct Lab {
   std::string content;  ///< what the file and the preset that it names say, as JSON text
   std::string hash;     ///< of the file's content, with the preset it names (64-bit, hexadecimal)
   std::string note;     ///< on the preset (`note_on_preset`); empty if there is nothing to say
+  std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
 };
 
 /// How a free parameter is spaced between its bounds.

@@ -44,6 +44,7 @@ struct ReadingKind {
   bool ends_early = false;                  ///< a candidate far off here is not simulated to its end
   bool from_outline = false;                ///< only where the laboratory gives an outline
   std::string_view repeatability{};         ///< published of the deviation; empty: nothing is
+  double published_deviation = 0;           ///< that deviation for this apparatus, in the reading's unit; 0: none is
 };
 
 /// The row with this name of the simulation's reading; nothing if there is none.

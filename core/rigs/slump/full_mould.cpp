@@ -33,7 +33,7 @@ Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
   // Fields of the mould's side that are wide enough for one grain to touch it.
   const double field = 4 * radius;
   const int layers = std::max(1, static_cast<int>(mould.height_m / field));
-  const int sectors = std::max(6, static_cast<int>(2 * std::numbers::pi * mould.top_radius_m / field));
+  const int sectors = std::max(6, static_cast<int>(2 * std::numbers::pi * narrower_radius_m(mould) / field));
   const double slope = (mould.base_radius_m - mould.top_radius_m) / mould.height_m;
   std::vector<double> nearest(static_cast<std::size_t>(layers) * sectors, radius);
   for (std::int32_t i = 0; i < grains.count(); ++i) {

@@ -42,7 +42,7 @@ double inner_radius(const Mould& mould, double z) {
 
 /// Loose grains in mould and hopper, until enough is poured.
 void pour_into(const SlumpTest& test, Packing& packing) {
-  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), test.mould.base_radius_m,
+  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), wider_radius_m(test.mould),
                             [&](double z) { return inner_radius(test.mould, z); });
   packing.centres = std::move(poured.centres);
   packing.radii = std::move(poured.radii);

@@ -60,7 +60,7 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
 
 bool has_sheared(const SlumpTest& test, const Observables& readings) {
   const auto shift_mm = readings.find("step1.lateral_shift_mm");
-  return shift_mm && 1e-3 * *shift_mm > kShearedShift * test.mould.base_radius_m;
+  return shift_mm && 1e-3 * *shift_mm > kShearedShift * wider_radius_m(test.mould);
 }
 
 Particles on_table(const Particles& grains) {

@@ -11,12 +11,16 @@
 
 namespace pastefit {
 
-/// An open frustum that stands on the table, wide end down.
+/// An open frustum that stands on the table, either end down: a cone upside down has the wider one on top.
 struct Mould {
   double base_radius_m = 0.100;
   double top_radius_m = 0.065;
   double height_m = 0.200;
 };
+
+/// Of its two ends.
+double wider_radius_m(const Mould& mould);
+double narrower_radius_m(const Mould& mould);
 
 /// Inner volume of the mould [m^3]: pi h (r_b^2 + r_b r_t + r_t^2)/3.
 double volume_m3(const Mould& mould);
