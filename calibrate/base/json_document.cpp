@@ -163,6 +163,20 @@ class SyntaxCheck final : public nlohmann::json_sax<json> {
   std::vector<Level> levels_;
 };
 
+/// What to give in place of a folder: the JSON files in it, the first few by name.
+std::string file_in(const std::filesystem::path& folder) {
+  constexpr std::size_t most = 3;
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") names.insert((folder / entry.path().filename()).string());
+  std::string list;
+  std::size_t shown = 0;
+  for (const std::string& name : names)
+    if (shown++ < most) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "give a file" : "give a file of it: " + list;
+}
+
 }  // namespace
 
 std::optional<json> parse_json(std::string_view text, Faults& faults) {
@@ -196,12 +210,16 @@ std::optional<json> read_json(const std::filesystem::path& file, Faults& faults)
     faults.push_back({file.string(), "is no regular file", "write its content to a file, and give that"});
     return std::nullopt;
   }
+  if (std::filesystem::is_directory(file, error)) {
+    faults.push_back({file.string(), "is a folder", file_in(file)});
+    return std::nullopt;
+  }
   std::ifstream stream(file, std::ios::binary);
   std::string text;
   std::array<char, 65536> block;
   while (text.size() <= largest_file && (stream.read(block.data(), block.size()) || stream.gcount() > 0))
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  if (std::filesystem::is_directory(file, error) || stream.bad() || !stream.eof()) {
+  if (stream.bad() || !stream.eof()) {
     const bool too_large = text.size() > largest_file;
     faults.push_back({file.string(), too_large ? "larger than 16 MB" : "cannot be read",
                       too_large ? "give a file of pastefit" : "give a readable file"});

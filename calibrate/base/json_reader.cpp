@@ -98,6 +98,12 @@ bool ObjectReader::has(std::string_view key) const {
   return object_.contains(key);
 }
 
+std::vector<std::string> ObjectReader::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object_.items()) keys.push_back(key);
+  return keys;
+}
+
 const json* ObjectReader::content(std::string_view key) const {
   const auto value = object_.find(key);
   return value == object_.end() ? nullptr : &*value;
@@ -261,7 +267,8 @@ bool ObjectReader::texts(std::string_view key, std::vector<std::string>& target,
   if (!value) return false;
   const auto is_text = [](const json& entry) { return entry.is_string(); };
   if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_text)) {
-    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)), "a list of texts in quotes");
+    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)),
+          "a list of texts in quotes");
     return false;
   }
   target = value->get<std::vector<std::string>>();

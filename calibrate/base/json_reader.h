@@ -62,6 +62,7 @@ class ObjectReader {
   ObjectReader& operator=(const ObjectReader&) = delete;
 
   bool has(std::string_view key) const;
+  std::vector<std::string> keys() const;
   /// What stands there; null if nothing does.
   const nlohmann::json* content(std::string_view key) const;
   /// A key of earlier programs is a fault that says what stands in its place.

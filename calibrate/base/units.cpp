@@ -88,8 +88,8 @@ std::optional<Unit> unit_of_word(std::string_view word) {
 std::optional<Unit> unit_of_key(std::string_view key) {
   const Spelling* longest = nullptr;
   for (const Spelling& one : spellings) {
-    const bool ends = key.size() > one.word.size() + 1 && key.ends_with(one.word) &&
-                      key[key.size() - one.word.size() - 1] == '_';
+    const bool ends =
+        key.size() > one.word.size() + 1 && key.ends_with(one.word) && key[key.size() - one.word.size() - 1] == '_';
     if (ends && (!longest || one.word.size() > longest->word.size())) longest = &one;
   }
   return longest ? std::optional(longest->unit) : std::nullopt;

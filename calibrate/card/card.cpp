@@ -1,5 +1,6 @@
 #include "calibrate/card/card.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -65,7 +66,8 @@ json shared_part(const Material& material) {
   return out;
 }
 
-ordered_json material_to_json(const Material& material) {
+ordered_json material_to_json(const Card& card) {
+  const Material& material = card.material;
   ordered_json out{{"bulk_density_kg_m3", material.bulk_density_kg_m3}, {"grain_density_kg_m3", nullptr}};
   if (material.grain_density_kg_m3) out["grain_density_kg_m3"] = *material.grain_density_kg_m3;
   const json shared = shared_part(material);
@@ -73,7 +75,7 @@ ordered_json material_to_json(const Material& material) {
   out["parameters"] = ordered_json::object();
   out["free"] = ordered_json::object();
   for (const auto& parameter : material.parameters) {
-    if (!has_parameter(material.contact, parameter.name)) continue;
+    if (!has_parameter(card, parameter.name)) continue;
     out["parameters"][parameter.name] = parameter.value;
     if (!parameter.free) continue;
     auto& bounds = out["free"][parameter.name] = {{"lower", parameter.lower}, {"upper", parameter.upper}};
@@ -140,6 +142,11 @@ std::vector<double> values_of(const Material& material) {
   return values;
 }
 
+bool has_parameter(const Card& card, std::string_view name) {
+  return has_parameter(card.material.contact, name) &&
+         std::ranges::any_of(card.tests, [&](const CardTest& test) { return acts_in(test.test, name); });
+}
+
 std::string reading_name(const CardTest& test, std::string_view observable) {
   return (test.name.empty() ? "" : test.name + "/") + std::string(observable);
 }
@@ -162,7 +169,7 @@ ordered_json to_json(const Card& card) {
   ordered_json out;
   out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
   out["title"] = card.title;
-  out["material"] = material_to_json(card.material);
+  out["material"] = material_to_json(card);
   out["tests"] = ordered_json::array();
   for (const auto& test : card.tests)
     out["tests"].push_back(test_to_json(test, card.material, card.confirmation.packings.size()));

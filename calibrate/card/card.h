@@ -63,6 +63,10 @@ struct CardTest {
   Baseline baseline;                        ///< no runs: older than baselines; `observables` stand in
 };
 
+struct Card;
+/// Whether the card's material has the parameter: its laws do, and one of its tests, if it is of a surface.
+bool has_parameter(const Card& card, std::string_view name);
+
 /// "slow/step1.height_mm", as in a study of several tests; the reading's own name if the test has none.
 std::string reading_name(const CardTest& test, std::string_view observable);
 

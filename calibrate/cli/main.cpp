@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/freed_memory.h"
 #include "calibrate/base/json_reader.h"
@@ -30,6 +31,22 @@ std::string kernels_note() {
   const bool plain = set == sse2::kernels.instruction_set;
   return "contact kernels: " + std::string(set) +
          (plain ? " (this processor lacks AVX2: slower, and other last bits than with AVX2 or AVX-512)" : "");
+}
+
+/// The options among these words that the verb does not have. CLI11 would name those first that are required.
+Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
+  std::set<std::string, std::less<>> names;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+  Faults faults;
+  for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (!word.starts_with("--") || names.contains(word)) continue;
+    const auto near = nearest(word, names);
+    faults.push_back({printable(word), "is no option of pastefit " + verb.get_name(),
+                      near ? "did you mean " + *near + "?" : "see pastefit help " + verb.get_name()});
+  }
+  return faults;
 }
 
 int run(int argc, char** argv) {
@@ -71,6 +88,9 @@ int run(int argc, char** argv) {
     app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
   }
 
+  if (argc > 1 && names.contains(argv[1]))
+    if (const Faults faults = unknown_options(*program.get_subcommand(argv[1]), argc, argv); !faults.empty())
+      return report(faults);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

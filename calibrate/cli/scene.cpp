@@ -1,6 +1,7 @@
 #include "calibrate/cli/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -80,6 +81,23 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
   return settings;
 }
 
+/// A single word that is neither a parameter nor a section of a file is a slip, mostly of a parameter's name.
+void check_words(const Settings& settings, const json& document, Faults& faults) {
+  std::set<std::string, std::less<>> known{"title",    "test",   "provenance",   "apparatus",
+                                           "material", "grains", "measurements", "confirmed"};
+  for (const auto& kind : parameter_kinds()) known.emplace(kind.name);
+  for (const Setting& setting : settings.others) {
+    const std::string& word = setting.path;
+    if (word.find_first_of(".[") != std::string::npos || known.contains(word) ||
+        (document.is_object() && document.contains(word)))
+      continue;
+    const auto near = nearest(word, known);
+    faults.push_back(
+        {"--set " + printable(word), "is neither a parameter nor a section of the file",
+         near ? "did you mean " + in_quotes(*near) + "?" : "e.g. --set friction=0.3 or grains.radius_mm=6"});
+  }
+}
+
 /// The place that one step of a path leads to, "key" of an object or "key[1]" of a list in it; null if there is none.
 json* step_into(json& place, const std::string& step) {
   if (!place.is_object() || step.empty()) return nullptr;
@@ -131,6 +149,8 @@ Test with_parameters(const Test& test, std::vector<double> values, const Setting
     const auto name = parameter_kinds()[index].name;
     if (!has_parameter(laws, name))
       faults.push_back(foreign_parameter(laws, "--set " + std::string(kParameters) + std::string(name), name));
+    else if (!acts_in(test, name))
+      faults.push_back(surface_of_no_test("--set " + std::string(kParameters) + std::string(name), name));
     values[index] = value;
   }
   return with_contact_of(test, values);
@@ -154,30 +174,48 @@ std::vector<std::string> notes_of(const Lab& lab) {
   return notes;
 }
 
-std::optional<FoundScene> study_scene(const Settings& settings, const std::string& name,
+/// Whether the path is of the study's own content; all others are of its laboratory file.
+bool is_of_study(const Setting& setting) {
+  constexpr std::array<std::string_view, 5> own{"contact", "search", "weights", "tolerances", "tests"};
+  const std::string_view first = std::string_view(setting.path).substr(0, setting.path.find_first_of(".["));
+  return std::ranges::count(own, first) > 0;
+}
+
+/// The name of the first test of a study that is fitted; empty if its only test has none.
+std::string first_test_of(const json& study) {
+  const auto tests = study.find("tests");
+  if (tests == study.end() || !tests->is_array()) return "";
+  for (const json& test : *tests)
+    if (test.is_object() && test.value("hold_out", json(false)) != true) {
+      const json name = test.value("name", json());
+      return name.is_string() ? name.get<std::string>() : "";
+    }
+  return "";
+}
+
+std::optional<FoundScene> study_scene(const json& document, const Settings& settings, const std::string& name,
                                       const std::filesystem::path& file, Faults& faults) {
-  const auto study = read_study(file);
+  const std::string wanted = name.empty() ? first_test_of(document) : name;
+  StudyChanges changes;
+  changes.of_study = [&](json& study) {
+    for (const auto& setting : settings.others)
+      if (is_of_study(setting)) apply(setting, study, faults);
+  };
+  changes.of_lab = [&](json& lab, const std::string& test) {
+    if (test != wanted) return;
+    for (const auto& setting : settings.others)
+      if (!is_of_study(setting)) apply(setting, lab, faults);
+  };
+  const auto study = read_study(file, changes);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
     return std::nullopt;
   }
   const auto place = chosen(study.value().tests, name, faults);
   if (!place) return std::nullopt;
-  const StudyTest& of_study = study.value().tests[*place];
-  auto test = of_study.lab.test;
-  if (!settings.others.empty()) {
-    const auto lab_file = (file.parent_path() / of_study.lab_file).lexically_normal();
-    const auto lab = read_json(lab_file, faults);
-    if (!lab) return std::nullopt;
-    const auto changed = read_with(*lab, settings, lab_file, faults,
-                                   [&](const json& content) { return lab_from_json(content, lab_file.parent_path()); });
-    if (!changed.ok()) return std::nullopt;
-    const auto contact = specimen_of(test).contact;  // the study's choice of laws
-    test = changed.value().test;
-    specimen_of(test).contact = contact;
-  }
+  const Lab& lab = study.value().tests[*place].lab;
   const std::vector<double> middle(static_cast<std::size_t>(free_count(study.value())), 0.5);
-  return FoundScene{with_parameters(test, values_at(study.value(), middle), settings, faults), notes_of(of_study.lab)};
+  return FoundScene{with_parameters(lab.test, values_at(study.value(), middle), settings, faults), notes_of(lab)};
 }
 
 std::optional<FoundScene> card_scene(const json& document, const Settings& settings, const std::string& name,
@@ -200,7 +238,7 @@ std::optional<FoundScene> card_scene(const json& document, const Settings& setti
 std::optional<FoundScene> test_scene(const json& document, const Settings& settings, const std::string& name,
                                      const std::filesystem::path& file, Faults& faults) {
   const auto format = document.is_object() ? document.value("format", json()) : json();
-  if (format == "pastefit-study-1") return study_scene(settings, name, file, faults);
+  if (format == "pastefit-study-1") return study_scene(document, settings, name, file, faults);
   if (is_card(document)) return card_scene(document, settings, name, file, faults);
   if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
   if (format == "pastefit-lab-1") {
@@ -237,6 +275,8 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
     if (!faults.empty()) return faults;
     return FoundScene{impact.value(), {}};
   }
+  check_words(settings, *document, faults);
+  if (!faults.empty()) return faults;
   auto found = test_scene(*document, settings, name, file, faults);
   if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);
   if (!faults.empty()) return faults;

@@ -25,6 +25,7 @@ struct FoundScene {
 /// a card the one named `test`; the first, if that is empty.
 ///
 /// Each of `settings` is "path=value" and changes the file's content before it is read, so that every check applies.
+/// A study's own are contact, search, weights, tolerances and tests.
 /// `parameters.NAME=number` sets a parameter of `parameter_kinds` in every file of a laboratory test. In a study any
 /// other path is one of its laboratory file's, e.g. grains.radius_mm=6. A value that is not JSON is a text.
 /// Errors: every fault of the file and of the settings; there is no such test.

@@ -25,7 +25,7 @@ ordered_json parameters_of(const Findings& findings) {
   const Card& card = *findings.card;
   auto out = ordered_json::array();
   for (const Parameter& parameter : card.material.parameters) {
-    if (!has_parameter(card.material.contact, parameter.name)) continue;
+    if (!has_parameter(card, parameter.name)) continue;
     const auto kind = std::ranges::find(parameter_kinds(), parameter.name, &ParameterKind::name);
     ordered_json one{{"name", parameter.name},
                      {"meaning", kind == parameter_kinds().end() ? "" : std::string(kind->meaning)},

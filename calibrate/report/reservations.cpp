@@ -28,10 +28,10 @@ void add_marginal_readings(const CardTest& test, std::size_t packings, std::vect
 }
 
 /// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
-void add_bounds(const Material& material, std::vector<std::string>& out) {
+void add_bounds(const Card& card, std::vector<std::string>& out) {
   constexpr double near = 0.01;
-  for (const Parameter& one : material.parameters) {
-    if (!one.free || !has_parameter(material.contact, one.name)) continue;
+  for (const Parameter& one : card.material.parameters) {
+    if (!one.free || !has_parameter(card, one.name)) continue;
     const bool logarithmic = one.scale == Scale::logarithmic;
     const auto along = [&](double value) { return logarithmic ? std::log(value) : value; };
     const double share = (along(one.value) - along(one.lower)) / (along(one.upper) - along(one.lower));
@@ -48,7 +48,7 @@ std::vector<std::string> reservations_on(const Card& card) {
     if (const std::string remarks = remarks_on(test.test, runs_of(test)); !remarks.empty())
       out.push_back(heading_of(test) + remarks);
   for (const CardTest& test : card.tests) add_marginal_readings(test, card.confirmation.packings.size(), out);
-  add_bounds(card.material, out);
+  add_bounds(card, out);
   if (card.confirmation.packings.size() == 1) out.push_back("one packing, error unknown");
   return out;
 }

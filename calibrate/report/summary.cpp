@@ -13,10 +13,10 @@ namespace pastefit {
 
 namespace {
 
-std::string parameter_lines(const Material& material) {
+std::string parameter_lines(const Card& card) {
   std::string out = "Scale-free, the same law for every grain size\n";
-  for (const auto& parameter : material.parameters) {
-    if (!has_parameter(material.contact, parameter.name)) continue;
+  for (const auto& parameter : card.material.parameters) {
+    if (!has_parameter(card, parameter.name)) continue;
     out += format("  %-24s %14.6g", parameter.name.c_str(), parameter.value);
     out += parameter.free ? format("   fitted, %g to %g", parameter.lower, parameter.upper) : "   fixed";
     if (const auto& prior = parameter.prior)
@@ -130,7 +130,7 @@ std::string verdict_of(const Card& card) {
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {
-  std::string out = one_line(card.title) + "\n\n" + type_in_lines(card) + "\n" + parameter_lines(card.material) + "\n" +
+  std::string out = one_line(card.title) + "\n\n" + type_in_lines(card) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);

@@ -28,6 +28,31 @@ void ask_about_sizes(const Test& test, Questions& questions) {
   }
 }
 
+/// Whether the document has the key at the end of this place, "apparatus.mould.height_mm"; readings are no such places.
+bool has_place(const nlohmann::json& document, std::string_view place) {
+  const nlohmann::json* object = &document;
+  while (object->is_object()) {
+    const auto dot = place.find('.');
+    const auto found = object->find(place.substr(0, dot));
+    if (found == object->end()) return false;
+    if (dot == std::string_view::npos) return true;
+    object = &*found;
+    place.remove_prefix(dot + 1);
+  }
+  return false;
+}
+
+/// Says of a number which the file does not give that it is the default, or the preset's.
+Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool preset) {
+  for (Fault& fault : faults) {
+    const bool key = fault.where.starts_with("apparatus.") || fault.where.starts_with("grains.");
+    if (!key || has_place(document, fault.where)) continue;
+    fault.what += preset ? ", as the preset says" : ", which is the default";
+    fault.remedy += "; add the key";
+  }
+  return faults;
+}
+
 }  // namespace
 
 Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem::path& folder) {
@@ -49,7 +74,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     lab.test = with_usual_contact(lab.test);
     // A test with a faulty section would only be judged by values nobody gave.
     if (values_are_good(faults, before))
-      for (Fault& fault : validate_in_file_words(lab.test)) faults.push_back(std::move(fault));
+      for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
+        faults.push_back(std::move(fault));
     lab.measurements = read_measurements(reader, lab.test, questions);
     if (values_are_good(faults, before)) {
       ask_about_sizes(lab.test, questions);
@@ -66,10 +92,11 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
   return lab;
 }
 
-Result<Lab> read_lab(const std::filesystem::path& file) {
+Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change) {
   Faults faults;
-  const std::optional<nlohmann::json> document = read_json(file, faults);
+  std::optional<nlohmann::json> document = read_json(file, faults);
   if (!document) return faults;
+  if (change) change(*document);
   Result<Lab> lab = lab_from_json(*document, file.parent_path());
   if (lab.ok() && faults.empty()) return lab;
   if (!lab.ok())

@@ -1,8 +1,8 @@
 #include "calibrate/study/measurements.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <span>
@@ -57,9 +57,9 @@ void judge_scatter(const std::string& place, const ReadingKind& kind, const std:
   if (most - least <= explained) return;
   const auto unit = unit_of_key(kind.key);
   const std::string end = unit ? " " + std::string(unit->name) : "";
-  std::string what = "has repeats that differ by " + shown(most - least) + end + "; the test's repeatability explains " +
-                     format("%.0f", explained) + end + " of " + std::to_string(repeats.size()) + " repeats (" +
-                     std::string(kind.repeatability) + ")";
+  std::string what = "has repeats that differ by " + shown(most - least) + end +
+                     "; the test's repeatability explains " + format("%.0f", explained) + end + " of " +
+                     std::to_string(repeats.size()) + " repeats (" + std::string(kind.repeatability) + ")";
   if (repeats.size() > 2) what += "; " + shown(farthest_of(repeats)) + end + " is an outlier";
   if (most - least <= 2 * explained)
     questions.note(place, std::move(what));
@@ -144,6 +144,20 @@ bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const Read
   return true;
 }
 
+/// Times are refused with the reason: T500 and the like are of the flow, and the heap is compared at rest.
+bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
+  bool any = false;
+  for (const std::string& key : reader.keys()) {
+    const std::optional<Unit> unit = unit_of_key(key);
+    const bool time = (unit && unit->key == "s") || key.find("t500") != std::string::npos || key.ends_with("t50");
+    if (!time || std::ranges::count(own, key, &ReadingKind::key) > 0) continue;
+    reader.refuse(key, "is a time: heaps are compared at rest, how fast they flow is not simulated",
+                  "leave it out; the heap's spread and height can be fitted");
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Questions& questions) {
@@ -172,7 +186,8 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Q
       measurements.push_back(std::move(measurement));
     }
     check_orders(document, kinds, measurements);
-    const bool strange = refuse_strange(reader, test, kinds);
+    bool strange = refuse_strange(reader, test, kinds);
+    strange = refuse_times(reader, kinds) || strange;
     if (any || strange) return;
     const auto usual = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
     document.fault("measurements", "holds no reading", "give at least one, e.g. " + in_quotes(std::string(usual->key)));

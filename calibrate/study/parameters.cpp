@@ -145,6 +145,34 @@ bool has_parameter(const ContactModel& laws, std::string_view name) {
          std::ranges::all_of(choices, [](const Choice& choice) { return choice.having.empty(); });
 }
 
+namespace {
+
+/// The surface whose parameter it is; empty if it is none's. A parameter of the grains has no surface before it.
+std::string_view surface_in(std::string_view parameter) {
+  for (const std::string_view word : kinds_of_tests()) {
+    Test test = *test_of_kind(word);
+    for (const Surface& surface : surfaces_of(test)) {
+      const bool of_it = parameter.starts_with(surface.name) && parameter.substr(surface.name.size()).starts_with('_');
+      if (of_it) return parameter.substr(0, surface.name.size());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool acts_in(const Test& test, std::string_view name) {
+  const std::string_view surface = surface_in(name);
+  if (surface.empty()) return true;
+  Test copy = test;
+  return std::ranges::any_of(surfaces_of(copy), [&](const Surface& own) { return own.name == surface; });
+}
+
+Fault surface_of_no_test(std::string place, std::string_view name) {
+  return {std::move(place), "acts on the " + std::string(surface_in(name)) + ", which the test's apparatus has not",
+          "leave it out"};
+}
+
 Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name) {
   if (lacks_film(laws, name))
     return {std::move(place), "belongs to formation \"film\"; chosen is formation \"touch\"",

@@ -39,6 +39,13 @@ std::span<const ParameterKind> parameter_kinds();
 /// Whether the laws of this contact have the parameter. The others keep their usual value, which acts on nothing.
 bool has_parameter(const ContactModel& laws, std::string_view name);
 
+/// Whether the parameter acts in the test: false of one of a surface that its apparatus has not, as a shear cell has no
+/// table.
+bool acts_in(const Test& test, std::string_view name);
+
+/// What to say where a parameter of a surface is given that no test has. Requirement: `acts_in` is false of them.
+Fault surface_of_no_test(std::string place, std::string_view name);
+
 /// What to say where a parameter is given that no law of the contact has. Requirement: `has_parameter` is false.
 Fault foreign_parameter(const ContactModel& laws, std::string place, std::string_view name);
 

@@ -13,8 +13,8 @@ void Questions::ask(const std::string& place, std::string what, std::string reme
   if (std::ranges::count(confirmed_, place) > 0)
     note(place, std::move(what) + ", as confirmed");
   else
-    faults_.push_back(
-        {place, std::move(what), std::move(remedy) + "; if it is right, say \"confirmed\": [" + in_quotes(place) + "]"});
+    faults_.push_back({place, std::move(what),
+                       std::move(remedy) + "; if it is right, say \"confirmed\": [" + in_quotes(place) + "]"});
 }
 
 }  // namespace pastefit

@@ -108,7 +108,8 @@ ContactModel read_contact(ObjectReader& document) {
   return laws;
 }
 
-std::vector<Parameter> read_parameters(ObjectReader& document, const ContactModel& laws) {
+std::vector<Parameter> read_parameters(ObjectReader& document, const ContactModel& laws,
+                                       const std::vector<StudyTest>& tests) {
   std::vector<Parameter> parameters;
   for (const ParameterKind& kind : parameter_kinds())
     parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
@@ -121,6 +122,10 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
       reader.object(kind.name, Need::optional, [&](ObjectReader& one) { read_parameter(one, kind, parameter); });
       if (reader.has(kind.name) && !has_parameter(laws, kind.name))
         reader.faults().push_back(foreign_parameter(laws, reader.place(kind.name), kind.name));
+      else if (reader.has(kind.name) && std::ranges::none_of(tests, [&](const StudyTest& test) {
+                 return test.lab.measurements.empty() || acts_in(test.lab.test, kind.name);  // or it was not read
+               }))
+        reader.faults().push_back(surface_of_no_test(reader.place(kind.name), kind.name));
       any_free = any_free || parameter.free;
     }
     if (!any_free)
@@ -188,10 +193,11 @@ Faults validate_points(const Study& study) {
 
 }  // namespace
 
-Result<Study> read_study(const std::filesystem::path& file) {
+Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes) {
   Faults faults;
-  const std::optional<json> document = read_json(file, faults);
+  std::optional<json> document = read_json(file, faults);
   if (!document) return faults;
+  if (changes.of_study) changes.of_study(*document);
   Faults found;
   Faults in_labs;
   Study study;
@@ -199,10 +205,10 @@ Result<Study> read_study(const std::filesystem::path& file) {
     ObjectReader reader(*document, "", found);
     reader.known("format");
     reader.text("title", study.title, Need::required);
-    study.tests = read_tests(reader, *document, file.parent_path(), in_labs);
+    study.tests = read_tests(reader, *document, {file.parent_path(), changes.of_lab, in_labs});
     const ContactModel laws = read_contact(reader);
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
-    study.parameters = read_parameters(reader, laws);
+    study.parameters = read_parameters(reader, laws, study.tests);
     read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);

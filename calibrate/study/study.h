@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +27,9 @@ struct Lab {
   Provenance provenance;
   Test test;
   std::vector<Measurement> measurements;
-  std::string content;  ///< what the file and the preset that it names say, as JSON text
-  std::string hash;     ///< of the file's content, with the preset it names (64-bit, hexadecimal)
-  std::string note;     ///< on the preset (`note_on_preset`); empty if there is nothing to say
+  std::string content;             ///< what the file and the preset that it names say, as JSON text
+  std::string hash;                ///< of the file's content, with the preset it names (64-bit, hexadecimal)
+  std::string note;                ///< on the preset (`note_on_preset`); empty if there is nothing to say
   std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
 };
 
@@ -93,11 +95,17 @@ struct Study {
   std::string hash;     ///< of the study file's content
 };
 
+/// Changes of what a study and its laboratory files say, made before they are read; each may be left empty.
+struct StudyChanges {
+  std::function<void(nlohmann::json& study)> of_study;
+  std::function<void(nlohmann::json& lab, const std::string& test)> of_lab;  ///< of the test with this name
+};
+
 /// Reads a study and the laboratory files it names (paths relative to the study).
 /// Errors: every fault of all files at once, each with its place and what would be right.
-Result<Study> read_study(const std::filesystem::path& file);
+Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes = {});
 
-/// Reads a laboratory file, with the rig preset it names.
-Result<Lab> read_lab(const std::filesystem::path& file);
+/// Reads a laboratory file, with the rig preset it names; its content is changed before, if there is a `change`.
+Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change = {});
 
 }  // namespace pastefit

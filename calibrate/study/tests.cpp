@@ -47,13 +47,16 @@ std::vector<Target> read_targets(ObjectReader& document, const Lab& lab, bool ho
   return targets;
 }
 
-void read_lab_of(ObjectReader& reader, const std::filesystem::path& folder, StudyTest& test, Faults& in_labs) {
+void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) {
   if (!reader.text("lab", test.lab_file, Need::required)) return;
-  Result<Lab> lab = read_lab((folder / test.lab_file).lexically_normal());
+  const auto change = [&](json& content) {
+    if (labs.change) labs.change(content, test.name);
+  };
+  Result<Lab> lab = read_lab((labs.folder / test.lab_file).lexically_normal(), change);
   if (lab.ok())
     test.lab = std::move(lab).value();
   else
-    in_labs.insert(in_labs.end(), lab.faults().begin(), lab.faults().end());
+    labs.faults.insert(labs.faults.end(), lab.faults().begin(), lab.faults().end());
 }
 
 /// A name goes before a slash in the names of readings, and into one line of a table.
@@ -63,8 +66,7 @@ bool is_name(const std::string& name) {
   });
 }
 
-void read_one_of_many(ObjectReader& reader, const std::filesystem::path& folder, std::vector<StudyTest>& tests,
-                      Faults& in_labs) {
+void read_one_of_many(ObjectReader& reader, const LabReading& labs, std::vector<StudyTest>& tests) {
   StudyTest test;
   if (reader.text("name", test.name, Need::required)) {
     if (!is_name(test.name)) reader.fault("name", in_quotes(test.name), "up to 40 letters, digits, '-', '_' and '.'");
@@ -72,7 +74,7 @@ void read_one_of_many(ObjectReader& reader, const std::filesystem::path& folder,
       reader.fault("name", in_quotes(test.name) + " is the name of two tests", "a name of its own for each");
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
-  read_lab_of(reader, folder, test, in_labs);
+  read_lab_of(reader, labs, test);
   test.targets = read_targets(reader, test.lab, test.hold_out);
   tests.push_back(std::move(test));
 }
@@ -108,12 +110,11 @@ Fault no_such_test(const std::string& name, const std::vector<std::string>& name
           known.empty() ? "leave it out: the only test has no name" : "one of: " + known};
 }
 
-std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, const std::filesystem::path& folder,
-                                  Faults& in_labs) {
+std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, const LabReading& labs) {
   std::vector<StudyTest> tests;
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
-    read_lab_of(document, folder, only, in_labs);
+    read_lab_of(document, labs, only);
     only.targets = read_targets(document, only.lab, false);
     return tests;
   }
@@ -134,7 +135,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
       continue;
     }
     ObjectReader reader(list[i], place, document.faults());
-    read_one_of_many(reader, folder, tests, in_labs);
+    read_one_of_many(reader, labs, tests);
   }
   std::stable_partition(tests.begin(), tests.end(), [](const StudyTest& test) { return !test.hold_out; });
   if (!tests.empty() && tests.front().hold_out)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,13 +33,18 @@ std::vector<std::size_t> tests_of(const Study& study, bool hold_out);
 /// The fault of a name that no test has.
 Fault no_such_test(const std::string& name, const std::vector<std::string>& names);
 
+/// How the laboratory files of a study are read.
+struct LabReading {
+  std::filesystem::path folder;  ///< of the study
+  std::function<void(nlohmann::json& lab, const std::string& test)> change;
+  Faults& faults;  ///< of these files, their places beginning with the file
+};
+
 /// Reads "lab", "weights" and "tolerances" of a study of one test, or "tests", a list of {"name", "lab", "weights",
 /// "tolerances", "hold_out"}.
 /// The tests that are held out are moved behind the others: the first one, whose grains a card states its material for,
 /// is fitted.
-/// Faults of the laboratory files go to `in_labs`, their places beginning with the file.
-std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study,
-                                  const std::filesystem::path& folder, Faults& in_labs);
+std::vector<StudyTest> read_tests(ObjectReader& document, const nlohmann::json& study, const LabReading& labs);
 
 /// The place among these tests, of a study or of a card, of the one with this name.
 /// Error: none has it; the fault says which there are.
