@@ -70,8 +70,20 @@ class MouldLift {
                        ? runner_.run({"step1.lift", {}, look_whether_lost()}, own_height)
                        : runner_.run_until_rest({"step1.lift", {}, clear}, 1.5 * own_height, untouched);
     if (problem) return problem;
+    const double rim_m = std::get<Shell>(mould.shape).base.z;
     runner_.take_away_last_wall();
-    return {};
+    const bool upside_down = test_.mould.top_radius_m > test_.mould.base_radius_m;
+    return upside_down && highest_point(world_.particles) > rim_m ? let_down(rim_m) : std::nullopt;
+  }
+
+  /// What hangs in a mould upside down when it has been lifted is let down at the same speed, as a person shakes it
+  /// out: a free fall would crush it.
+  std::optional<Failure> let_down(double height_m) {
+    world_.drag = kGravity / test_.lift_velocity_m_s;
+    auto problem = runner_.run({"step1.let_down", {}, look_whether_lost()}, height_m / test_.lift_velocity_m_s);
+    world_.drag = 0;
+    runner_.changed();
+    return problem;
   }
 
   /// The heap comes to rest on the table, unless it is lost before.

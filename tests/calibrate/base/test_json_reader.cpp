@@ -119,7 +119,7 @@ TEST_CASE("a file that is missing, or a folder, is one fault with its path") {
   CHECK_FALSE(read_json(std::filesystem::temp_directory_path(), faults));
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].where == "no/such/file.json");
-  CHECK(says(faults[1], "cannot be read"));
+  CHECK(says(faults[1], "is a folder; give a file"));
 }
 
 TEST_CASE("the message lists every fault on its line, with place and remedy") {

@@ -107,3 +107,17 @@ TEST_CASE("a card of any law is carried to another grain size") {
       CHECK(card_from_json(text_and_back(carried.value())).ok());
     }
 }
+
+TEST_CASE("a card of a test without mould and table names no parameter of theirs") {
+  Card card = card_with(NormalLaw::jkr, BridgeShape::none);
+  const Specimen specimen = specimen_of(card.tests[0].test);
+  card.tests[0].test = ShearCell{};
+  specimen_of(card.tests[0].test) = specimen;
+  const auto parameters = nlohmann::json::parse(to_json(card).dump())["material"]["parameters"];
+  const std::string summary = summary_of(card);
+  for (const char* name : {"mould_friction", "table_friction", "mould_cohesion_factor", "table_cohesion_factor"}) {
+    CHECK_FALSE(parameters.contains(name));
+    CHECK(summary.find(name) == std::string::npos);
+  }
+  CHECK(parameters.contains("friction"));
+}

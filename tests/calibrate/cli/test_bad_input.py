@@ -61,7 +61,9 @@ class BadInput(Desk):
         checked = 0
         for template, apparatus in zip(("lab", "drop-lab", "pellet-lab", "shear-lab"), (presets, *others)):
             lab = self.folder / f"{template}.json"
-            lab.write_text(run("template", template).stdout.replace('"abrams"', '"en12350-5"'))  # that has a drop plate
+            confirmed = json.dumps(["apparatus.mould.height_mm", "material.bulk_density_kg_m3"])
+            lab.write_text(run("template", template).stdout.replace('"abrams"', '"en12350-5"')  # that has a drop plate
+                           .replace('"title"', f'"confirmed": {confirmed}, "title"', 1))
             for place, number in numbers_in(apparatus):
                 bounds = [(number["maximum"], 1)]
                 bounds += [(number[key], -1) for key in ("minimum", "exclusiveMinimum") if key in number]
