@@ -19,6 +19,7 @@
 #include "calibrate/cli/progress_line.h"
 #include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/understood.h"
 #include "calibrate/inference/words.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
@@ -106,6 +107,14 @@ std::string notes_on_readings(const Study& study) {
   return out;
 }
 
+/// What the study weighs or allows of readings that the laboratory did not take.
+std::string readings_not_measured(const Study& study) {
+  std::string names;
+  for (const StudyTest& test : study.tests)
+    for (const std::string& name : test.not_measured) names += (names.empty() ? "" : ", ") + reading_name(test, name);
+  return names.empty() ? "" : "Weights and tolerances of readings that were not taken are left out: " + names + ".\n";
+}
+
 /// The answer as JSON where there is no card to print.
 nlohmann::ordered_json without_material(const CalibrationResult& result) {
   auto failures = nlohmann::ordered_json::object();
@@ -174,10 +183,11 @@ Result<OutputFolder> open_folder(const Study& study, const CalibrateArguments& o
 }
 
 /// What a person is told before anything runs.
-void say_what_is_known(const Study& study, const Store& store, const std::string& file) {
+void say_what_is_known(const Study& study, const Store& store, const std::string& file, int threads) {
   note("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
        study.search.budget_simulations, store.size());
   for (const auto& remark : store.remarks()) note("%s: %s.\n", file.c_str(), remark.c_str());
+  if (!is_quiet()) note("%s%s", understood(study, threads).c_str(), readings_not_measured(study).c_str());
   note("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store).c_str(),
        warning_before(free_count(study), prior_count(study), fitted_readings(study)).c_str());
 }
@@ -219,7 +229,7 @@ int run_calibrate(const CalibrateArguments& options) {
   if (!store.ok()) return report(store.faults());
   if (const auto faults = strangers_in(study, store.value(), file); !faults.empty()) return report(faults);
 
-  say_what_is_known(study, store.value(), file);
+  say_what_is_known(study, store.value(), file, options.threads);
   ProgressLine line(work_ahead(study), misfit_unit_of(study));
   LivePage page(options.out);
   Looks looks;

@@ -21,6 +21,7 @@
 #include "calibrate/cli/scene.h"
 #include "calibrate/cli/sign_of_life.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/understood.h"
 #include "calibrate/report/vtk.h"
 #include "calibrate/search/effort.h"
 #include "calibrate/search/memory.h"
@@ -271,6 +272,7 @@ int simulate_file(const SimulateOptions& options) {
   const auto* of_lab = std::get_if<Test>(&test);
   if (of_lab)
     if (const auto faults = validate_memory(*of_lab, 1); !faults.empty()) return report(in_file(faults, options.file));
+  if (of_lab) note("%s", apparatus_in_words(*of_lab).c_str());
   if (options.vtk_interval_s && options.out.empty())
     return report({{"--vtk", "has no folder to write to", "add --out DIR"}});
   if (const auto faults = effort_faults(options, test); !faults.empty()) return report(faults);

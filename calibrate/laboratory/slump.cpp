@@ -1,5 +1,6 @@
 #include "calibrate/laboratory/slump.h"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -170,6 +171,27 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& mome
   const bool first = moment.phase == "step1.rest";
   if (moment.drop > 0 || (!first && moment.phase != "step2.rest")) return std::nullopt;
   return NamedOutline{first ? "step1" : "step2", outline(on_table(moment.world->particles), test.grains.radius_m)};
+}
+
+double usual_tolerance(const SlumpTest& test, const Measurement& measured) {
+  if (measured.observable == "step1.lateral_shift_mm") return mm * kShearedShift * wider_radius_m(test.mould);
+  const bool length = measured.observable.ends_with("_mm");
+  return length ? std::max(measured.standard_deviation, 0.5 * mm * test.grains.radius_m) : measured.standard_deviation;
+}
+
+std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readings,
+                      std::span<const std::string_view> parameters) {
+  const auto is_width = [](std::string_view name) {
+    return name.find("spread") != name.npos || name.find("profile") != name.npos || name.find("plateau") != name.npos;
+  };
+  if (std::ranges::any_of(readings, is_width)) return {};
+  std::string names;
+  for (const std::string_view parameter : parameters)
+    if (parameter.ends_with("friction")) names += (names.empty() ? "" : ", ") + std::string(parameter);
+  if (names.empty()) return {};
+  return "Free without a reading of the spread: " + names +
+         ".\nThe height alone does not tell friction from strength: fix it, e.g.\n"
+         "\"friction\": {\"value\": 0.15}, or measure the spread.";
 }
 
 std::vector<Experience> experience_of(const SlumpTest& test) {

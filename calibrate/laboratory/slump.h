@@ -71,6 +71,14 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& mome
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 
+/// One standard deviation of the laboratory, but half a grain's radius at least: heaps of grains have no finer surface.
+/// Of the shift of the top where a heap has sheared off.
+double usual_tolerance(const SlumpTest& test, const Measurement& measured);
+
+/// Friction shapes the width of a heap; its height alone cannot tell friction from strength.
+std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> readings,
+                      std::span<const std::string_view> parameters);
+
 /// Fresh foams, pastes and heavy concretes, in moulds from a small tube to the cone of a dam's concrete.
 std::vector<Experience> experience_of(const SlumpTest& test);
 

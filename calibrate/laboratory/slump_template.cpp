@@ -78,12 +78,10 @@ constexpr std::string_view slump_study =
     // "adhesion_pa": {"free": [100, 10000]}  // of jkr: surface energy over R
   },
 
-  // Weight of each measurement in the fit, usually 1; 0: reported, not fitted. A slump counts as a height.
-  "weights": {"step1.height_mm": 1, "step1.spread_mm": 1},
-  // How far off a fitted reading may be, where that is not tolerance_mm, or for a reading that is no length one standard
-  // deviation of the laboratory.
-  // With a smaller mould give smaller ones, and a smaller tolerance_mm.
-  "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25},
+  // Every measurement has the weight 1; 0: reported, not fitted. A slump counts as a height.
+  // "weights": {"step1.spread_mm": 0},
+  // How far off a reading may be is the laboratory's standard deviation, but half a grain's radius at least. Others:
+  // "tolerances": {"step1.height_mm": 7.5, "step1.spread_mm": 25},
 
   "search": {
     "strategy": "default",
@@ -95,7 +93,7 @@ constexpr std::string_view slump_study =
     // Of its heaps that shear off (the top shifts by more than 0.4 of the mould's base radius), which the standards reject.
     "rejected_share": 0.2,       // at most; 1: not judged
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
-    "tolerance_mm": 5,           // good enough: for every fitted length without a tolerance of its own
+    // "tolerance_mm": 5,        // for every length without a tolerance of its own
     "coarse_first": false,       // true: look with grains 1.5 times as large first; fewer simulations, confirmed as ever
     "end_early": true,           // candidates that are far off end early; false: every simulation runs to its end
     "seed": 1

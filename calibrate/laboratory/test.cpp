@@ -154,6 +154,15 @@ Doubts doubts_about(const Test& test, std::span<const Measurement> measurements)
   return std::visit([&](const auto& one) { return doubts_about(one, measurements); }, test);
 }
 
+double usual_tolerance(const Test& test, const Measurement& measured) {
+  return std::visit([&](const auto& one) { return usual_tolerance(one, measured); }, test);
+}
+
+std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
+                      std::span<const std::string_view> parameters) {
+  return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
+}
+
 std::vector<Experience> experience_of(const Test& test) {
   return std::visit([](const auto& one) { return experience_of(one); }, test);
 }

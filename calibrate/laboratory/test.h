@@ -28,7 +28,8 @@ template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
              std::span<const Observables> runs, const Observables& means, const Moment& moment,
-             std::span<const Measurement> measurements, std::span<const SeenRun> seen) {
+             std::span<const Measurement> measurements, std::span<const SeenRun> seen,
+             std::span<const std::string_view> names) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
   { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
   { validate(given) } -> std::same_as<Faults>;
@@ -57,7 +58,9 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { doubts_about(given, measurements) } -> std::same_as<Doubts>;
+  { unseen_by(given, names, names) } -> std::same_as<std::string>;
   { experience_of(given) } -> std::same_as<std::vector<Experience>>;
+  { usual_tolerance(given, Measurement{}) } -> std::same_as<double>;
 };
 
 Specimen& specimen_of(Test& test);
@@ -87,7 +90,10 @@ std::string conditions_in_words(const Test& test);
 std::optional<bool> is_rejected(const Test& test, const Observables& run);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);
+std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
+                      std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);
+double usual_tolerance(const Test& test, const Measurement& measured);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);

@@ -92,6 +92,16 @@ inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun
   return {};
 }
 
+/// How far off a simulated reading may be where nobody says: one standard deviation of the laboratory.
+inline double usual_tolerance(const Specimen&, const Measurement& measured) {
+  return measured.standard_deviation;
+}
+
+/// Which of these free parameters the fitted readings cannot tell from others, and what to do, for a person.
+inline std::string unseen_by(const Specimen&, std::span<const std::string_view>, std::span<const std::string_view>) {
+  return {};
+}
+
 /// Powders are hardly lighter than 250 kg/m^3, but in lb/ft3 and kg/l every paste is.
 inline std::vector<Experience> experience_of(const Specimen& test) {
   return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 250, 10000}};

@@ -48,7 +48,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
   demand(options.lag >= 0, "search.lag", std::to_string(options.lag), "0 or more");
   demand(options.confirmation_packings >= 1, "search.confirmation_packings",
          std::to_string(options.confirmation_packings), "at least 1");
-  demand(options.tolerance_mm > 0, "search.tolerance_mm", std::to_string(options.tolerance_mm), "above 0");
+  const double tolerance_mm = options.tolerance_mm.value_or(1);
+  demand(tolerance_mm > 0, "search.tolerance_mm", std::to_string(tolerance_mm), "above 0");
   const int least = (options.screening + options.packings + options.confirmation_packings) * tests;
   demand(options.budget_simulations >= least, "search.budget_simulations", std::to_string(options.budget_simulations),
          "at least " + std::to_string(least) + ": screening, one candidate and its confirmation");

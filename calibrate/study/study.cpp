@@ -146,7 +146,7 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
     reader.integer("confirmation_packings", search.confirmation_packings, 1, 1000, Need::optional);
     reader.number("rejected_share", search.rejected_share, {0, 1}, Need::optional);
     reader.integer("examination_simulations", search.examination_simulations, 0, most, Need::optional);
-    reader.number("tolerance_mm", search.tolerance_mm, {1e-6, 1000}, Need::optional);
+    reader.nullable_number("tolerance_mm", search.tolerance_mm, {1e-6, 1000}, Need::optional);
     reader.flag("coarse_first", search.coarse_first, Need::optional);
     reader.flag("end_early", search.end_early, Need::optional);
     reader.integer("seed", search.seed, Need::optional);

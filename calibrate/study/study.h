@@ -69,9 +69,9 @@ struct SearchOptions {
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   double rejected_share = 0.2;       ///< of heaps that a laboratory would reject, at most; 1: not judged
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
-  double tolerance_mm = 5;           ///< of each fitted length that has none of its own
-  bool coarse_first = false;         ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
-  bool end_early = true;             ///< candidates need not run to their end (`calibrate/search/early_end.h`)
+  std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
+  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
+  bool end_early = true;      ///< candidates need not run to their end (`calibrate/search/early_end.h`)
   std::uint64_t seed = 1;
 };
 
@@ -80,8 +80,9 @@ struct StudyTest {
   std::string name;      ///< unique; empty if the study has one test only
   std::string lab_file;  ///< as the study names it
   Lab lab;
-  std::vector<Target> targets;  ///< one per measurement, in the order of `lab.measurements`
-  bool hold_out = false;        ///< predicted and judged, never fitted
+  std::vector<Target> targets;                 ///< one per measurement, in the order of `lab.measurements`
+  std::vector<std::string> not_measured = {};  ///< readings that it weighs or allows, but the laboratory did not take
+  bool hold_out = false;                       ///< predicted and judged, never fitted
 };
 
 /// A study file: the laboratory's tests of one material, its parameters free and fixed, and the search.

@@ -14,37 +14,44 @@ using nlohmann::json;
 
 constexpr std::size_t most_tests = 20;
 
-/// Reads an object that has a number for some readings; `set` takes it to the reading's target. A laboratory file that
-/// could not be read has no measurements: any known reading may then have one.
+/// Reads an object that has a number for some readings; `set` takes it to the reading's target. Of a reading that the
+/// apparatus has, but that was not taken, it is left out. A laboratory file that could not be read has no measurements:
+/// any known reading may then have one.
 template <class Set>
-void read_numbers(ObjectReader& reader, const Lab& lab, std::vector<Target>& targets, const Range& range, Set set) {
+void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, Set set) {
+  const Lab& lab = test.lab;
+  std::vector<Target>& targets = test.targets;
   const bool unread = lab.measurements.empty();
   for (const ReadingKind& kind : unread ? all_reading_kinds() : reading_kinds(lab.test)) {
     if (kind.key.empty()) continue;
     const auto target = std::ranges::find(targets, kind.measure, &Target::observable);
     double number = 0;
-    if (target == targets.end() && !unread)
-      reader.refuse(kind.key, "the laboratory file has no such measurement", "leave it out, or add the measurement");
-    else if (reader.number(kind.key, number, range, Need::optional) && target != targets.end())
+    if (target == targets.end() && !unread && kind.lack) {
+      reader.refuse(kind.key, "the laboratory file has no such measurement: " + std::string(kind.lack->what),
+                    "leave it out");
+      continue;
+    }
+    if (!reader.number(kind.key, number, range, Need::optional)) continue;
+    if (target != targets.end())
       set(*target, number);
+    else if (!unread && std::ranges::count(test.not_measured, kind.key) == 0)
+      test.not_measured.emplace_back(kind.key);
   }
 }
 
 /// "weights" and "tolerances".
-std::vector<Target> read_targets(ObjectReader& document, const Lab& lab, bool hold_out) {
-  std::vector<Target> targets;
-  for (const Measurement& measurement : lab.measurements) targets.push_back({measurement.observable, 1});
+void read_targets(ObjectReader& document, StudyTest& test) {
+  std::vector<Target>& targets = test.targets;
+  for (const Measurement& measurement : test.lab.measurements) targets.push_back({measurement.observable, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, lab, targets, {0, 1e6}, [](Target& target, double weight) { target.weight = weight; });
+    read_numbers(reader, test, {0, 1e6}, [](Target& target, double weight) { target.weight = weight; });
     if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
-      document.fault("weights", hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
+      document.fault("weights", test.hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
                      "give at least one measurement a weight above 0");
   });
   document.object("tolerances", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, lab, targets, {1e-6, 1e6},
-                 [](Target& target, double tolerance) { target.tolerance = tolerance; });
+    read_numbers(reader, test, {1e-6, 1e6}, [](Target& target, double tolerance) { target.tolerance = tolerance; });
   });
-  return targets;
 }
 
 void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) {
@@ -75,7 +82,7 @@ void read_one_of_many(ObjectReader& reader, const LabReading& labs, std::vector<
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
   read_lab_of(reader, labs, test);
-  test.targets = read_targets(reader, test.lab, test.hold_out);
+  read_targets(reader, test);
   tests.push_back(std::move(test));
 }
 
@@ -115,7 +122,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
     read_lab_of(document, labs, only);
-    only.targets = read_targets(document, only.lab, false);
+    read_targets(document, only);
     return tests;
   }
   document.known("tests");

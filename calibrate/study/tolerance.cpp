@@ -16,7 +16,8 @@ double tolerance_of(const Study& study, std::size_t test, std::size_t measuremen
   const StudyTest& one = study.tests.at(test);
   const Measurement& read = one.lab.measurements.at(measurement);
   if (const auto& own = one.targets.at(measurement).tolerance) return *own;
-  return is_length(read.observable) ? study.search.tolerance_mm : read.standard_deviation;
+  if (is_length(read.observable) && study.search.tolerance_mm) return *study.search.tolerance_mm;
+  return usual_tolerance(one.lab.test, read);
 }
 
 std::string MisfitUnit::words(double misfit, const char* pattern) const {

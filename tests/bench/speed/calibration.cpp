@@ -102,7 +102,7 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   cost.simulation_s = cost.core_s / std::max(1, calibration.simulations);
   cost.status = calibration.status;
   if (calibration.confirmation.point.size() > 0)
-    cost.confirmed_mm = calibration.confirmation.miss * study.search.tolerance_mm;
+    cost.confirmed_mm = calibration.confirmation.miss * study.search.tolerance_mm.value_or(1);
   engine.tell(cost);
   return cost;
 }

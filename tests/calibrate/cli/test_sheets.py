@@ -119,16 +119,115 @@ class Sheets(Desk):
     def test_a_radius_given_as_a_width_is_named_first(self):
         lab = self.lab({"step1.height_mm": {"value": 107, "standard_deviation": 7.5},
                         "step1.spread_mm": {"value": 236, "standard_deviation": 25}})
-        words = ("no heap of this volume is 107 mm high and 236 mm wide", "256 mm wide",
+        words = ("no heap of this volume is 107 mm high and 236 mm wide", "255.8 mm wide",
                  "if 236 mm is a radius, the width is 472 mm")
         result = run("simulate", lab)
         self.assertEqual(result.returncode, 0, result.stderr)
         for word in words:
             self.assertIn(word, result.stderr)
         document = json.loads(lab.read_text())
-        document["measurements"]["step1.spread_mm"]["standard_deviation"] = 5
+        for name, deviation in (("height", 2), ("spread", 5)):
+            document["measurements"][f"step1.{name}_mm"]["standard_deviation"] = deviation
         lab.write_text(json.dumps(document))
         self.refused(lab, "contradicts", "if 236 mm is a radius, the width is 472 mm")
+
+    TUBE = {"mould": {"base_diameter_mm": 20, "top_diameter_mm": 20, "height_mm": 40}, "table_length_mm": 80,
+            "lift_velocity_mm_s": 100, "drop_plate": None, "reading": {"height": "highest", "probe_diameter_mm": 4}}
+    TALL = {"step1.height_max_mm": {"value": 24, "standard_deviation": 2}}
+
+    def test_a_default_that_nothing_reads_is_not_in_the_way(self):
+        # Without a drop plate nothing reads the sag, whose window of 100 mm is wider than this table.
+        result = run("simulate", self.lab(self.TALL, 1150, apparatus=self.TUBE, radius_mm=1.5), "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        plate = {"length_mm": 80, "mass_kg": 1, "lift_height_mm": 5}
+        lab = self.lab(self.TALL, 1150, apparatus={**self.TUBE, "drop_plate": plate}, radius_mm=1.5)
+        self.refused(lab, "apparatus.reading.sag_window_mm: is 100 mm, which is the default", "add the key")
+
+    def test_settings_mend_the_laboratory_file_of_a_study(self):
+        self.lab(self.TALL, 1150, apparatus=self.TUBE, radius_mm=9)  # too coarse as it stands
+        study = self.study_of()
+        self.fails(run("simulate", study), 2, "grains.radius_mm")
+        result = run("simulate", study, "--set", "grains.radius_mm=1.5", "--set", "apparatus.lift_velocity_mm_s=80")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("lifted at 80 mm/s", result.stderr)
+
+    def test_settings_change_the_study_itself(self):
+        self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}})
+        study = self.study_of(contact={"rolling_model": "none"}, parameters={"friction": {"free": [0.1, 0.6]}})
+        self.fails(run("simulate", study, "--set", "contact.rolling_model=spring"), 2, "spring_dashpot")
+        result = run("simulate", study, "--set", "contact.rolling_model=spring_dashpot", "--set", "rolling_friction=0.3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_parameters_of_surfaces_belong_to_tests_that_have_them(self):
+        for name in ("lab", "study"):
+            (self.folder / f"{name}.json").write_text(run("template", f"shear-{name}").stdout)
+        study = self.folder / "study.json"
+        study.write_text(study.read_text().replace('"friction": {"free"', '"table_friction": {"value": 0.3}, "friction": {"free"'))
+        self.fails(run("infer", study, "--from", self.folder), 2, "parameters.table_friction: acts on the table",
+                   "which the test's apparatus has not")
+
+    def test_a_cone_upside_down_is_lifted(self):
+        # ASTM C1611, procedure B; the same material spreads as wide from either end of the cone.
+        upright = {"mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300}, "table_length_mm": 1200,
+                   "lift_velocity_mm_s": 100, "drop_plate": None, "reading": {"height": "axis", "probe_diameter_mm": 40}}
+        inverted = {**upright, "mould": {"base_diameter_mm": 100, "top_diameter_mm": 200, "height_mm": 300}}
+        weak = [word for setting in ("strength_pa=20", "friction=0.05", "rolling_friction=0", "table_friction=0.3")
+                for word in ("--set", setting)]
+        readings = []
+        for apparatus in (upright, inverted):
+            lab = self.lab({"step1.spread_mm": {"value": 650, "standard_deviation": 25}}, apparatus=apparatus, radius_mm=10)
+            result = run("simulate", lab, "--json", *weak)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            readings.append(json.loads(result.stdout)["observables"])
+        spreads = [reading["step1.spread_mm"] for reading in readings]
+        solid = [reading["fill.solid_fraction"] for reading in readings]
+        self.assertAlmostEqual(solid[0], solid[1], delta=0.02)
+        self.assertAlmostEqual(spreads[0], spreads[1], delta=0.15 * spreads[0])
+
+    def test_times_are_refused_because_time_is_not_simulated(self):
+        lab = self.lab({"step1.spread_mm": {"value": 700, "standard_deviation": 25}, "step1.t500_s": {"value": 2.6}})
+        self.refused(lab, "measurements.step1.t500_s: is a time", "compared at rest")
+
+    def test_texts_of_windows_programs_are_read_or_named(self):
+        lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}}, title="M\u00f6rtel")
+        text = json.dumps(json.loads(lab.read_text()), ensure_ascii=False, indent=1)
+        lab.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
+        self.assertEqual(run("simulate", lab, "--quiet").returncode, 0)
+        for content, words in (("\ufeff" + text).encode("utf-16-le"), ("UTF-16", "save the file as UTF-8")), \
+                (text.encode("utf-16-be"), ("UTF-16",)), (text.encode("latin-1"), ("UTF-8",)), \
+                (text.replace("160,", "160,\u00a0").encode(), ("a no-break space",)), \
+                (text.replace('"value"', "\u201cvalue\u201d").encode(), ("a typographic quotation mark",)), \
+                (text.replace("160", "\u2212160").encode(), ("a typographic minus sign",)):
+            with self.subTest(words=words):
+                lab.write_bytes(content)
+                self.refused(lab, *words)
+
+    def test_slips_at_the_command_line_are_answered_with_what_was_meant(self):
+        lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}})
+        self.fails(run("calibrate", self.study_of(), "--ot", self.out), 2, "--ot: is no option", "did you mean --out?")
+        self.fails(run("simulate", lab, "--set", "frction=0.3"), 2, 'did you mean "friction"?')
+        self.fails(run("simulate", self.study_of(), "--set", "frction=0.3"), 2, 'did you mean "friction"?')
+        (self.folder / "card.json").write_text("{}")
+        self.fails(run("show", self.folder), 2, "is a folder; give a file of it", "card.json")
+
+    def test_weights_of_readings_that_were_not_taken_are_left_out(self):
+        self.lab({"step1.spread_mm": {"repeats": [330, 338]}})
+        weights = {"step1.height_mm": 1, "step1.spread_mm": 1, "step1.lateral_shift_mm": 1}
+        study = self.study_of(weights=weights, tolerances={name: 25 for name in weights})
+        result = self.calibrates(study)
+        self.assertIn("readings that were not taken are left out: step1.height_mm, step1.lateral_shift_mm", result.stderr)
+        study.write_text(run("template", "study").stdout.replace('"budget_simulations": 150', '"budget_simulations": 30'))
+        self.assertEqual(run("simulate", study).returncode, 0)
+
+    def test_a_calibration_says_what_it_understood_before_it_starts(self):
+        self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}})
+        study = self.study_of(parameters={**PARAMETERS, "friction": {"free": [0.1, 0.6]}})
+        said = self.calibrates(study).stderr
+        for words in ("mould                    base 200 mm, top 100 mm, height 300 mm", "of 12 mm radius",
+                      "step1.height_mm          140 within 7.5 mm", "4 simulations of about",
+                      "Free without a reading of the spread: friction"):
+            self.assertIn(words, said)
+        self.assertLess(said.index("To be met"), said.index("wrote"))
 
 
 if __name__ == "__main__":

@@ -165,6 +165,36 @@ TEST_CASE(
   CHECK(says(at(desk.faults(document), "tolerances.step1.height_mm"), "0"));
 }
 
+TEST_CASE("tolerances that nobody gives follow from the readings, the grains and the mould") {
+  const Desk desk;
+  json lab = json::parse(template_text("lab").value(), nullptr, true, true);
+  lab["measurements"]["step1.spread_mm"]["standard_deviation"] = 1;  // finer than grains of 8 mm have a surface
+  desk.folder().write("lab.json", lab.dump());
+  const Result<Study> study = desk.read(Desk::study());
+  REQUIRE(study.ok());
+  std::map<std::string, double> tolerances;
+  for (const StudyReading& reading : readings_of(study.value())) tolerances[reading.name] = reading.tolerance;
+  CHECK(tolerances == std::map<std::string, double>{
+                          {"step1.height_mm", 7.5}, {"step1.lateral_shift_mm", 40}, {"step1.spread_mm", 4}});
+}
+
+TEST_CASE("weights and tolerances of readings that were not taken are left out and told") {
+  const Desk desk;
+  json lab = json::parse(template_text("lab").value(), nullptr, true, true);
+  lab["measurements"] = {{"step1.spread_mm", {{"value", 310}, {"standard_deviation", 25}}}};
+  desk.folder().write("lab.json", lab.dump());
+  json document = Desk::study();
+  document["weights"] = {{"step1.slump_mm", 1}, {"step1.spread_mm", 2}};
+  document["tolerances"] = {{"step1.slump_mm", 7.5}, {"step1.lateral_shift_mm", 40}};
+  const Result<Study> study = desk.read(document);
+  INFO((study.ok() ? "" : message_of(study.faults())));
+  REQUIRE(study.ok());
+  const StudyTest& test = study.value().tests[0];
+  CHECK(test.not_measured == std::vector<std::string>{"step1.slump_mm", "step1.lateral_shift_mm"});
+  REQUIRE(test.targets.size() == 1);
+  CHECK(test.targets[0].weight == 2);
+}
+
 TEST_CASE("a study may name several laboratory files, fitted ones first, hold-outs kept apart") {
   const Desk desk;
   desk.folder().write("mini.json", test::with(template_text("lab").value(), "\"abrams\"", "\"abrams-en\""));

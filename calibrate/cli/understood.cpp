@@ -1,0 +1,124 @@
+#include "calibrate/cli/understood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "calibrate/base/format.h"
+#include "calibrate/base/processor_time.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/base/units.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
+
+namespace pastefit {
+
+namespace {
+
+std::string grains_in_words(const Test& test) {
+  const GrainSizes& grains = specimen_of(test).grains;
+  const double count = grains_needed(test);
+  const std::string size = grains.distribution == SizeDistribution::mono
+                               ? format("%g mm radius", mm * grains.radius_m)
+                               : format("%g to %g mm radius", mm * grains.smallest_m, mm * grains.largest_m);
+  return count < 2 ? "one of " + size : "about " + plain(count, 2) + " of " + size;
+}
+
+std::string unit_at_end(std::string_view reading) {
+  const auto unit = unit_of_key(reading);
+  return unit ? " " + std::string(unit->name) : "";
+}
+
+/// "step1.height_mm 137.5 within 7.5 mm".
+std::string readings_to_be_met(const Study& study) {
+  std::string out;
+  for (const StudyReading& reading : readings_of(study)) {
+    if (reading.weight == 0) continue;
+    out += format("  %-24s %s", reading.name.c_str(), plain(reading.measurement.value, 5).c_str()) + " within " +
+           plain(reading.tolerance) + unit_at_end(reading.measurement.observable) + "\n";
+  }
+  return out;
+}
+
+std::string time_expected(const Study& study, int threads) {
+  const SearchOptions& search = study.search;
+  double one_s = 0;
+  int tests = 0;
+  for (const std::size_t test : tests_of(study, false)) {
+    const auto seconds = seconds_of_simulation(study.tests[test].lab.test);
+    if (!seconds) return "";
+    one_s += *seconds;
+    ++tests;
+  }
+  one_s /= tests;
+  const int fewest = (search.screening + search.packings + search.confirmation_packings) * tests;
+  const int cores = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const auto at_once = std::min(cores, search.budget_simulations);
+  const auto wall = [&](int simulations) { return one_s * simulations / at_once; };
+  return "  time                     " +
+         range_of_time(wall(std::min(fewest, search.budget_simulations)), wall(search.budget_simulations)) +
+         format(": %d to %d simulations of about %s s, %d at once\n", std::min(fewest, search.budget_simulations),
+                search.budget_simulations, plain(one_s, 2).c_str(), at_once);
+}
+
+/// Free parameters of which the fitted readings of no test say anything.
+std::string unseen_parameters(const Study& study) {
+  std::vector<std::string_view> free;
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free && !parameter.prior) free.push_back(parameter.name);
+  std::string out;
+  for (const std::size_t i : tests_of(study, false)) {
+    std::vector<std::string_view> readings;
+    const StudyTest& test = study.tests[i];
+    for (std::size_t k = 0; k < test.targets.size(); ++k)
+      if (test.targets[k].weight > 0) readings.push_back(test.lab.measurements[k].observable);
+    const std::string unseen = unseen_by(test.lab.test, readings, free);
+    if (unseen.empty()) return "";
+    out = unseen;
+  }
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string apparatus_in_words(const Test& test) {
+  return conditions_in_words(test) + "  grains                   " + grains_in_words(test) + "\n";
+}
+
+std::optional<double> seconds_of_simulation(const Test& test) {
+  constexpr double few = 300;  // grains
+  constexpr double largest_enlargement = 30, patience_s = 2;
+  Test coarse = test;
+  GrainSizes& grains = specimen_of(coarse).grains;
+  const double wanted = std::cbrt(grains_needed(test) / few);
+  // As coarse as the apparatus takes.
+  double enlarged = std::clamp(wanted, 1.0, largest_enlargement);
+  const GrainSizes own = grains;
+  for (;; enlarged = std::max(1.0, 0.9 * enlarged)) {
+    for (const auto size :
+         {&GrainSizes::radius_m, &GrainSizes::smallest_m, &GrainSizes::largest_m, &GrainSizes::standard_deviation_m})
+      grains.*size = enlarged * own.*size;
+    if (validate(coarse).empty()) break;
+    if (enlarged == 1) return std::nullopt;
+  }
+  RunOptions options;
+  options.steps.ledger = false;
+  const double start_s = thread_seconds();
+  const auto taken_s = [&] { return thread_seconds() - start_s; };
+  options.pulse = [&](const Moment&) { return taken_s() < patience_s; };
+  if (simulate(coarse, options).failure) return std::nullopt;
+  return taken_s() * std::pow(enlarged, 4);
+}
+
+std::string understood(const Study& study, int threads) {
+  std::string out;
+  for (const std::size_t i : tests_of(study, false)) {
+    const StudyTest& test = study.tests[i];
+    if (!test.name.empty()) out += "Test " + test.name + "\n";
+    out += apparatus_in_words(test.lab.test);
+  }
+  return out + "To be met\n" + readings_to_be_met(study) + time_expected(study, threads) + unseen_parameters(study);
+}
+
+}  // namespace pastefit
