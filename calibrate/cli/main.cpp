@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
     Command (*add)(CLI::App&);
   };
   constexpr Verb kVerbs[] = {
+      {"new", "write a laboratory file and a study from what a measuring sheet says", add_new},
       {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
       {"infer", "say what a calibration's stored simulations tell of the parameters, without simulating", add_infer},
       {"compare-optimisers", "run all search strategies on one study with the same budget", add_compare_optimisers},

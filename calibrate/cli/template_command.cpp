@@ -1,23 +1,48 @@
 #include <cstdio>
 #include <memory>
+#include <set>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/laboratory/test.h"
+#include "calibrate/study/target_laws.h"
 
 namespace pastefit {
+
+namespace {
+
+struct TemplateOptions {
+  std::string name, target;
+};
+
+int print_template(const TemplateOptions& options, const std::string& names) {
+  auto text = template_text(options.name);
+  if (!text)
+    return report({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
+  if (!options.target.empty()) {
+    const auto laws = laws_for(options.target);
+    if (options.name != "study")
+      return report({{"--for", "goes with the first study only", "template study --for ..."}});
+    if (!laws)
+      return report({{"--for " + printable(options.target), "is no program that pastefit knows the laws of",
+                      "one of " + names_of_targets()}});
+    text = with_laws(std::move(*text), *laws);
+  }
+  print("%s", text->c_str());
+  return kDone;
+}
+
+}  // namespace
 
 Command add_template(CLI::App& verb) {
   std::string names;
   for (const auto& name : template_names()) names += (names.empty() ? "" : ", ") + name;
-  const auto name = std::make_shared<std::string>();
-  verb.add_option("NAME", *name, "which one: " + names)->required();
-  return [name, names] {
-    const auto text = template_text(*name);
-    if (!text) return report({{"template " + *name, "there is no such starting file", "one of " + names}});
-    print("%s", text->c_str());
-    return kDone;
-  };
+  const auto options = std::make_shared<TemplateOptions>();
+  verb.add_option("NAME", options->name, "which one: " + names)->required();
+  verb.add_option("--for", options->target, "with the laws that this program runs exactly: " + names_of_targets())
+      ->type_name("PROGRAM");
+  return [options, names] { return print_template(*options, names); };
 }
 
 }  // namespace pastefit

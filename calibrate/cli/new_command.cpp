@@ -1,0 +1,206 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <system_error>
+
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/understood.h"
+#include "calibrate/study/slump_sheet.h"
+
+namespace pastefit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewOptions {
+  std::string folder = ".";
+  std::string test = "slump";
+  Sheet sheet;
+  std::vector<std::string> readings;                         ///< "NAME=VALUES"
+  std::vector<std::pair<std::string, std::string>> by_name;  ///< of options with a name of their own
+  bool force = false;
+};
+
+/// What a person answers to a question on the terminal, asked again until `faults_of` finds nothing. Nothing at the end
+/// of the input.
+std::optional<std::string> answer_to(const std::string& question, const std::string& usual,
+                                     const std::function<Faults(const std::string&)>& faults_of) {
+  while (true) {
+    print("%s%s: ", question.c_str(), usual.empty() ? "" : (" [" + usual + "]").c_str());
+    std::fflush(stdout);
+    std::string answer;
+    if (!std::getline(std::cin, answer)) return std::nullopt;
+    if (answer.empty()) answer = usual;
+    const Faults faults = faults_of(answer);
+    if (faults.empty()) return answer;
+    for (const Fault& fault : faults) print("  %s; %s\n", fault.what.c_str(), fault.remedy.c_str());
+  }
+}
+
+Faults faults_of_text(const Result<std::vector<double>>& read) {
+  return read.ok() ? Faults{} : read.faults();
+}
+
+/// Asks for each reading by its short name; an empty answer leaves it out.
+bool ask_readings(Sheet& sheet, bool plate) {
+  for (const ShortReading& one : short_readings()) {
+    const bool after_drop = one.key.starts_with("step2.");
+    if (after_drop != plate && (after_drop || one.name == "mass")) continue;
+    if (one.name == "shift" || one.name == "mass" || one.name == "slump2") continue;
+    const bool height = one.name == "height" && !sheet.readings.empty();  // a slump is one
+    if (height) continue;
+    const auto answer = answer_to(std::string(one.name) + ", " + std::string(one.meaning) +
+                                      " (mm; repeats as \"180, 175, 190\"; empty: not measured)",
+                                  "", [&](const std::string& text) {
+                                    return text.empty() ? Faults{} : faults_of_text(written_readings("", text, "mm"));
+                                  });
+    if (!answer) return false;
+    if (!answer->empty()) sheet.readings.emplace_back(one.name, *answer);
+  }
+  return true;
+}
+
+/// Asks for what the options do not say. False at the end of the input.
+bool ask_sheet(Sheet& sheet, const fs::path& folder) {
+  const auto ask = [](std::string& target, const std::string& question, const std::string& usual,
+                      const auto& faults_of) {
+    if (!target.empty()) return true;
+    const auto answer = answer_to(question, usual, faults_of);
+    if (answer) target = *answer;
+    return answer.has_value();
+  };
+  const auto mould_faults = [&](const std::string& text) {
+    const auto read = apparatus_of(text, folder);
+    return read.ok() ? Faults{} : read.faults();
+  };
+  if (!ask(sheet.mould, "mould: abrams, abrams-en, en12350-5, haegermann, mini-cone, or base/top/height in mm",
+           "abrams", mould_faults) ||
+      !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
+           [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))
+    return false;
+  const auto test = apparatus_of(sheet.mould, folder);
+  if (sheet.readings.empty() && test.ok())
+    if (!ask_readings(sheet, std::get<SlumpTest>(test.value()).drop.has_value())) return false;
+  return ask(sheet.target, "program that the material is for: " + names_of_targets(), "lammps", [](const auto& text) {
+    return laws_for(text) ? Faults{} : Faults{{"", "is no such program", "one of " + names_of_targets()}};
+  });
+}
+
+/// What the options lack, where nobody can be asked.
+Faults missing_options(const Sheet& sheet) {
+  Faults faults;
+  if (sheet.mould.empty()) faults.push_back({"--mould", "is missing", "e.g. abrams, haegermann or 200/100/300"});
+  if (sheet.density.empty())
+    faults.push_back({"--density", "is missing", "e.g. 2350, or with its unit: \"145 lb/ft3\""});
+  if (sheet.readings.empty())
+    faults.push_back({"--slump", "is missing, and every other reading", "e.g. --slump \"180, 175, 190\" --spread 330"});
+  return faults;
+}
+
+/// The starting files of a test of another kind are its template.
+Result<StartingFiles> templates_of_kind(const std::string& kind) {
+  const auto lab = template_text(kind + "-lab"), study = template_text(kind + "-study");
+  if (!lab || !study) return no_such_kind("--test", kind);
+  return StartingFiles{*lab, *study};
+}
+
+Faults read_options(NewOptions& options) {
+  Faults faults;
+  for (auto& [name, text] : options.by_name)
+    if (!text.empty()) options.sheet.readings.emplace_back(name, text);
+  for (const std::string& text : options.readings) {
+    const auto sign = text.find('=');
+    if (sign == std::string::npos || sign == 0)
+      faults.push_back({"--reading " + printable(text), "is not NAME=VALUES", "e.g. --reading \"spread=330, 335\""});
+    else
+      options.sheet.readings.emplace_back(text.substr(0, sign), text.substr(sign + 1));
+  }
+  return faults;
+}
+
+/// Writes both files and says what was understood and what comes next.
+int write_new(const NewOptions& options, const StartingFiles& files) {
+  const fs::path lab = fs::path(options.folder) / "lab.json", study = fs::path(options.folder) / "study.json";
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  Faults faults;
+  for (const fs::path& file : {lab, study})
+    for (Fault& fault : output_file_faults(file.string(), file, options.force)) faults.push_back(std::move(fault));
+  if (!faults.empty()) return report(faults);
+  faults = write_atomically(lab, files.lab);
+  if (faults.empty()) faults = write_atomically(study, files.study);
+  if (!faults.empty()) return report(faults, kFailed);
+  print("wrote %s\nwrote %s\n", lab.c_str(), study.c_str());
+  if (const auto read = read_study(study); read.ok()) print("\n%s", understood(read.value()).c_str());
+  const std::string folder = options.folder == "." ? "" : options.folder + "/";
+  print("\nNext:\n  pastefit calibrate %s --out %sout\n", study.c_str(), folder.c_str());
+  if (const auto laws = laws_for(options.sheet.target); laws && options.test == "slump")
+    print("  pastefit export %sout/card.json --to %s --out %s%s\n", folder.c_str(),
+          std::string(laws->export_target).c_str(), folder.c_str(), std::string(laws->target).c_str());
+  return kDone;
+}
+
+int make_new(NewOptions options) {
+  Faults faults = read_options(options);
+  if (!faults.empty()) return report(faults);
+  if (options.test != "slump") {
+    const auto files = templates_of_kind(options.test);
+    return files.ok() ? write_new(options, files.value()) : report(files.faults());
+  }
+  Sheet& sheet = options.sheet;
+  if (!missing_options(sheet).empty() && isatty(STDIN_FILENO) == 1) {
+    if (!ask_sheet(sheet, options.folder))
+      return report({{"standard input", "ended before every answer", "start again"}});
+    print("\n");
+  }
+  if (faults = missing_options(sheet); !faults.empty()) return report(faults);
+  if (sheet.target.empty()) sheet.target = target_laws().front().target;
+  const auto files = starting_files(sheet, options.folder);
+  return files.ok() ? write_new(options, files.value()) : report(files.faults());
+}
+
+}  // namespace
+
+Command add_new(CLI::App& verb) {
+  const auto options = std::make_shared<NewOptions>();
+  Sheet& sheet = options->sheet;
+  sheet.target.clear();
+  verb.add_option("DIR", options->folder, "folder for lab.json and study.json (.)");
+  verb.add_option("--test", options->test, "slump, or drop, pellet, shear, whose commented starting files are written")
+      ->type_name("KIND");
+  verb.add_option("--title", sheet.title, "one line for people")->type_name("TEXT");
+  verb.add_option("--mould", sheet.mould,
+                  "a preset (abrams, haegermann, ...), or base/top/height: \"200/100/300\", \"8/4/12 in\"")
+      ->type_name("MOULD");
+  verb.add_option("--density", sheet.density, "of the fresh material, in kg/m3 or with its unit: \"145 lb/ft3\"")
+      ->type_name("DENSITY");
+  options->by_name.reserve(short_readings().size());
+  for (const ShortReading& one : short_readings()) {
+    options->by_name.emplace_back(one.name, "");
+    verb.add_option("--" + std::string(one.name), options->by_name.back().second,
+                    std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " +
+                        (one.name == "mass" ? "kg" : "mm") + " or with their unit")
+        ->type_name("VALUES");
+  }
+  verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")
+      ->type_name("NAME=VALUES")
+      ->take_all();
+  verb.add_option("--for", sheet.target, "program that the material is for: " + names_of_targets())
+      ->type_name("PROGRAM");
+  verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the fault names it")
+      ->type_name("PLACE")
+      ->take_all();
+  verb.add_flag("--force", options->force, "replace the files in DIR");
+  return [options] { return make_new(*options); };
+}
+
+}  // namespace pastefit

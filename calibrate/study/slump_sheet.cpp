@@ -1,0 +1,272 @@
+#include "calibrate/study/slump_sheet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/json_reader.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/base/units.h"
+#include "calibrate/study/lab.h"
+#include "calibrate/study/rig.h"
+#include "core/rigs/reading_kind.h"
+
+namespace pastefit {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::array<ShortReading, 9> shorts{{
+    {"slump", "step1.slump_mm", "what is missing to the mould's height"},
+    {"height", "step1.height_mm", "the height that is left"},
+    {"spread", "step1.spread_mm", "width of the heap"},
+    {"shift", "step1.lateral_shift_mm", "of the middle of the top"},
+    {"height2", "step2.height_mm", "after the plate's drop"},
+    {"slump2", "step2.slump_mm", "after the plate's drop"},
+    {"spread2", "step2.spread_mm", "after the plate's drop"},
+    {"sag", "step2.plateau_sag_mm", "how much lower the top lies on the free side"},
+    {"mass", "fill.mass_kg", "of the full mould's content"},
+}};
+
+std::string_view key_of_reading(std::string_view name) {
+  const auto found = std::ranges::find(shorts, name, &ShortReading::name);
+  return found == shorts.end() ? name : found->key;
+}
+
+std::string reading_fault_place(std::string_view name) {
+  return "reading " + printable(name);
+}
+
+/// Three lengths in mm from "200/100/300" or "8/4/12 in". Nothing if it is none.
+std::optional<std::array<double, 3>> lengths_in(const std::string& text) {
+  std::array<double, 3> out{};
+  std::optional<Unit> unit;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t end = i + 1 < out.size() ? text.find('/', start) : text.size();
+    if (end == std::string::npos) return std::nullopt;
+    const auto number = written_number(std::string_view(text).substr(start, end - start));
+    if (!number) return std::nullopt;
+    out[i] = number->value;
+    if (number->unit) unit = number->unit;
+    start = end + 1;
+  }
+  if (unit && unit->key != "mm") return std::nullopt;
+  for (double& length : out) length = rounded(length * (unit ? unit->factor : 1), 6);
+  return out;
+}
+
+/// A mould of one's own on a table that its heap does not leave, lifted in 3 s but no slower than 50 mm/s.
+ordered_json own_apparatus(const std::array<double, 3>& mould) {
+  const auto [base, top, height] = mould;
+  const double wider = std::max(base, top);
+  return {{"mould", {{"base_diameter_mm", base}, {"top_diameter_mm", top}, {"height_mm", height}}},
+          {"table_length_mm", rounded(std::max(4.5 * wider, 3 * height), 3)},
+          {"lift_velocity_mm_s", rounded(std::max(height / 3, 50.0), 3)},
+          {"drop_plate", nullptr},
+          {"reading", {{"height", "axis"}, {"probe_diameter_mm", rounded(wider / 5, 3)}}}};
+}
+
+/// "apparatus" of a laboratory file.
+ordered_json apparatus_json(const std::string& mould) {
+  if (const auto own = lengths_in(mould)) return own_apparatus(*own);
+  return {{"preset", mould}};
+}
+
+const SlumpTest& slump_of(const Test& test) {
+  return std::get<SlumpTest>(test);
+}
+
+/// Those of the preset; of another mould, as many grains as an Abrams cone has with 8 mm.
+ordered_json grains_json(const Test& test, bool preset) {
+  constexpr double of_opening = 0.08;
+  const Mould& mould = slump_of(test).mould;
+  const double opening_mm = 1e3 * std::min(2 * narrower_radius_m(mould), mould.height_m);
+  const double radius_mm = preset ? 1e3 * specimen_of(test).grains.radius_m : of_opening * opening_mm;
+  return {{"distribution", "mono"}, {"radius_mm", rounded(radius_mm, 3)}};
+}
+
+/// The deviation of one reading: as published for this mould, else the share that is published for a height.
+double deviation_of(const ReadingKind& kind, const Test& test, double value) {
+  constexpr double share_of_mass = 0.01, share_of_height = 0.025;
+  if (kind.published_deviation > 0) return rounded(kind.published_deviation, 2);
+  if (kind.key == "fill.mass_kg") return rounded(share_of_mass * value, 2);
+  if (kind.key == "step1.lateral_shift_mm") return rounded(0.2 * 1e3 * wider_radius_m(slump_of(test).mould), 2);
+  return rounded(share_of_height * 1e3 * slump_of(test).mould.height_m, 2);
+}
+
+ordered_json reading_json(const std::vector<double>& values, double deviation) {
+  ordered_json out;
+  if (values.size() == 1)
+    out["value"] = values[0];
+  else
+    out["repeats"] = values;
+  out["standard_deviation"] = deviation;
+  return out;
+}
+
+/// "measurements": what the sheet says, and that a heap with a height did not shear off, or it would not have been
+/// read.
+ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
+  auto out = ordered_json::object();
+  const auto of_test = reading_kinds(test);
+  std::set<std::string, std::less<>> names;
+  for (const ShortReading& one : shorts) names.emplace(one.name);
+  bool height = false;
+  for (const auto& [name, text] : sheet.readings) {
+    const std::string_view key = key_of_reading(name);
+    const auto kind = std::ranges::find(of_test, key, &ReadingKind::key);
+    if (kind == of_test.end() || kind->key.empty() || kind->from_outline) {
+      const auto near = nearest(name, names);
+      faults.push_back({reading_fault_place(name), "is no reading of a slump test",
+                        near ? "did you mean " + *near + "?" : "e.g. slump=180 or spread=330"});
+      continue;
+    }
+    const auto unit = unit_of_key(key);
+    const auto values = written_readings(reading_fault_place(name), text, unit ? unit->key : "");
+    if (!values.ok()) {
+      faults.insert(faults.end(), values.faults().begin(), values.faults().end());
+      continue;
+    }
+    out[std::string(key)] = reading_json(values.value(), deviation_of(*kind, test, values.value()[0]));
+    height = height || key == "step1.slump_mm" || key == "step1.height_mm";
+  }
+  constexpr const char* shift = "step1.lateral_shift_mm";
+  if (height && !out.contains(shift)) out[shift] = reading_json({0}, deviation_of(*find_kind(of_test, shift), test, 0));
+  return out;
+}
+
+/// A height and a spread tell strength and friction apart; one of them alone tells the strength.
+ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
+  const auto is_there = [&](std::string_view part) {
+    for (const auto& [key, reading] : measurements.items())
+      if (key.find(part) != std::string::npos) return true;
+    return false;
+  };
+  const bool both = is_there("spread") && (is_there("slump") || is_there("height"));
+  const bool bridge = laws.attraction != "none";
+  const auto free = [](double lower, double upper) { return ordered_json{{"free", {lower, upper}}}; };
+  const auto fixed = [](double value) { return ordered_json{{"value", value}}; };
+  ordered_json out;
+  out[std::string(laws.strength)] = {{"free", {laws.weakest, laws.strongest}}, {"scale", "log"}};
+  if (bridge && both) {
+    out["rupture_force_ratio"] = free(0, 0.5);
+    out["curvature"] = free(-0.5, 1);
+  }
+  if (bridge) {
+    out["rupture_gap_ratio"] = {{"free", {0.15, 1}}, {"scale", "log"}};
+    out["formation_ratio"] = both ? free(0, 1) : fixed(1);
+  }
+  out["friction"] = both ? free(0.05, 0.8) : fixed(0.15);
+  out["rolling_friction"] = both ? free(0, 1) : fixed(0.02);
+  return out;
+}
+
+std::string with_head(std::string_view head, const ordered_json& document) {
+  return std::string(head) + "\n" + document.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::span<const ShortReading> short_readings() {
+  return shorts;
+}
+
+Result<std::vector<double>> written_readings(const std::string& where, const std::string& text,
+                                             std::string_view unit_key) {
+  const auto unit_now = unit_of_word(unit_key);
+  const std::string own = unit_now ? " in " + std::string(unit_now->name) : "";
+  const auto wrong = [&](std::string what) {
+    return Fault{where, std::move(what), "numbers" + own + " or with their unit, e.g. \"180, 175, 190\""};
+  };
+  std::vector<WrittenNumber> numbers;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    // A number ends at a semicolon, at a comma before a space, or at a space before a digit.
+    std::size_t end = start;
+    for (; end < text.size(); ++end) {
+      const char next = end + 1 < text.size() ? text[end + 1] : ' ';
+      const bool digit = (next >= '0' && next <= '9') || next == '-' || next == '.';
+      if (text[end] == ';' || (text[end] == ',' && next == ' ') || (text[end] == ' ' && digit && end > start)) break;
+    }
+    const std::string_view part = std::string_view(text).substr(start, end - start);
+    start = end + 1;
+    if (part.find_first_not_of(' ') == std::string_view::npos) continue;
+    const auto number = written_number(part);
+    if (!number) return wrong("holds " + in_quotes(part) + ", which is no number");
+    if (number->comma)
+      return Fault{where, "holds " + in_quotes(part),
+                   "a decimal point, or a space after the comma between two numbers"};
+    numbers.push_back(*number);
+  }
+  if (numbers.empty()) return wrong("is empty");
+  const std::optional<Unit> last = numbers.back().unit;
+  std::vector<double> out;
+  for (const WrittenNumber& number : numbers) {
+    const std::optional<Unit> unit = number.unit ? number.unit : last;
+    if (unit && unit->key != unit_key) return wrong("is in " + std::string(unit->name));
+    out.push_back(rounded(number.value * (unit ? unit->factor : 1), 6));
+  }
+  return out;
+}
+
+Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder) {
+  Faults faults;
+  Test test = SlumpTest{};
+  const json document{{"apparatus", apparatus_json(mould)}};
+  {
+    ObjectReader reader(document, "", faults);
+    read_apparatus(reader, test, folder);
+  }
+  if (!faults.empty()) return faults;
+  return test;
+}
+
+Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder) {
+  Faults faults;
+  const auto laws = laws_for(sheet.target);
+  if (!laws)
+    faults.push_back({"for " + printable(sheet.target), "is no program that pastefit knows the laws of",
+                      "one of " + names_of_targets()});
+  const auto density = written_readings("density", sheet.density, "kg_m3");
+  if (!density.ok()) faults.insert(faults.end(), density.faults().begin(), density.faults().end());
+  const auto test = apparatus_of(sheet.mould, folder);
+  if (!test.ok()) faults.insert(faults.end(), test.faults().begin(), test.faults().end());
+  ordered_json measurements;
+  if (test.ok()) measurements = measurements_of(sheet, test.value(), faults);
+  if (test.ok() && sheet.readings.empty())
+    faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
+  if (!faults.empty()) return faults;
+
+  ordered_json lab{{"format", "pastefit-lab-1"},
+                   {"title", sheet.title},
+                   {"provenance", {{"source", "laboratory, person, date"}}},
+                   {"apparatus", apparatus_json(sheet.mould)},
+                   {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
+                   {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
+                   {"measurements", measurements}};
+  if (!sheet.confirmed.empty()) lab["confirmed"] = sheet.confirmed;
+  if (const auto read = lab_from_json(json::parse(lab.dump()), folder); !read.ok()) return read.faults();
+  const ordered_json study{{"format", "pastefit-study-1"},
+                           {"title", sheet.title},
+                           {"lab", "lab.json"},
+                           {"contact", contact_of(*laws)},
+                           {"parameters", parameters_for(*laws, measurements)},
+                           {"search",
+                            {{"screening", 16},
+                             {"budget_simulations", 150},
+                             {"packings", 2},
+                             {"confirmation_packings", 8},
+                             {"examination_simulations", 12},
+                             {"seed", 1}}}};
+  return StartingFiles{with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
+                       with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " +
+                                     std::string(laws->why) + ".",
+                                 study)};
+}
+
+}  // namespace pastefit

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/study/study.h"
+#include "calibrate/study/target_laws.h"
+#include "core/result.h"
+
+namespace pastefit {
+
+/// What the sheet of a slump test says, as its user types it.
+struct Sheet {
+  std::string title = "my paste";
+  std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
+  std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
+  std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
+  std::string target = "lammps";                              ///< the program that the material is for
+  std::vector<std::string> confirmed;                         ///< places that look like a slip and are right
+};
+
+/// A laboratory file and a study for it, as text.
+struct StartingFiles {
+  std::string lab, study;
+};
+
+/// A short name of a reading for people, and its key.
+struct ShortReading {
+  std::string_view name, key, meaning;
+};
+std::span<const ShortReading> short_readings();
+
+/// "180, 175, 190 mm" in the unit of the key: numbers between commas with a space, semicolons or spaces; a unit at the
+/// end is that of all. Error: what is no number, a comma without a space, a unit of something else.
+Result<std::vector<double>> written_readings(const std::string& where, const std::string& text, std::string_view unit);
+
+/// The apparatus that the sheet names, with its usual grains. `folder` is where the laboratory file will lie.
+Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder);
+
+/// Both files. Grains and deviations come from the mould, the free parameters from what the readings tell of, the laws
+/// from the target. Errors: every fault of the sheet, or of the laboratory file that it makes.
+Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder);
+
+}  // namespace pastefit

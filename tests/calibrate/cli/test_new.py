@@ -1,0 +1,127 @@
+"""`pastefit new`: from what a measuring sheet says to a laboratory file and a study that run, asked on a terminal or
+given as options.
+
+usage: test_new.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import os
+import re
+import select
+import subprocess
+import sys
+import unittest
+
+from desk import PROGRAM, Desk, run
+
+ABRAMS = ["--mould", "abrams", "--density", "2350", "--slump", "180, 175, 190", "--spread", "330"]
+
+
+def document(file):
+    return json.loads("\n".join(line for line in file.read_text().splitlines() if not line.lstrip().startswith("//")))
+
+
+class New(Desk):
+    def files(self, *arguments):
+        result = run("new", self.out, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return document(self.out / "lab.json"), document(self.out / "study.json"), result.stdout
+
+    def test_options_make_two_files_that_run_and_the_next_command(self):
+        lab, study, said = self.files(*ABRAMS)
+        self.assertEqual(lab["material"]["bulk_density_kg_m3"], 2350)
+        self.assertEqual(lab["grains"], {"distribution": "mono", "radius_mm": 8})
+        self.assertEqual(lab["measurements"]["step1.slump_mm"], {"repeats": [180, 175, 190], "standard_deviation": 7.5})
+        self.assertEqual(lab["measurements"]["step1.spread_mm"], {"value": 330, "standard_deviation": 27})
+        self.assertEqual(lab["measurements"]["step1.lateral_shift_mm"], {"value": 0, "standard_deviation": 20})
+        self.assertEqual(len(study["parameters"]["friction"]["free"]), 2)
+        for words in ("height 300 mm", "step1.height_mm", "within 7.64 mm", "within 40 mm",
+                      f"pastefit calibrate {self.out}/study.json --out {self.out}/out", "--to lammps"):
+            self.assertIn(words, said)
+        self.assertEqual(run("simulate", self.out / "study.json", "--set", "grains.radius_mm=12").returncode, 0)
+
+    def test_values_may_have_their_unit(self):
+        lab, _, _ = self.files("--mould", "8/4/12 in", "--density", "145.2 lb/ft3", "--slump", "7.25, 7, 7.5 in",
+                               "--spread", "36 cm; 365 mm")
+        self.assertEqual(lab["apparatus"]["mould"], {"base_diameter_mm": 203.2, "top_diameter_mm": 101.6, "height_mm": 304.8})
+        self.assertAlmostEqual(lab["material"]["bulk_density_kg_m3"], 2325.88)
+        self.assertEqual(lab["measurements"]["step1.slump_mm"]["repeats"], [184.15, 177.8, 190.5])
+        self.assertEqual(lab["measurements"]["step1.spread_mm"]["repeats"], [360, 365])
+
+    def test_grains_and_tolerances_follow_from_the_mould(self):
+        lab, study, said = self.files("--mould", "haegermann", "--density", "2.1 kg/l", "--spread", "155, 157, 153")
+        self.assertEqual(lab["grains"]["radius_mm"], 3)
+        self.assertEqual(lab["measurements"], {"step1.spread_mm": {"repeats": [155, 157, 153], "standard_deviation": 5.4}})
+        self.assertEqual(study["parameters"]["friction"], {"value": 0.15})  # a spread alone does not tell it
+        self.assertRegex(said, r"step1.spread_mm +155 within 5.4 mm")
+
+    def test_a_plate_has_readings_after_its_drop(self):
+        lab, _, _ = self.files("--mould", "en12350-5", "--density", "1850", "--height", "120", "--height2", "105",
+                               "--sag", "8")
+        self.assertEqual(sorted(lab["measurements"]), ["step1.height_mm", "step1.lateral_shift_mm", "step2.height_mm",
+                                                       "step2.plateau_sag_mm"])
+
+    def test_the_target_has_its_own_law(self):
+        laws = {"lammps": ("hertz", "polynomial", "strength_pa"), "liggghts": ("sjkr", "none", "cohesion_energy_density_pa"),
+                "yade": ("hertz", "polynomial", "strength_pa"), "edem": ("jkr", "none", "adhesion_pa")}
+        for target, (normal, attraction, strength) in laws.items():
+            with self.subTest(target):
+                _, study, said = self.files(*ABRAMS, "--for", target, "--force")
+                self.assertEqual((study["contact"]["normal"], study["contact"]["attraction"]), (normal, attraction))
+                self.assertIn("free", study["parameters"][strength])
+                export = re.search(r"export \S+ --to (\S+)", said)[1]
+                self.assertIn(export, run("export", "--help").stdout)
+                self.assertEqual(run("simulate", self.out / "study.json", "--set", "grains.radius_mm=12").returncode, 0)
+                (self.folder / "lab.json").write_text(run("template", "lab").stdout)
+                template = self.folder / "study.json"
+                template.write_text(run("template", "study", "--for", target).stdout)
+                self.assertIn(f'"normal":"{normal}"', template.read_text().replace(" ", ""))
+                self.assertEqual(run("simulate", template, "--set", "grains.radius_mm=12").returncode, 0)
+
+    def test_every_fault_is_named_and_nothing_is_written(self):
+        self.fails(run("new", self.out, stdin=subprocess.DEVNULL), 2, "--mould: is missing", "--density: is missing",
+                   "--slump: is missing")
+        self.fails(run("new", self.out, "--mould", "abrahms", "--density", "heavy", "--slump", "162,5", "--reading", "sprad=3",
+                       "--for", "edm"), 2, 'did you mean "abrams"?', '"heavy"', "lammps, liggghts, yade, edem")
+        self.fails(run("new", self.out, "--mould", "abrams", "--density", "145.2", "--slump", "162,5", "--reading",
+                       "sprad=3"), 2, "a decimal point", "did you mean spread?")
+        self.fails(run("new", self.out, "--mould", "abrams", "--density", "145.2", "--slump", "180"), 2,
+                   "145.2 lb/ft3 are 2325.88 kg/m3")
+        self.fails(run("new", self.out, "--mould", "abrams", "--density", "2350 mm", "--slump", "180"), 2, "is in mm")
+        self.assertFalse(self.out.exists())
+        self.files(*ABRAMS)
+        before = (self.out / "lab.json").read_text()
+        self.fails(run("new", self.out, "--mould", "abrams", "--density", "2000", "--slump", "180"), 2, "lab.json", "study.json")
+        self.assertEqual((self.out / "lab.json").read_text(), before)
+
+    def test_other_tests_get_their_starting_files(self):
+        result = run("new", self.out, "--test", "shear")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.out / "lab.json").read_text(), run("template", "shear-lab").stdout)
+        self.fails(run("new", self.folder / "other", "--test", "sheer"), 2, "sheer")
+
+    def test_on_a_terminal_it_asks_and_asks_again(self):
+        outer, inner = self.terminal()
+        process = subprocess.Popen([PROGRAM, "new", str(self.out)], stdin=inner, stdout=inner, stderr=inner)
+        os.close(inner)
+        said = b""
+
+        def wait_for(words):
+            nonlocal said
+            while words not in said:
+                self.assertTrue(select.select([outer], [], [], 60)[0], said)
+                said += os.read(outer, 4096)
+
+        for words, answer in ((b"mould", b"abrms"), (b"did you mean", b"abrams"), (b"density", b"2350"),
+                              (b"slump", b"180, 175, 190"), (b"spread", b"330"), (b"program", b"edem")):
+            wait_for(words)
+            said = said[said.rindex(words) + len(words):]
+            os.write(outer, answer + b"\n")
+        wait_for(b"pastefit export")
+        self.assertEqual(process.wait(60), 0)
+        os.close(outer)
+        self.assertEqual(document(self.out / "study.json")["contact"]["normal"], "jkr")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
