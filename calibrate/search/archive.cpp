@@ -25,24 +25,21 @@ std::vector<Response> without_cut_off(std::vector<Response> responses, bool stop
 
 }  // namespace
 
-Archive::Archive(Questions& questions, std::span<const Response> earlier, const SearchOptions& options,
+Archive::Archive(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
                  const std::function<void(const Progress&)>& progress)
-    : questions_(questions),
-      progress_(progress),
-      at_start_(questions.budget_left()),
-      common_packings_(options.packings) {
+    : queue_(queue), progress_(progress), at_start_(queue.budget_left()), common_packings_(options.packings) {
   budget_ = std::min(options.budget_simulations / scoring().simulations_each(), at_start_);
   for (const Response& response : earlier) keep_single(response, singles_);
 }
 
 int Archive::budget_left() const {
-  int spent = at_start_ - questions_.budget_left();
+  int spent = at_start_ - queue_.budget_left();
   for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
   return std::max(0, budget_ - spent - held_back_);
 }
 
 void Archive::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
-  questions_.begin(point, packings);
+  queue_.begin(point, packings);
   under_way_.push_back({point, {packings.begin(), packings.end()}});
 }
 
@@ -63,7 +60,7 @@ std::vector<Response> Archive::try_out(std::span<const UnitPoint> points, std::s
 std::vector<Response> Archive::ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                                    bool may_end_early) {
   std::vector<Response> responses;
-  for (std::vector<Evaluation>& evaluations : questions_.evaluate(points, packings, Fidelity::fine, may_end_early))
+  for (std::vector<Evaluation>& evaluations : queue_.evaluate(points, packings, Fidelity::fine, may_end_early))
     responses.push_back(scoring().response_of(std::move(evaluations)));
   for (Response& response : responses) weigh(response);
   const std::vector<Response> kept = without_cut_off(responses, stop_requested());
@@ -104,7 +101,7 @@ void Archive::note(std::span<const Response> answered) {
 }
 
 void Archive::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  const auto answered = questions_.evaluate(points, packings, Fidelity::coarse, false);
+  const auto answered = queue_.evaluate(points, packings, Fidelity::coarse, false);
   if (stop_requested()) return;
   for (std::size_t k = 0; k < packings.size(); ++k)
     for (const std::vector<Evaluation>& evaluations : answered) {
@@ -117,7 +114,7 @@ void Archive::evaluate_coarse(std::span<const UnitPoint> points, std::span<const
 
 void Archive::enter(std::string_view phase) {
   phase_ = phase;
-  questions_.enter(phase);
+  queue_.enter(phase);
   measure_noise();
   report();
 }

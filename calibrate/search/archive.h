@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibrate/search/calibration.h"
-#include "calibrate/search/questions.h"
+#include "calibrate/search/candidate_queue.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -25,10 +25,10 @@ namespace pastefit {
 class Archive {
  public:
   /// `earlier`: what is known from the start, each point on one packing.
-  Archive(Questions& questions, std::span<const Response> earlier, const SearchOptions& options,
+  Archive(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
           const std::function<void(const Progress&)>& progress);
 
-  const Scoring& scoring() const { return questions_.scoring(); }
+  const Scoring& scoring() const { return queue_.scoring(); }
   int parameters() const { return scoring().parameters(); }
   int residuals() const { return scoring().residuals(); }
   int readings() const { return scoring().readings(); }
@@ -38,7 +38,7 @@ class Archive {
   Eigen::VectorXd allowances() const;
   /// The misfit of a candidate each of whose fitted readings is off by its tolerance.
   double allowed_misfit() const;
-  bool stop_requested() const { return questions_.stop_requested(); }
+  bool stop_requested() const { return queue_.stop_requested(); }
   int budget_left() const;  ///< points on a packing, without what is held back or under way
 
   /// Answers of points on the same packings, in the order of the points; simulated unless they are known.
@@ -78,7 +78,7 @@ class Archive {
   std::vector<Response> evidence() const;
   /// The best starting point known: on these packings, else on whatever others.
   UnitPoint best_point(std::span<const std::uint64_t> packings) const;
-  int simulations() const { return (at_start_ - questions_.budget_left()) * scoring().simulations_each(); }
+  int simulations() const { return (at_start_ - queue_.budget_left()) * scoring().simulations_each(); }
   int failures() const;
   bool any_feasible() const;
 
@@ -93,7 +93,7 @@ class Archive {
   Eigen::ArrayXd variance_between_packings() const;
   void report(const std::string& note = {}) const;
 
-  Questions& questions_;
+  CandidateQueue& queue_;
   const std::function<void(const Progress&)>& progress_;
   int at_start_ = 0;
   int budget_ = 0;

@@ -16,26 +16,26 @@ struct Search::Run {
       : options(asked),
         start(std::move(from)),
         progress(std::move(told)),
-        questions(scoring, start.simulations, start.answers) {
+        queue(scoring, start.simulations, start.answers) {
     thread = std::thread([this] {
       try {
-        result = run_strategy(questions, options, start, progress);
-      } catch (const Questions::Closed&) {
+        result = run_strategy(queue, options, start, progress);
+      } catch (const CandidateQueue::Closed&) {
       } catch (...) {
         error = std::current_exception();
       }
-      questions.finish();
+      queue.finish();
     });
   }
   ~Run() {
-    questions.close();
+    queue.close();
     thread.join();
   }
 
   const SearchOptions options;
   const SearchStart start;
   const std::function<void(const Progress&)> progress;
-  Questions questions;
+  CandidateQueue queue;
   Calibration result;
   std::exception_ptr error;
   std::thread thread;
@@ -51,23 +51,23 @@ Search::Search(const Scoring& scoring, const SearchOptions& options, SearchStart
 Search::~Search() = default;
 
 std::vector<Candidate> Search::suggest(std::size_t count) {
-  return run_->questions.suggest(count);
+  return run_->queue.suggest(count);
 }
 
 void Search::ingest(std::span<const CandidateResult> results) {
-  run_->questions.ingest(results);
+  run_->queue.ingest(results);
 }
 
 void Search::stop() {
-  run_->questions.stop();
+  run_->queue.stop();
 }
 
 bool Search::finished() const {
-  return run_->questions.finished();
+  return run_->queue.finished();
 }
 
 std::vector<CandidateResult> Search::results() const {
-  return run_->questions.results();
+  return run_->queue.results();
 }
 
 Calibration Search::result() {

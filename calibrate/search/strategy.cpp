@@ -33,12 +33,12 @@ constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so 
 /// The strategy's state; each phase is one function.
 class Strategy {
  public:
-  Strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+  Strategy(CandidateQueue& queue, const SearchOptions& options, const SearchStart& start,
            const std::function<void(const Progress&)>& progress)
-      : scoring_(questions.scoring()),
+      : scoring_(queue.scoring()),
         options_(options),
         with_coarse_(start.with_coarse && find_strategy(options.strategy)->kind == StrategyKind::surrogate),
-        archive_(questions, start.earlier, options, progress),
+        archive_(queue, start.earlier, options, progress),
         readings_(start.readings),
         parameters_(start.parameters) {}
 
@@ -336,9 +336,9 @@ class Strategy {
 
 }  // namespace
 
-Calibration run_strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+Calibration run_strategy(CandidateQueue& queue, const SearchOptions& options, const SearchStart& start,
                          const std::function<void(const Progress&)>& progress) {
-  return Strategy(questions, options, start, progress).run();
+  return Strategy(queue, options, start, progress).run();
 }
 
 }  // namespace pastefit

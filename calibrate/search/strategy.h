@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/search/calibration.h"
-#include "calibrate/search/questions.h"
+#include "calibrate/search/candidate_queue.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
@@ -69,7 +69,7 @@ struct SearchStart {
 /// a confirmation is kept back all along. Requirements: `validate(options, scoring.parameters(),
 /// scoring.simulations_each())` is empty. The way depends on the answers only: the same answers, the same calibration.
 /// Errors: in the status.
-Calibration run_strategy(Questions& questions, const SearchOptions& options, const SearchStart& start,
+Calibration run_strategy(CandidateQueue& queue, const SearchOptions& options, const SearchStart& start,
                          const std::function<void(const Progress&)>& progress);
 
 }  // namespace pastefit

@@ -71,7 +71,7 @@ TEST_CASE("a reader gathers every fault of an object") {
   CHECK(count == 7);
   CHECK(twin);
   REQUIRE(faults.size() == 8);
-  CHECK(says(at(faults, "test.height_mm"), "is the text \"70\"; a number"));
+  CHECK(says(at(faults, "test.height_mm"), "is the text \"70\"; write 70, without quotes"));
   CHECK(says(at(faults, "test.count"), "42.3; a whole number from 0 to 100"));
   CHECK(says(at(faults, "test.mass_kg"), "is null"));
   CHECK(says(at(faults, "test.size_mm"), "is -1; a number above 0 and at most 10"));

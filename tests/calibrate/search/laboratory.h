@@ -37,6 +37,7 @@ struct Laboratory {
         {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
     study.tests[0].targets = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};
     study.search.budget_simulations = 20;
+    study.search.tolerance_mm = 5;
     options.threads = 4;
     options.engine.prepare = [this](const Test&, const RunOptions&) {
       ++fills;

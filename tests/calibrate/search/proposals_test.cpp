@@ -25,7 +25,7 @@ const std::vector<std::uint64_t> common{1001, 1002};
 
 /// An archive that has screened.
 Archive screened(Answered& answered, const SearchOptions& options) {
-  Archive archive(answered.questions, {}, options, nobody);
+  Archive archive(answered.queue, {}, options, nobody);
   archive.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
   return archive;
 }

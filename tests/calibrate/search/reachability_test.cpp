@@ -18,7 +18,7 @@ struct Screening {
   Answered answered;
   Archive archive;
   explicit Screening(Synthetic made, std::uint64_t seed)
-      : objective(std::move(made)), answered(objective), archive(answered.questions, {}, options, progress) {
+      : objective(std::move(made)), answered(objective), archive(answered.queue, {}, options, progress) {
     const std::uint64_t packing = 1;
     archive.try_out(screening_points(5, 12, seed), {&packing, 1});
   }

@@ -11,7 +11,13 @@ namespace pastefit::test {
 /// A folder with the templates' lab.json and a study of one's own.
 class Desk {
  public:
-  Desk() { folder_.write("lab.json", template_text("lab").value()); }
+  /// The template's laboratory with equal grains, and the shift of the top measured, too.
+  Desk() {
+    auto lab = nlohmann::json::parse(template_text("lab").value(), nullptr, true, true);
+    lab["grains"] = {{"distribution", "mono"}, {"radius_mm", 8}};
+    lab["measurements"]["step1.lateral_shift_mm"] = {{"value", 0}, {"standard_deviation", 20}};
+    folder_.write("lab.json", lab.dump(2));
+  }
 
   static nlohmann::json study() {
     return nlohmann::json::parse(R"({"format": "pastefit-study-1", "title": "a study", "lab": "lab.json",

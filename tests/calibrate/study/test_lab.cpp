@@ -286,7 +286,7 @@ TEST_CASE("every fault of a file is named at once") {
   CHECK(says(at(faults, "title"), "missing"));
   CHECK(says(at(faults, "provenance.source"), "missing"));
   CHECK(says(at(faults, "provenance.sorce"), "did you mean \"source\"?"));
-  CHECK(says(at(faults, "apparatus.mould.height_mm"), "above 0"));
+  CHECK(says(at(faults, "apparatus.mould.height_mm"), "write 200, without quotes"));
   CHECK(says(at(faults, "apparatus.lift_velocity_mm_s"), "is -100"));
   CHECK(says(at(faults, "material.bulk_density"), "did you mean \"bulk_density_kg_m3\"?"));
   CHECK(says(at(faults, "grains.radius_mm"), "is null"));

@@ -41,13 +41,13 @@ struct CandidateResult {
 /// Between a strategy, which asks and waits in a thread of its own, and whoever simulates: what is asked, and what was
 /// answered. A strategy sees an answer when it waits for it, never before, so that what it does depends on the answers
 /// and the order of asking only. Each candidate is asked once.
-class Questions {
+class CandidateQueue {
  public:
   /// Thrown in the strategy's thread when nobody will answer any more.
   struct Closed {};
 
-  /// `simulations`: allowed in all. `known`: answers of an earlier search with the same questions.
-  Questions(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
+  /// `simulations`: allowed in all. `known`: answers of an earlier search with the same queue.
+  CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
 
   // For the strategy.
   const Scoring& scoring() const { return scoring_; }

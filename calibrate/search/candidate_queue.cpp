@@ -1,4 +1,4 @@
-#include "calibrate/search/questions.h"
+#include "calibrate/search/candidate_queue.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,22 +16,22 @@ Evaluation not_simulated(const Candidate& candidate) {
 
 }  // namespace
 
-Questions::Questions(const Scoring& scoring, int simulations, std::span<const CandidateResult> known)
+CandidateQueue::CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known)
     : scoring_(scoring), simulations_(simulations) {
   for (const CandidateResult& one : known) known_.emplace(one.candidate, one.evaluation);
 }
 
-bool Questions::stop_requested() const {
+bool CandidateQueue::stop_requested() const {
   const std::lock_guard lock(mutex_);
   return stopped_;
 }
 
-void Questions::enter(std::string_view purpose) {
+void CandidateQueue::enter(std::string_view purpose) {
   const std::lock_guard lock(mutex_);
   purpose_ = purpose;
 }
 
-std::size_t Questions::ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early) {
+std::size_t CandidateQueue::ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early) {
   const std::vector<double> place(point.begin(), point.end());
   // One that might have ended early and did not is as good as one that might not.
   for (const bool early : {may_end_early, true})
@@ -52,14 +52,14 @@ std::size_t Questions::ask(const UnitPoint& point, std::uint64_t packing, Fideli
   return number;
 }
 
-void Questions::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+void CandidateQueue::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
   const std::lock_guard lock(mutex_);
   for (const std::uint64_t packing : packings) (void)ask(point, packing, Fidelity::fine, true);
 }
 
-std::vector<std::vector<Evaluation>> Questions::evaluate(std::span<const UnitPoint> points,
-                                                         std::span<const std::uint64_t> packings, Fidelity fidelity,
-                                                         bool may_end_early) {
+std::vector<std::vector<Evaluation>> CandidateQueue::evaluate(std::span<const UnitPoint> points,
+                                                              std::span<const std::uint64_t> packings,
+                                                              Fidelity fidelity, bool may_end_early) {
   std::unique_lock lock(mutex_);
   std::vector<std::size_t> numbers;
   for (const UnitPoint& point : points)
@@ -79,7 +79,7 @@ std::vector<std::vector<Evaluation>> Questions::evaluate(std::span<const UnitPoi
 }
 
 /// Counts what was spent when it is looked at for the first time.
-const Evaluation& Questions::see(std::size_t number) {
+const Evaluation& CandidateQueue::see(std::size_t number) {
   Asked& asked = asked_[number];
   if (!asked.answered) asked.answer = not_simulated(asked.candidate);
   if (!std::exchange(asked.seen, asked.answered) && asked.answered && asked.candidate.fidelity == Fidelity::fine)
@@ -87,11 +87,11 @@ const Evaluation& Questions::see(std::size_t number) {
   return asked.answer;
 }
 
-bool Questions::is_waiting() const {
+bool CandidateQueue::is_waiting() const {
   return !stopped_ && std::ranges::any_of(awaited_, [&](std::size_t number) { return !asked_[number].answered; });
 }
 
-void Questions::accept(const CandidateResult& result) {
+void CandidateQueue::accept(const CandidateResult& result) {
   if (result.candidate >= asked_.size()) throw std::logic_error("ingest: an answer to what was never suggested");
   Asked& asked = asked_[result.candidate];
   const Evaluation& answer = result.evaluation;
@@ -102,13 +102,13 @@ void Questions::accept(const CandidateResult& result) {
   asked.answered = true;
 }
 
-void Questions::finish() {
+void CandidateQueue::finish() {
   const std::lock_guard lock(mutex_);
   finished_ = true;
   changed_.notify_all();
 }
 
-std::vector<Candidate> Questions::suggest(std::size_t count) {
+std::vector<Candidate> CandidateQueue::suggest(std::size_t count) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return finished_ || !open_.empty() || (!awaited_.empty() && is_waiting()); });
   std::vector<Candidate> candidates;
@@ -117,30 +117,30 @@ std::vector<Candidate> Questions::suggest(std::size_t count) {
   return candidates;
 }
 
-void Questions::ingest(std::span<const CandidateResult> results) {
+void CandidateQueue::ingest(std::span<const CandidateResult> results) {
   const std::lock_guard lock(mutex_);
   for (const CandidateResult& result : results) accept(result);
   changed_.notify_all();
 }
 
-void Questions::stop() {
+void CandidateQueue::stop() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
   changed_.notify_all();
 }
 
-void Questions::close() {
+void CandidateQueue::close() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
   changed_.notify_all();
 }
 
-bool Questions::finished() const {
+bool CandidateQueue::finished() const {
   const std::lock_guard lock(mutex_);
   return finished_;
 }
 
-std::vector<CandidateResult> Questions::results() const {
+std::vector<CandidateResult> CandidateQueue::results() const {
   const std::lock_guard lock(mutex_);
   std::vector<CandidateResult> results;
   for (const Asked& asked : asked_)
