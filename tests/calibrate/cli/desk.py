@@ -56,7 +56,8 @@ class Desk(unittest.TestCase):
         (self.folder / "lab.json").write_text(json.dumps(lab))
         study = json.loads(STUDY.read_text())
         study["lab"] = "lab.json"
-        study["search"].update(screening=screening, budget_simulations=budget, packings=1, confirmation_packings=1)
+        study["search"].update(screening=screening, budget_simulations=budget, packings=1, confirmation_packings=1,
+                               rejected_share=1)
         study.update(changes)
         file = self.folder / "study.json"
         file.write_text(json.dumps(study))

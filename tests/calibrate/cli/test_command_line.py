@@ -138,7 +138,7 @@ class CommandLine(Desk):
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
     def test_coarse_grains_first_are_stored_beside_the_fine_ones_and_resume_repeats_nothing(self):
-        search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, coarse_first=True)
+        search = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, rejected_share=1, coarse_first=True)
         study = self.study(search=search)
         result = self.calibrates(study)
         self.assertRegex((self.out / "summary.txt").read_text(), r"\d+ simulations and \d+ with coarse grains")
@@ -153,7 +153,7 @@ class CommandLine(Desk):
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
         lab = json.loads((self.folder / "lab.json").read_text())
-        lab["grains"]["radius_mm"] = 15  # half as large again, two would fill the mould's mouth
+        lab["grains"] = {"distribution": "mono", "radius_mm": 15}  # half as large again, two would fill the mould's mouth
         (self.folder / "lab.json").write_text(json.dumps(lab))
         other = self.folder / "other"
         self.fails(run("calibrate", study, "--out", other), 2, "coarse_first", "grains")

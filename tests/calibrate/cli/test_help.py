@@ -17,7 +17,7 @@ def verbs():
 
 
 def options_of(verb):
-    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", run(verb, "--help").stdout))
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", run(verb, "--help").stdout))
 
 
 class Help(Desk):
@@ -64,7 +64,7 @@ class Help(Desk):
         zsh, fish = (folder / "pastefit.zsh").read_text(), (folder / "pastefit.fish").read_text()
         for verb in verbs():
             of_zsh = set(re.search(rf"^  {verb}\) compadd -- (.*) ;;$", zsh, flags=re.M)[1].split())
-            of_fish = set(re.findall(rf"subcommand_from {verb}' -l ([a-z-]+)", fish))
+            of_fish = set(re.findall(rf"subcommand_from {verb}' -l ([a-z0-9-]+)", fish))
             self.assertEqual(of_zsh, options_of(verb))
             self.assertEqual({f"--{name}" for name in of_fish}, options_of(verb))
 

@@ -298,7 +298,8 @@ class HostileInput(Desk):
     def small_study(self, **search):
         """A study of coarse grains with few simulations."""
         self.changed(LAB, "lab.json", lambda lab: lab.update(grains={"distribution": "mono", "radius_mm": 14}))
-        few = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, examination_simulations=0)
+        few = dict(screening=2, budget_simulations=4, packings=1, confirmation_packings=1, examination_simulations=0,
+                   rejected_share=1)
 
         def change(study):
             study["lab"] = "lab.json"

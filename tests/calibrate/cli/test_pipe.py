@@ -17,7 +17,8 @@ LAWS = ("edem-notes", "csv", "mercurydpm")  # the first has every law
 DECKS = {"lammps-tables": ("in.two_grains", ("lmp", "-log", "none", "-in")),
          "liggghts": ("in.two_grains", ("liggghts", "-log", "none", "-in")),
          "yade": ("two_grains.py", ("yade", "-j1", "-n", "-x"))}
-FEW = {"screening": 6, "budget_simulations": 24, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4}
+FEW = {"screening": 6, "budget_simulations": 24, "packings": 1, "confirmation_packings": 2, "examination_simulations": 4,
+       "rejected_share": 1}
 
 
 def template(name):
@@ -56,7 +57,7 @@ class Pipe(Desk):
         word = "" if is_slump(kind) else kind + "-"
         lab, study = template(word + "lab"), template(word + "study")
         if is_slump(kind):
-            lab["grains"]["radius_mm"] = 14
+            lab["grains"] = {"distribution": "mono", "radius_mm": 14}
         if kind == "pellet":
             lab["grains"] = {"distribution": "mono", "radius_mm": 1.8}
         if kind == "shear":
