@@ -98,8 +98,7 @@ std::vector<double> map_places(double recommended) {
   for (int k = 0; k < kMapPoints; ++k) out.push_back(k / (kMapPoints - 1.0));
   out.push_back(recommended);
   std::ranges::sort(out);
-  const auto same = std::ranges::unique(out);
-  out.erase(same.begin(), same.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

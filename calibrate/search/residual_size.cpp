@@ -44,9 +44,9 @@ Faults validate_residuals(const Study& study) {
   for (const StudyReading& reading : readings_of(study)) {
     const auto& [test, name, measurement, weight, tolerance] = reading;
     const double miss = worst_factor * worst_miss(study, test, measurement);
-    const auto refuse = [&](bool good, const char* what, double value) {
+    const auto refuse = [&, &place = reading.name](bool good, const char* what, double value) {
       if (!good)
-        faults.push_back({name, std::string(what) + " " + shown(value) + " makes residuals that are not finite",
+        faults.push_back({place, std::string(what) + " " + shown(value) + " makes residuals that are not finite",
                           "a number above 0, of the size of the reading"});
     };
     const double deviation = measurement.standard_deviation;

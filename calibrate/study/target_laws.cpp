@@ -39,7 +39,7 @@ std::string names_of_targets() {
   return out;
 }
 
-std::string with_laws(std::string study, const TargetLaws& laws) {
+std::string with_laws(const std::string& study, const TargetLaws& laws) {
   constexpr std::array<std::string_view, 4> of_bridge{"rupture_force_ratio", "curvature", "rupture_gap_ratio",
                                                       "formation_ratio"};
   std::string out;

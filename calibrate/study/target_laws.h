@@ -28,7 +28,7 @@ std::optional<TargetLaws> laws_for(std::string_view target);
 std::string names_of_targets();
 
 /// The commented starting file of a study of slump tests, with these laws in place of its own.
-std::string with_laws(std::string study, const TargetLaws& laws);
+std::string with_laws(const std::string& study, const TargetLaws& laws);
 
 /// "contact" of a study.
 nlohmann::ordered_json contact_of(const TargetLaws& laws);

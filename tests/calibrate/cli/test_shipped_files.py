@@ -24,7 +24,7 @@ def coarser(scene):
     grains = document.get("grains", {})
     if grains.get("radius_mm") == 8:
         return ["--set", "grains.radius_mm=11"]
-    fine = {key: value for key, value in grains.items() if key.endswith("_mm") and grains["radius_mm"] < 0.5}
+    fine = {key: value for key, value in grains.items() if key.endswith("_mm") and grains.get("radius_mm", grains.get("smallest_mm")) < 0.5}
     return [word for key, value in fine.items() for word in ("--set", f"grains.{key}={3 * value}")]
 
 
