@@ -35,12 +35,12 @@ int rebaseline_all(const CheckCommand& options) {
     faults.push_back({"--rebaseline", "records no reason", "add --why TEXT: what changed, and why that is right"});
   for (const auto& file : options.cards) {
     auto card = read_card(file);
-    if (card.ok())
-      cards.push_back(std::move(card).value());
-    else
+    if (!card.ok()) {
       faults.insert(faults.end(), card.faults().begin(), card.faults().end());
-    for (Fault& fault : output_file_faults("--rebaseline", file, true))
-      if (card.ok()) faults.push_back(std::move(fault));
+      continue;
+    }
+    cards.push_back(std::move(card).value());
+    for (Fault& fault : output_file_faults("--rebaseline", file, true)) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) return report(faults);
   int simulations = 0;
