@@ -27,7 +27,7 @@ int print_template(const TemplateOptions& options, const std::string& names) {
     if (!laws)
       return report({{"--for " + printable(options.target), "is no program that pastefit knows the laws of",
                       "one of " + names_of_targets()}});
-    text = with_laws(std::move(*text), *laws);
+    text = with_laws(*text, *laws);
   }
   print("%s", text->c_str());
   return kDone;
