@@ -1,6 +1,7 @@
 #include "calibrate/calibrate.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,7 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
   evaluator.stop = options.stop;
   evaluator.observer = callbacks.evaluated;
   evaluator.onlooker = callbacks.onlooker;
+  evaluator.engine = options.engine;
   return evaluator;
 }
 
@@ -89,8 +91,13 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   SimulationObjective coarse(coarse_study, store, evaluator);
 
   CalibrationResult result;
-  result.search = search(objective, options_of_the_search(study), callbacks.progress, names_of_readings(study),
-                         names_of_free_parameters(study), asked.coarse_first ? &coarse : nullptr);
+  try {
+    result.search = search(objective, options_of_the_search(study), callbacks.progress, names_of_readings(study),
+                           names_of_free_parameters(study), asked.coarse_first ? &coarse : nullptr);
+  } catch (const std::system_error& error) {
+    return Faults{{"threads", std::string("the system starts none for the search: ") + error.what(),
+                   "end other programs, or raise the limit of processes; the same calibration goes on"}};
+  }
   const Calibration& found = result.search;
   const bool any = found.best.point.size() > 0 && !found.best.failed;
   if (any) {

@@ -7,6 +7,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/inference/inference.h"
+#include "calibrate/laboratory/engine.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/search.h"
 #include "calibrate/store/store.h"
@@ -22,6 +23,7 @@ struct CalibrateOptions {
   double wall_budget_s = 0;                 ///< end after this time with the best so far; 0: no end
   double core_budget_s = 0;                 ///< the same for the processor time of all simulations together
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
+  Engine engine = {};                       ///< what simulates; another one than the default has a store of its own
 };
 
 /// Who is told how it goes; each may be left empty.
@@ -47,7 +49,8 @@ Faults validate(const Study& study, const CalibrateOptions& options);
 /// and makes the card. All of it together spends at most `study.search.budget_simulations`. Every simulation is in the
 /// store before it is used, and what the store knows is not simulated again, so that a calibration that was stopped
 /// goes on where it was. Requirement: the store was opened for this program and the inputs of the study.
-/// Errors: what `validate` finds, and then nothing was simulated; the store could not keep an evaluation.
+/// Errors: what `validate` finds, and then nothing was simulated; the system starts no thread for the search; the store
+/// could not keep an evaluation.
 Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options = {},
                                     const CalibrateCallbacks& callbacks = {});
 

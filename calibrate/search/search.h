@@ -26,7 +26,8 @@ namespace pastefit {
 /// The phases of the default strategy, and the others: `strategy.h`.
 /// Requirements: `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it.
 /// One caller at a time. `progress` is called from a thread of the search's own.
-/// Errors: std::logic_error if a requirement is broken, or for an answer to what was not suggested.
+/// Errors: std::logic_error if a requirement is broken, or for an answer to what was not suggested; std::system_error
+/// if the system starts no thread for it.
 class Search {
  public:
   Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,

@@ -9,12 +9,9 @@
 #include <thread>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/inference/examination.h"
 #include "calibrate/inference/words.h"
-#include "calibrate/search/evaluator.h"
-#include "calibrate/search/search.h"
-#include "calibrate/study/tests.h"
 #include "core/random.h"
 #include "tests/calibrate/slump.h"
 
@@ -61,22 +58,19 @@ int main(int argc, char** argv) {
   auto store = Store::open(folder + "/evaluations.sqlite", {"toy", inputs_of(study)});
   if (!store.ok()) return fail(store.faults());
 
-  EvaluatorOptions options;
+  CalibrateOptions options;
+  options.study_file = "study.json";
   options.threads = 2;
   options.engine.prepare = [](const Test&, const RunOptions&) { return std::shared_ptr<const Packing>(); };
   options.engine.run = of_slump(toy_slump);
-  SimulationObjective objective(study, store.value(), options);
   const auto known = store.value().size();
-  const Calibration calibration = search(objective, study.search);
-  if (calibration.best.point.size() == 0) return 1;
-  const std::optional<Inference> inference =
-      examine(study, objective, store.value(), calibration, study.search.examination_simulations, study.search.seed);
-  if (const Faults faults = objective.store_faults(); !faults.empty()) return fail(faults);
-  Card card = card_of(study, calibration, study.search, store.value(), objective.counts(), "study.json");
-  if (inference) card.inference = card_inference(*inference);
-  const Faults faults =
-      write_atomically(folder + "/card.json", to_json(card).dump(2) + (inference ? words_of(*inference) : ""));
+  const auto calibrated = calibrate(study, store.value(), options);
+  if (!calibrated.ok()) return fail(calibrated.faults());
+  const CalibrationResult& result = calibrated.value();
+  if (!result.card) return 1;
+  const Faults faults = write_atomically(
+      folder + "/card.json", to_json(*result.card).dump(2) + (result.inference ? words_of(*result.inference) : ""));
   if (!faults.empty()) return fail(faults);
-  std::printf("known %zu simulated %d\n", known, objective.counts().simulated);
+  std::printf("known %zu simulated %d\n", known, result.counts.simulated);
   return 0;
 }
