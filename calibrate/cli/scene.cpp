@@ -81,21 +81,23 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
   return settings;
 }
 
-/// A single word that is neither a parameter nor a section of a file is a slip, mostly of a parameter's name.
-void check_words(const Settings& settings, const json& document, Faults& faults) {
+/// A single word that is neither a parameter nor a section of a file is a slip, mostly of a parameter's name. It is
+/// reported and taken out, so that the file is read without it and every other fault is found, too.
+void take_out_slips(Settings& settings, const json& document, Faults& faults) {
   std::set<std::string, std::less<>> known{"title",    "test",   "provenance",   "apparatus",
                                            "material", "grains", "measurements", "confirmed"};
   for (const auto& kind : parameter_kinds()) known.emplace(kind.name);
-  for (const Setting& setting : settings.others) {
+  std::erase_if(settings.others, [&](const Setting& setting) {
     const std::string& word = setting.path;
     if (word.find_first_of(".[") != std::string::npos || known.contains(word) ||
         (document.is_object() && document.contains(word)))
-      continue;
+      return false;
     const auto near = nearest(word, known);
     faults.push_back(
         {"--set " + printable(word), "is neither a parameter nor a section of the file",
          near ? "did you mean " + in_quotes(*near) + "?" : "e.g. --set friction=0.3 or grains.radius_mm=6"});
-  }
+    return true;
+  });
 }
 
 /// The place that one step of a path leads to, "key" of an object or "key[1]" of a list in it; null if there is none.
@@ -264,7 +266,7 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
 Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
                               const std::string& name) {
   Faults faults;
-  const auto settings = read_settings(texts, faults);
+  auto settings = read_settings(texts, faults);
   const auto document = read_json(file, faults);
   if (!document) return faults;
   if (document->is_object() && document->value("format", json()) == "pastefit-impact-1") {
@@ -275,8 +277,7 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
     if (!faults.empty()) return faults;
     return FoundScene{impact.value(), {}};
   }
-  check_words(settings, *document, faults);
-  if (!faults.empty()) return faults;
+  take_out_slips(settings, *document, faults);
   auto found = test_scene(*document, settings, name, file, faults);
   if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);
   if (!faults.empty()) return faults;
