@@ -80,13 +80,7 @@ StressCase case_of(int number, const RandomStream& drawn) {
   stress.number = number;
   stress.searched = true;
   stress.keeps_energy = true;
-  SlumpTest test;
-  test.mould = {0.050, 0.035, 0.060};
-  test.table_length_m = 0.300;
-  test.reading.probe_diameter_m = 0.02;
-  test.lift_velocity_m_s = 0.3;
-  test.packing_seed = static_cast<std::uint64_t>(number) + 1;
-  test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = radius;
+  SlumpTest test = small_cone(number, radius);
   test.contact.bridge.shape = BridgeShape::polynomial;
   test.contact.bridge.formation = drawn.bits(20) % 2 ? BridgeFormation::film : BridgeFormation::touch;
   test.contact.friction_basis = drawn.bits(21) % 2 ? FrictionBasis::total : FrictionBasis::elastic;

@@ -43,13 +43,7 @@ StressCase case_at(const std::vector<double>& unit, int number, const RandomStre
   StressCase stress;
   stress.number = number;
   stress.searched = true;
-  SlumpTest test;
-  test.mould = {0.050, 0.035, 0.060};
-  test.table_length_m = 0.300;
-  test.reading.probe_diameter_m = 0.02;
-  test.lift_velocity_m_s = 0.3;
-  test.packing_seed = static_cast<std::uint64_t>(number) + 1;
-  test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = 0.009;
+  SlumpTest test = small_cone(number, 0.009);
   test.contact.normal = choice<NormalLaw>(laws.bits(0));
   test.contact.bridge.shape = choice<BridgeShape>(laws.bits(1));
   if (!go_together(test.contact.normal, test.contact.bridge.shape)) test.contact.bridge.shape = BridgeShape::none;

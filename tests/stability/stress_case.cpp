@@ -158,6 +158,17 @@ std::vector<StressCase> stress_cases(int first, int count, std::uint64_t seed) {
   return cases;
 }
 
+SlumpTest small_cone(int number, double grain_radius_m) {
+  SlumpTest test;
+  test.mould = {0.050, 0.035, 0.060};
+  test.table_length_m = 0.300;
+  test.reading.probe_diameter_m = 0.02;
+  test.lift_velocity_m_s = 0.3;
+  test.packing_seed = static_cast<std::uint64_t>(number) + 1;
+  test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = grain_radius_m;
+  return test;
+}
+
 std::vector<std::pair<std::string, std::string>> inputs_of(const StressCase& stress) {
   std::vector<std::pair<std::string, std::string>> inputs;
   const auto add = [&](const char* name, double value) {

@@ -33,6 +33,9 @@ constexpr int kCorners = 64;
 /// Every case is admissible: `validate(test)` is empty.
 std::vector<StressCase> stress_cases(int first, int count, std::uint64_t seed);
 
+/// A slump in a small cone of equal grains, each case with a packing of its own.
+SlumpTest small_cone(int number, double grain_radius_m);
+
 /// Name and value of everything in which cases differ, so that a case can be repeated without this program.
 std::vector<std::pair<std::string, std::string>> inputs_of(const StressCase& stress);
 

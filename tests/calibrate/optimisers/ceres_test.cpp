@@ -68,15 +68,9 @@ TEST_CASE("two hundred failing regions end no solve at its start, and the best i
   int improved = 0, feasible_starts = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
-    const int dimension = 1 + static_cast<int>(seed % 5);
-    UnitPoint target(dimension), start(dimension);
-    for (int k = 0; k < dimension; ++k) {
-      target[k] = uniform(seed, 300 + k);
-      start[k] = uniform(seed, 400 + k);
-    }
-    Synthetic objective = bowl(target);
-    objective.fails = failing_region(seed, dimension);
-    objective.failure_kind = static_cast<FailureKind>(seed % 4);
+    FailingBowl failing(seed);
+    Synthetic& objective = failing.objective;
+    const UnitPoint& start = failing.start;
     CeresOptions options;
     options.trust_region = seed % 2 == 0 ? TrustRegion::levenberg_marquardt : TrustRegion::dogleg;
     options.evaluations = 120;

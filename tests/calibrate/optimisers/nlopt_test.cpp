@@ -60,15 +60,9 @@ TEST_CASE(
   for (const std::string_view name : nlopt_algorithm_names()) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       CAPTURE(name, seed);
-      const int dimension = 1 + static_cast<int>(seed % 5);
-      UnitPoint target(dimension), start(dimension);
-      for (int k = 0; k < dimension; ++k) {
-        target[k] = uniform(seed, 300 + k);
-        start[k] = uniform(seed, 400 + k);
-      }
-      Synthetic objective = bowl(target);
-      objective.fails = failing_region(seed, dimension);
-      objective.failure_kind = static_cast<FailureKind>(seed % 4);
+      FailingBowl failing(seed);
+      Synthetic& objective = failing.objective;
+      const UnitPoint& start = failing.start;
       const Optimum run = minimise(simulated_problem(objective, one_packing), start, options_for(name, 120));
       CHECK(objective.answered.size() <= 120);
       CHECK(run.evaluations == static_cast<int>(objective.answered.size()));
@@ -81,7 +75,7 @@ TEST_CASE(
       CHECK(run.best.value == least);
       if (run.status != SearchStatus::converged) continue;
       ++converged;
-      for (int k = 0; k < dimension; ++k) {
+      for (Eigen::Index k = 0; k < start.size(); ++k) {
         for (const double step : {-0.03, 0.03}) {
           UnitPoint beside = run.best.point;
           beside[k] = std::clamp(beside[k] + step, 0.0, 1.0);

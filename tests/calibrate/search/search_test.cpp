@@ -53,18 +53,22 @@ void check_same(const Calibration& one, const Calibration& other) {
   }
 }
 
+Calibration in_one_call(std::uint64_t seed) {
+  Synthetic slump = fake_slump(150, seed);
+  slump.budget = budget;
+  return search(slump, options_of(seed));
+}
+
 }  // namespace
 
 TEST_CASE("answers in any order, from any number of workers, lead to the same calibration") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);
-    Synthetic slump = fake_slump(150, seed);
-    slump.budget = budget;
-    const Calibration expected = search(slump, options_of(seed));
+    const Calibration expected = in_one_call(seed);
     for (const std::size_t workers : {1, 2, 4, 16}) {
+      Synthetic slump = fake_slump(150, seed);
       Search asked(slump, options_of(seed), {.simulations = budget});
-      Synthetic other = fake_slump(150, seed);
-      go_on(asked, other, workers, seed);
+      go_on(asked, slump, workers, seed);
       check_same(asked.result(), expected);
     }
   }
@@ -73,9 +77,7 @@ TEST_CASE("answers in any order, from any number of workers, lead to the same ca
 TEST_CASE("a search that was saved goes on where it was, and asks nothing twice") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);
-    Synthetic slump = fake_slump(150, seed);
-    slump.budget = budget;
-    const Calibration expected = search(slump, options_of(seed));
+    const Calibration expected = in_one_call(seed);
     Synthetic before = fake_slump(150, seed), after = fake_slump(150, seed);
     std::vector<CandidateResult> saved;
     {

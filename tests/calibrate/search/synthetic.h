@@ -219,4 +219,23 @@ inline auto failing_region(std::uint64_t seed, int dimension) {
   };
 }
 
+/// A bowl of 1 to 5 parameters that fails in a region, and a start that may lie in it.
+struct FailingBowl {
+  explicit FailingBowl(std::uint64_t seed) {
+    const int dimension = 1 + static_cast<int>(seed % 5);
+    UnitPoint target(dimension);
+    start.resize(dimension);
+    for (int k = 0; k < dimension; ++k) {
+      target[k] = uniform(seed, 300 + k);
+      start[k] = uniform(seed, 400 + k);
+    }
+    objective = bowl(target);
+    objective.fails = failing_region(seed, dimension);
+    objective.failure_kind = static_cast<FailureKind>(seed % 4);
+  }
+
+  Synthetic objective;
+  UnitPoint start;
+};
+
 }  // namespace pastefit::synthetic
