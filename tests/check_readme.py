@@ -17,7 +17,6 @@ README = (SOURCE / "README.md").read_text()
 MANUAL = "\n\n".join(page.read_text() for page in sorted((SOURCE / "calibrate/manual").glob("*.md")))
 PAGES = [*SOURCE.glob("**/README.md"), *SOURCE.glob("calibrate/manual/*.md"), *SOURCE.glob("tests/results/*.md")]
 READMES = [file for file in dict.fromkeys(PAGES) if not {"build", "out", "node_modules"} & set(file.relative_to(SOURCE).parts)]
-MOST_LINES = 120  # of the main one
 
 
 def help_of(*verb):
@@ -30,40 +29,7 @@ def rows(first_column):
     return [[cell.strip() for cell in row.strip("|").split("|")] for row in table]
 
 
-def prose(text):
-    """Markdown without its code, neither in blocks nor in a line; a heading keeps its words in backticks."""
-    text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
-    lines = [line for line in text.splitlines() if not line.startswith("    ")]
-    return "\n".join(line if line.startswith("#") else re.sub(r"`[^`]*`", "", line) for line in lines)
-
-
-def anchors(file):
-    """What a link can point at in a file: its headings, as GitHub and GitLab name them."""
-    found, seen = [], {}
-    for heading in re.findall(r"^#+ +(.*?) *$", prose(file.read_text()), re.M):
-        words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
-        name = re.sub(r"[^\w -]", "", words).replace(" ", "-")
-        found.append(f"{name}-{seen[name]}" if name in seen else name)
-        seen[name] = seen.get(name, 0) + 1
-    return found
-
-
 class Readme(unittest.TestCase):
-    def test_the_main_one_is_short(self):
-        self.assertLessEqual(len(README.splitlines()), MOST_LINES)
-
-    def test_links_lead_to_files_and_headings(self):
-        for readme in READMES:
-            for link in re.findall(r"\]\(([^)\s]+)\)", prose(readme.read_text())):
-                if re.match(r"\w+:", link):
-                    continue
-                place, _, anchor = link.partition("#")
-                target = readme.parent / place if place else readme
-                with self.subTest(readme=str(readme.relative_to(SOURCE)), link=link):
-                    self.assertTrue(target.exists())
-                    if anchor:
-                        self.assertIn(anchor, anchors(target))
-
     def test_the_two_commands_are_there(self):
         for command in re.findall(r"\.ci/\w+\b(?!\.)", README):
             self.assertTrue(os.access(SOURCE / command, os.X_OK), command)

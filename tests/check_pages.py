@@ -1,0 +1,131 @@
+"""Reads every page of the project: none names a commit outside of tests/results, READMEs are short, links lead somewhere.
+
+usage: check_pages.py SOURCE_DIR
+"""
+
+import os
+import pathlib
+import re
+import sys
+import unittest
+
+SOURCE = pathlib.Path(sys.argv[1]).resolve()
+
+
+def files(*endings):
+    """{path: text} of the tree's own files with one of these endings."""
+    found = {}
+    for folder, inner, names in os.walk(SOURCE):
+        inner[:] = [name for name in inner if name not in ("build", "built", "out", "node_modules") and name[0] != "."]
+        found |= {str((pathlib.Path(folder) / name).relative_to(SOURCE)): (pathlib.Path(folder) / name).read_text()
+                  for name in names if name.endswith(endings)}
+    return found
+
+
+PAGES = files(".md")
+RECORD = "tests/results/"  # the one place for what was measured, and with which commit
+MOST_LINES = {"README.md": 120}  # of a folder's README: 80
+
+# What is still to be moved: pages that name commits, and READMEs that are too long. Only ever shorter.
+NAME_COMMITS = {
+    "calibrate/inference/README.md", "calibrate/search/README.md", "core/rigs/pellet_crush/README.md",
+    "core/rigs/shear_cell/README.md", "data/cards/README.md", "data/lab/README.md", "data/studies/README.md", "tests/README.md",
+    "tests/bench/README.md", "tests/bench/speed/README.md", "tests/exports/README.md", "tests/fuzz/README.md",
+    "tests/reliability/README.md", "tests/stability/README.md", "tests/stability/report.md", "tests/twins/README.md",
+}
+TOO_LONG = {
+    "calibrate/README.md", "calibrate/exports/README.md", "calibrate/inference/README.md", "calibrate/search/README.md",
+    "core/README.md", "core/rigs/pellet_crush/README.md", "core/rigs/shear_cell/README.md", "data/lab/README.md",
+    "data/studies/README.md", "tests/bench/README.md", "tests/bench/speed/README.md", "tests/exports/README.md",
+    "tests/stability/README.md",
+}
+
+
+def commits_in(text):
+    """Words that look like a commit: seven hexadecimal digits or more that mix digits and letters, or that are called one."""
+    words = re.findall(r"(?<![\w.#/-])[0-9a-f]{7,40}(?![\w.])", text)
+    mixed = [word for word in words if re.search(r"\d", word) and re.search(r"[a-f]", word)]
+    return sorted(set(mixed) | set(re.findall(r"\bcommit ([0-9a-f]{7,40})\b", text)))
+
+
+def prose(text):
+    """Markdown without its code, neither in blocks nor in a line; a heading keeps its words in backticks."""
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    lines = [line for line in text.splitlines() if not line.startswith("    ")]
+    return "\n".join(line if line.startswith("#") else re.sub(r"`[^`]*`", "", line) for line in lines)
+
+
+def anchors(text):
+    """What a link can point at on a page: its headings, as GitHub and GitLab name them."""
+    found, seen = [], {}
+    for heading in re.findall(r"^#+ +(.*?) *$", prose(text), re.M):
+        words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        name = re.sub(r"[^\w -]", "", words).replace(" ", "-")
+        found.append(f"{name}-{seen[name]}" if name in seen else name)
+        seen[name] = seen.get(name, 0) + 1
+    return found
+
+
+def dead_links(pages, exists):
+    """Links of {path: text} that lead to no file or no heading; exists(path) says whether a file is there."""
+    found = []
+    for page, text in pages.items():
+        for link in re.findall(r"\]\(([^)\s]+)\)", prose(text)):
+            place, _, anchor = link.partition("#")
+            if re.match(r"\w+:", link):
+                continue
+            target = normal(pathlib.PurePosixPath(page).parent / place) if place else page
+            if not exists(target) or (anchor and anchor not in anchors(pages.get(target, ""))):
+                found.append(f"{page}: {link}")
+    return found
+
+
+def normal(path):
+    parts = []
+    for part in pathlib.PurePosixPath(path).parts:
+        if part == ".." and parts:
+            parts.pop()
+        else:
+            parts.append(part)
+    return str(pathlib.PurePosixPath(*parts))
+
+
+def named_in_sources():
+    """{page: sources} of the pages that sources name by their path from the root."""
+    found = {}
+    for file, text in files(".h", ".cpp", ".py", ".txt", ".json", ".js").items():
+        for page in re.findall(r"\b((?:core|calibrate|data|tests)/[\w/-]*\w\.md)\b", text):
+            found.setdefault(page, set()).add(file)
+    return found
+
+
+class Pages(unittest.TestCase):
+    maxDiff = None
+
+    def test_a_commit_is_seen(self):
+        self.assertEqual(commits_in("of commit 2829717, and 55ee716; not 1000000, deadbeef, 0.5000001 or 18446744073709551615"),
+                         ["2829717", "55ee716"])
+
+    def test_a_dead_link_is_seen(self):
+        pages = {"a/README.md": "# One\n[there](../b.md#two) [gone](../c.md) [no heading](../b.md#three) [here](#one)\n",
+                 "b.md": "## Two\n"}
+        self.assertEqual(dead_links(pages, pages.__contains__), ["a/README.md: ../c.md", "a/README.md: ../b.md#three"])
+
+    def test_no_page_outside_of_the_record_names_a_commit(self):
+        found = {page for page, text in PAGES.items() if not page.startswith(RECORD) and commits_in(text)}
+        self.assertEqual(found, NAME_COMMITS)
+
+    def test_readmes_are_short(self):
+        found = {page for page, text in PAGES.items() if pathlib.PurePath(page).name == "README.md"
+                 and len(text.splitlines()) > MOST_LINES.get(page, 80)}
+        self.assertEqual(found, TOO_LONG)
+
+    def test_links_lead_to_files_and_headings(self):
+        self.assertEqual(dead_links(PAGES, lambda path: (SOURCE / path).exists()), [])
+
+    def test_pages_that_sources_name_are_there(self):
+        self.assertEqual({page: files for page, files in named_in_sources().items() if page not in PAGES}, {})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
