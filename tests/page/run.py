@@ -158,7 +158,7 @@ def picture_of_map(program, source, work):
     if not (result / "report.html").exists():
         pastefit(program, "calibrate", source / f"data/studies/{EXAMPLE}.json", "--out", result, "--force")
     pastefit(program, "report", result)
-    subprocess.run(["node", "map.js", result / "report.html", source / "calibrate/inference/open.jpg"], cwd=work / "browser", check=True)
+    subprocess.run(["node", "map.js", result / "report.html", source / "calibrate/manual/open.jpg"], cwd=work / "browser", check=True)
 
 
 def main():

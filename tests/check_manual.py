@@ -1,0 +1,58 @@
+"""Runs the commands of the manual (calibrate/manual): every block marked sh, page by page, in a folder with the shipped
+studies, laboratory files and cards. A calibration gets a small budget, so that it may end unconfirmed.
+
+usage: check_manual.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+PAGES = {page.name: page.read_text() for page in sorted((SOURCE / "calibrate/manual").glob("*.md"))}
+BLOCK = re.compile(r"^( *)```sh\n(.*?)^\1```$", re.M | re.S)
+OTHER_PROGRAMS = ("cd ", "(cd ", "./lmp_pastefit", "pastefit read ")  # of a deck that has run elsewhere
+PLACEHOLDER = re.compile(r"\b[A-Z]{3,}\b")
+
+
+def commands(page):
+    """Lines of the page's blocks."""
+    return [line.strip() for _, block in BLOCK.findall(page) for line in block.splitlines() if line.strip()]
+
+
+def cut_short(command):
+    """What a test runs in place of a calibration: a second of the screening, and no more."""
+    if command.startswith("pastefit calibrate "):
+        return f"{command} --core-budget 1 || test $? = 1"
+    return command
+
+
+class Manual(unittest.TestCase):
+    def test_every_command_of_a_page_does_what_it_says(self):
+        for name, page in PAGES.items():
+            if not commands(page):
+                continue
+            with self.subTest(page=name), tempfile.TemporaryDirectory(prefix="pastefit-manual-") as folder:
+                for data in ("studies", "lab", "cards", "rigs"):
+                    shutil.copytree(SOURCE / "data" / data, pathlib.Path(folder) / data)
+                environment = dict(os.environ, PATH=f"{PROGRAM.parent}:{os.environ['PATH']}")
+                result = subprocess.run(["sh", "-exc", "\n".join(map(cut_short, commands(page)))], cwd=folder,
+                                        env=environment, capture_output=True, text=True)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_commands_are_marked_to_be_run(self):
+        """An indented line that calls the program is the output of one, has a placeholder, or needs another program."""
+        for name, page in PAGES.items():
+            for line in re.findall(r"^ {4}(\S.*)$", BLOCK.sub("", page), re.M):
+                if line.startswith(("pastefit ", "cd ", "(cd ", "./")):
+                    with self.subTest(page=name, line=line):
+                        self.assertTrue(line.startswith(OTHER_PROGRAMS) or PLACEHOLDER.search(line))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
