@@ -26,6 +26,21 @@ PAGES = files(".md")
 RECORD = "tests/results/"  # the one place for what was measured, and with which commit
 MOST_LINES = {"README.md": 120}  # of a folder's README: 80
 
+# What somebody who was not here looks for, the page that says it, and words that stand there. From the main README it is
+# at most two links away.
+QUESTIONS = {
+    "where a slump's spread is read": ("core/rigs/slump/README.md", "`ruler` reads the heap: height, spread"),
+    "where the polynomial is evaluated": ("core/README.md", "evaluated in `laws/attraction.h`"),
+    "where NLopt is called": ("calibrate/search/README.md", "`calibrate/optimisers`, the adapters of NLopt"),
+    "how to add a law": ("core/README.md", "One header, one row, one case file"),
+    "why the default step is safe": ("core/step/README.md", "## Why the default step is safe"),
+    "how the search decides to stop": ("calibrate/search/README.md", "The search stops when"),
+    "what was measured of rolling friction": ("tests/results/ruler.md", "## The table's rolling friction"),
+    "how to type a card into EDEM": ("calibrate/manual/other-programs.md", "## EDEM"),
+    "which tests are slow": ("tests/README.md", "Slow tests"),
+    "where a message is worded": ("calibrate/README.md", "Messages are worded where"),
+}
+
 
 def commits_in(text):
     """Words that look like a commit: seven hexadecimal digits or more that mix digits and letters, or that are called one."""
@@ -64,6 +79,12 @@ def dead_links(pages, exists):
             if not exists(target) or (anchor and anchor not in anchors(pages.get(target, ""))):
                 found.append(f"{page}: {link}")
     return found
+
+
+def linked(page, text):
+    """Pages that a page links to."""
+    links = [link.partition("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", prose(text))]
+    return {normal(pathlib.PurePosixPath(page).parent / link) for link in links if link and not re.match(r"\w+:", link)}
 
 
 def normal(path):
@@ -108,6 +129,14 @@ class Pages(unittest.TestCase):
 
     def test_links_lead_to_files_and_headings(self):
         self.assertEqual(dead_links(PAGES, lambda path: (SOURCE / path).exists()), [])
+
+    def test_what_strangers_look_for_is_at_most_two_links_away(self):
+        near = linked("README.md", PAGES["README.md"])
+        near |= {there for page in near for there in linked(page, PAGES.get(page, ""))}
+        for question, (page, words) in QUESTIONS.items():
+            with self.subTest(question=question):
+                self.assertIn(page, near)
+                self.assertIn(words, PAGES[page])
 
     def test_pages_that_sources_name_are_there(self):
         self.assertEqual({page: files for page, files in named_in_sources().items() if page not in PAGES}, {})
