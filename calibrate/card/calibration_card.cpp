@@ -30,6 +30,7 @@ std::optional<CardObservable> mean_over(const std::string& name, const std::vect
   out.name = name;
   out.simulated = sample.mean;
   out.simulated_standard_deviation = sample.standard_deviation;
+  out.packings = sample.count;
   return out;
 }
 
@@ -45,10 +46,11 @@ std::vector<Observables> runs_of(const Study& study, std::size_t test, const std
   return runs;
 }
 
-/// Every reading of the runs, beside the laboratory's where it has one.
-std::vector<CardObservable> observables_of(const Study& study, std::size_t index,
-                                           const std::vector<Observables>& runs) {
+/// Every reading of the runs that a laboratory would accept, beside the laboratory's where it has one.
+std::vector<CardObservable> observables_of(const Study& study, std::size_t index, const std::vector<Observables>& all) {
   const StudyTest& test = study.tests[index];
+  std::vector<Observables> runs;
+  for (const std::size_t run : accepted(test.lab.test, all)) runs.push_back(all[run]);
   std::vector<CardObservable> out;
   for (const auto& reading : runs.at(0).all()) {
     auto observable = mean_over(reading.name, runs);
@@ -74,7 +76,7 @@ Observables means_of(const std::vector<CardObservable>& observables) {
 }
 
 /// Holds a prediction against the laboratory: each reading that counts within the noise of both.
-void judge(CardTest& test, std::size_t packings) {
+void judge(CardTest& test) {
   std::vector<CardObservable*> judged;
   for (auto& observable : test.observables)
     if (observable.measured && observable.weight > 0) judged.push_back(&observable);
@@ -82,7 +84,7 @@ void judge(CardTest& test, std::size_t packings) {
   test.within_noise = !judged.empty();
   for (auto* observable : judged) {
     const Sample measured{observable->repeats, *observable->measured, observable->standard_deviation};
-    const Sample simulated{static_cast<int>(packings), observable->simulated, observable->simulated_standard_deviation};
+    const Sample simulated{observable->packings, observable->simulated, observable->simulated_standard_deviation};
     observable->band = unequal_band_of(measured, simulated, share);
     const bool within = std::abs(observable->simulated - *observable->measured) <= *observable->band;
     test.within_noise = *test.within_noise && within;
@@ -111,7 +113,7 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   if (runs.empty()) return out;
   out.observables = observables_of(study, index, runs);
   out.baseline = baseline_of(runs, packings, store);
-  if (out.hold_out) judge(out, packings.size());
+  if (out.hold_out) judge(out);
   return out;
 }
 

@@ -22,8 +22,8 @@ ordered_json observable_to_json(const CardObservable& observable, std::size_t pa
   ordered_json out;
   out["simulated"] = observable.simulated;
   out["simulated_standard_deviation"] = observable.simulated_standard_deviation;
-  // One packing says nothing of its error.
-  if (packings > 1) out["standard_error"] = observable.simulated_standard_deviation / std::sqrt(double(packings));
+  if (static_cast<std::size_t>(observable.packings) != packings) out["packings"] = observable.packings;
+  if (const auto error = standard_error(observable)) out["standard_error"] = *error;
   out["measured"] = nullptr;
   if (observable.measured) {
     out["measured"] = *observable.measured;
@@ -135,6 +135,11 @@ ordered_json rescaling_to_json(const Rescaling& step) {
 }
 
 }  // namespace
+
+std::optional<double> standard_error(const CardObservable& observable) {
+  if (observable.packings < 2) return std::nullopt;
+  return observable.simulated_standard_deviation / std::sqrt(static_cast<double>(observable.packings));
+}
 
 std::vector<double> values_of(const Material& material) {
   std::vector<double> values;

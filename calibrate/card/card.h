@@ -18,7 +18,7 @@ namespace pastefit {
 /// One reading of the calibrated material, against the laboratory if it was measured there.
 struct CardObservable {
   std::string name;                         ///< e.g. "step1.height_mm"; the unit of all that follows
-  double simulated = 0;                     ///< mean over the confirmation packings
+  double simulated = 0;                     ///< mean over those packings that a laboratory would accept (`accepted`)
   double simulated_standard_deviation = 0;  ///< from packing to packing
   std::optional<double> measured;           ///< mean of the laboratory's repeats; empty: not measured
   double standard_deviation = 0;            ///< of one measurement
@@ -26,7 +26,12 @@ struct CardObservable {
   double weight = 0;                          ///< in the fit; 0: reported only
   double tolerance = 0;                       ///< how far off it may be for the material to do; 0: not measured
   std::optional<double> band = std::nullopt;  ///< of a hold-out: |simulated - measured| that the noise of both explains
+  int packings = 1;                           ///< that the simulated mean and deviation are of
 };
+
+/// Of the simulated mean: simulated_standard_deviation/sqrt(packings). Nothing for one packing, which says nothing of
+/// it.
+std::optional<double> standard_error(const CardObservable& observable);
 
 /// What one engine read off a test of the card, packing by packing: what a regression check compares with.
 struct Baseline {
@@ -166,10 +171,10 @@ MisfitUnit misfit_unit_of(const Card& card);
 
 /// The card as JSON. The numbers in SI rule; `material.parameters` is the scale-free form of the same contact laws,
 /// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
-/// Derived on writing and not read back: difference = simulated - measured, standard_error =
-/// simulated_standard_deviation/sqrt(packings), `conditions` of each test (what a fit to it holds for).
-/// `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`, `correlation`, `not_identified`,
-/// `rebaselined` and `rescaled` are written when there is something in them.
+/// Derived on writing and not read back: difference = simulated - measured, `standard_error`, `conditions` of each test
+/// (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`,
+/// `correlation`, `not_identified`, `rebaselined` and `rescaled` are written when there is something in them,
+/// `packings` of a reading when a laboratory would reject some of the confirmation's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

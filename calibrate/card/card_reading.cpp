@@ -29,6 +29,8 @@ CardObservable read_observable(ObjectReader& reader, const Range& range, std::st
   double derived = 0;
   reader.number("simulated", out.simulated, range, kRequired);
   reader.number("simulated_standard_deviation", out.simulated_standard_deviation, kNotNegative, kRequired);
+  out.packings = 0;  // all of the confirmation's, unless it says so
+  reader.integer("packings", out.packings, 1, 1'000'000, Need::optional);
   reader.number("standard_error", derived, kNotNegative, Need::optional);
   reader.nullable_number("measured", out.measured, range, kRequired);
   const auto need = out.measured ? Need::required : Need::optional;
@@ -323,6 +325,9 @@ Result<Card> card_from_json(const json& document) {
     read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
   }
+  for (CardTest& test : card.tests)
+    for (CardObservable& observable : test.observables)
+      if (observable.packings == 0) observable.packings = static_cast<int>(card.confirmation.packings.size());
   if (faults.empty()) faults = differing_forms(card);
   if (!faults.empty()) return faults;
   return card;

@@ -33,14 +33,13 @@ struct Promise {
   Sample sample;
 };
 
-std::vector<Promise> promises_of(const Card& card, const CardTest& test) {
+std::vector<Promise> promises_of(const CardTest& test) {
   std::vector<Promise> out;
   if (test.baseline.runs.empty()) {
     for (const auto& observable : test.observables)
       if (is_checked(test.test, observable.name))
-        out.push_back({observable.name,
-                       {static_cast<int>(card.confirmation.packings.size()), observable.simulated,
-                        observable.simulated_standard_deviation}});
+        out.push_back(
+            {observable.name, {observable.packings, observable.simulated, observable.simulated_standard_deviation}});
     return out;
   }
   for (const auto& [name, value] : test.baseline.runs[0].observables.all())
@@ -200,7 +199,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
   });
   std::size_t promised = 0;
   for (const auto& test : card.tests) {
-    const auto promises = promises_of(card, test);
+    const auto promises = promises_of(test);
     if (packings_of(card, test).size() < 2 || promises.empty()) {
       out.reason = heading_of(test) +
                    "The card keeps the readings of fewer than two packings, so that their noise is not known; give it "
@@ -220,7 +219,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
       out.verdict = CheckVerdict::disagrees;
       return out;
     }
-    for (const auto& [name, before] : promises_of(card, test)) {
+    for (const auto& [name, before] : promises_of(test)) {
       const auto again = sample_of(column_of(now.runs, name));
       if (again.count == 0) {
         out.reason = "The engine does not give the reading " + reading_name(test, name) + ".";
@@ -258,9 +257,10 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
     out.verdict = CheckVerdict::disagrees;
     return out;
   }
+  const auto runs = accepted(test, now.runs);
   const double share = options.false_alarm / static_cast<double>(lab.measurements.size());
   for (const auto& measurement : lab.measurements) {
-    const auto read = sample_of(column_of(now.runs, measurement.observable));
+    const auto read = sample_of(column_of(runs, measurement.observable));
     if (read.count == 0) continue;
     const Sample measured{measurement.repeats, measurement.value, measurement.standard_deviation};
     out.readings.push_back({measurement.observable, measured.mean, read.mean, unequal_band_of(measured, read, share),
@@ -287,7 +287,7 @@ Result<Card> rebaselined(Card card, const std::string& why, int count, const Che
     int simulations = 0;
     if (auto failure = run_test(test, packings, options, engine, simulations, now))
       return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
-    for (const auto& [name, before] : promises_of(card, test))
+    for (const auto& [name, before] : promises_of(test))
       change.moved.push_back({reading_name(test, name), before.mean, sample_of(column_of(now.runs, name)).mean});
     test.baseline = std::move(now);
   }

@@ -30,7 +30,7 @@ struct Misfit {
   double difference = 0, noise = 0;
 };
 
-Misfit misfit_of(const Card& card, double packings) {
+Misfit misfit_of(const Card& card) {
   Misfit squares;
   int fitted = 0;
   for (const auto& test : card.tests) {
@@ -38,7 +38,7 @@ Misfit misfit_of(const Card& card, double packings) {
     for (const auto& observable : test.observables) {
       if (!observable.measured || observable.weight <= 0) continue;
       squares.difference += std::pow((observable.simulated - *observable.measured) / observable.tolerance, 2);
-      squares.noise += std::pow(observable.simulated_standard_deviation / observable.tolerance, 2) / packings;
+      squares.noise += std::pow(standard_error(observable).value_or(0) / observable.tolerance, 2);
       ++fitted;
     }
   }
@@ -61,28 +61,31 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
     auto runs = runs_of(test, packings, engine, options.threads);
     if (!runs.ok()) return runs.faults();
 
+    const auto old_accepted = accepted(old_test.test, old_runs.value());
+    const auto now_accepted = accepted(test.test, runs.value());
     test.observables.clear();
     for (const auto& [name, value] : runs.value()[0].observables.all()) {
-      const auto old_sample = sample_of(column_of(old_runs.value(), name));
-      const auto sample = sample_of(column_of(runs.value(), name));
+      const auto old_sample = sample_of(column_of(old_accepted, name));
+      const auto sample = sample_of(column_of(now_accepted, name));
       CardObservable observable;
       for (const auto& known : old_test.observables)
         if (known.name == name) observable = known;
       observable.name = name;
       observable.simulated = sample.mean;
       observable.simulated_standard_deviation = sample.standard_deviation;
+      observable.packings = sample.count;
       observable.band.reset();
       test.observables.push_back(observable);
-      after.rescaled.back().bias.push_back(
-          {reading_name(test, name), old_sample.mean, sample.mean,
-           std::hypot(old_sample.standard_deviation, sample.standard_deviation) / std::sqrt(count)});
+      after.rescaled.back().bias.push_back({reading_name(test, name), old_sample.mean, sample.mean,
+                                            std::hypot(old_sample.standard_deviation / std::sqrt(old_sample.count),
+                                                       sample.standard_deviation / std::sqrt(sample.count))});
     }
     test.baseline = {engine.program, engine.machine, std::move(runs).value()};
   }
   auto& confirmation = after.confirmation;
   confirmation.packings = packings;
   confirmation.fresh = true;
-  const Misfit misfit = misfit_of(after, count);
+  const Misfit misfit = misfit_of(after);
   confirmation.misfit = misfit.difference;
   confirmation.meets_laboratory = verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
   return after;

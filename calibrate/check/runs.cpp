@@ -34,6 +34,14 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
   return outcomes;
 }
 
+std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs) {
+  std::vector<Observables> all;
+  for (const Baseline::Run& run : runs) all.push_back(run.observables);
+  std::vector<Baseline::Run> out;
+  for (const std::size_t run : accepted(test, all)) out.push_back(runs[run]);
+  return out;
+}
+
 std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name) {
   std::vector<double> column;
   for (const auto& run : runs)

@@ -11,6 +11,9 @@ namespace pastefit {
 std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads);
 
+/// The runs that a laboratory would accept (`laboratory/test.h`).
+std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs);
+
 /// The values of one reading, in the order of the runs.
 std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name);
 

@@ -47,7 +47,7 @@ std::string comparison_text(const ExportOptions& options, const Card& card, cons
                : format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
     for (const CardObservable& reading : test.observables)
       out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
-             (packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
+             (reading.packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
   }
   out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
          std::filesystem::absolute(options.card).string();

@@ -37,15 +37,15 @@ struct HeapReading {
   bool agrees() const { return !band || std::abs(read - of_card->simulated) <= *band; }
 };
 
-std::vector<HeapReading> beside_card(const Observables& readings, const CardTest& test, std::size_t packings) {
+std::vector<HeapReading> beside_card(const Observables& readings, const CardTest& test) {
   std::vector<HeapReading> out;
   for (const Observable& reading : readings.all()) {
     HeapReading one{reading.name, reading.value, nullptr, std::nullopt};
     const auto of_card = std::ranges::find(test.observables, reading.name, &CardObservable::name);
     if (of_card != test.observables.end()) {
       one.of_card = &*of_card;
-      if (packings >= 2)
-        one.band = band_of({static_cast<int>(packings), of_card->simulated, of_card->simulated_standard_deviation},
+      if (of_card->packings >= 2)
+        one.band = band_of({of_card->packings, of_card->simulated, of_card->simulated_standard_deviation},
                            {1, reading.value, 0}, kReadFalseAlarm);
     }
     out.push_back(std::move(one));
@@ -62,7 +62,7 @@ std::string reading_table(const std::vector<HeapReading>& readings, std::size_t 
       out += format(" %17s\n", "not on the card");
       continue;
     }
-    const std::string scatter = packings > 1 ? format(" +- %.2g", card->simulated_standard_deviation) : "";
+    const std::string scatter = card->packings > 1 ? format(" +- %.2g", card->simulated_standard_deviation) : "";
     out += format(" %17s", (format("%.5g", card->simulated) + scatter).c_str());
     out += format(" %17s", card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation).c_str()
                                           : "not measured");
@@ -126,7 +126,7 @@ int read_heap_of(const ReadOptions& options) {
   if (!read.ok()) return report(read.faults());
 
   const std::size_t packings = card.value().confirmation.packings.size();
-  const auto readings = beside_card(read.value(), test.value(), packings);
+  const auto readings = beside_card(read.value(), test.value());
   const bool agrees = std::ranges::all_of(readings, &HeapReading::agrees);
   if (options.json) {
     print("%s", json_text(json_of(readings, packings, agrees)).c_str());

@@ -5,9 +5,38 @@
 
 #include "calibrate/base/statistics.h"
 #include "calibrate/search/early_end.h"
+#include "calibrate/search/record.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
+
+namespace {
+
+/// Which of the simulations a laboratory would reject; nothing if the study does not judge it.
+std::vector<bool> rejected_of(const Study& study, const std::vector<const StoredEvaluation*>& simulations) {
+  std::vector<bool> rejected;
+  if (rejected_share_of(study) >= 1) return rejected;
+  const auto tests = tests_of(study, false);
+  for (const StoredEvaluation* one : simulations) rejected.push_back(is_rejected(study, tests, *one));
+  return rejected;
+}
+
+int most_repeats(const std::vector<StudyReading>& readings) {
+  int most = 0;
+  for (const StudyReading& reading : readings)
+    if (reading.weight > 0) most = std::max(most, reading.measurement.repeats);
+  return most;
+}
+
+/// The test of a reading by its name in the study.
+std::size_t test_of(const Study& study, const std::string& name) {
+  for (std::size_t test = 0; test < study.tests.size(); ++test)
+    for (const ReadingKind& kind : reading_kinds(study.tests[test].lab.test))
+      if (reading_name(study.tests[test], kind.name) == name) return test;
+  return study.tests.size();
+}
+
+}  // namespace
 
 Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations) {
   Evidence evidence;
@@ -22,14 +51,21 @@ Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evalu
   }
   if (good.empty()) return evidence;
   const std::vector<StudyReading> fitted = readings_of(study);
+  evidence.rejected = rejected_of(study, good);
+  evidence.accepted_heaps = most_repeats(fitted);
+  const bool some_accepted = std::ranges::find(evidence.rejected, false) != evidence.rejected.end();
   const auto readings = [](const StoredEvaluation* one) { return one->observables.all().size(); };
   for (const Observable& reading : (*std::ranges::max_element(good, {}, readings))->observables.all()) {
     ReadingEvidence one;
     one.name = reading.name;
+    one.test = test_of(study, reading.name);
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));
     for (std::size_t i = 0; i < good.size(); ++i)
       one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
     if ((one.simulated.array().isInf()).any()) continue;
+    for (std::size_t i = 0; some_accepted && i < good.size(); ++i)
+      if (evidence.rejected[i]) one.simulated[static_cast<Eigen::Index>(i)] = std::nan("");
+    if (one.simulated.array().isNaN().all()) continue;
     if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
       for (std::size_t i = 0; i < good.size(); ++i)
         one.is_bound.push_back(good[i]->run.ended_early &&

@@ -14,12 +14,13 @@ namespace pastefit {
 /// One reading as the laboratory took it, and as the simulations answered it.
 struct ReadingEvidence {
   std::string name;
+  std::size_t test = 0;            ///< of the study
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
   double deviation = 0;            ///< standard deviation of one measurement, in the reading's unit
   int repeats = 1;
   double widening = 1;         ///< of the deviation, where it was estimated from the repeats (`base/statistics.h`)
   double weight = 0;           ///< in the fit; 0: not fitted
-  Eigen::VectorXd simulated;   ///< NaN: the simulation ended before it
+  Eigen::VectorXd simulated;   ///< NaN: the simulation ended before it, or a laboratory would reject it
   std::vector<bool> is_bound;  ///< that simulation ended early, and would have read so or less; empty: none did
 
   bool fitted() const { return measured && weight > 0; }
@@ -35,10 +36,13 @@ struct Evidence {
                                       ///< for each simulated value
   std::vector<UnitPoint> failed;      ///< of those that did not
   std::vector<ReadingEvidence> readings;
+  std::vector<bool> rejected;  ///< by a laboratory, e.g. a heap that sheared off; one for each point; empty: not judged
+  int accepted_heaps = 0;      ///< of the laboratory: those that it reports, which it would not if it rejected them
 };
 
 /// Collects the evidence from a record (`search/record.h`). Of a simulation that ended early the reading that ended it
-/// is a bound, where it ended below, and the readings that it lacks are learnt from the others.
+/// is a bound, where it ended below, and the readings that it lacks are learnt from the others. Readings are learnt
+/// from the simulations that a laboratory would not reject; from all, if it would reject every one.
 Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations);
 
 }  // namespace pastefit

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 
 #include "calibrate/study/parameters.h"
 
@@ -24,12 +23,6 @@ double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
     squares += std::pow((point[static_cast<Eigen::Index>(j)] - prior.mean) / prior.deviation, 2);
   }
   return squares;
-}
-
-/// The test of a reading: what stands before the slash of its name.
-std::string_view test_of(const ReadingEvidence& reading) {
-  const std::string_view name = reading.name;
-  return name.substr(0, name.find('/') == std::string_view::npos ? 0 : name.find('/'));
 }
 
 }  // namespace
@@ -55,6 +48,8 @@ ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence))
   learn_correlation(sites);
   find_shared();
   count_independent();
+  if (std::ranges::find(evidence_.rejected, true) != evidence_.rejected.end())
+    rejections_.emplace(evidence_.points, evidence_.rejected);
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
@@ -94,7 +89,7 @@ void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
   for (Eigen::Index j = 0; j < count; ++j)
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto first = fitted_[static_cast<std::size_t>(j)], second = fitted_[static_cast<std::size_t>(k)];
-      if (j == k || test_of(evidence_.readings[first]) != test_of(evidence_.readings[second])) continue;
+      if (j == k || evidence_.readings[first].test != evidence_.readings[second].test) continue;
       const double size = std::sqrt(products(j, j) * products(k, k));
       correlation_(j, k) = size > 0 ? products(j, k) / size * freedom / (freedom + doubted_heaps) : 0;
     }
@@ -222,6 +217,7 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
   const double by_laboratory = half_log_determinant(of_laboratory);
   double sum = -0.5 * of_both.matrixL().solve(differences).squaredNorm() - by_laboratory -
                independent_ * (half_log_determinant(of_both) - by_laboratory);
+  if (rejections_) sum += evidence_.accepted_heaps * std::log1p(-rejections_->probability(point));
   if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
   return sum;
 }

@@ -4,17 +4,19 @@
 #include <vector>
 
 #include "calibrate/inference/evidence.h"
+#include "calibrate/models/classifier.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/reading_model.h"
 
 namespace pastefit {
 
 /// What a simulation of any candidate is likely to read, learnt from the evidence: a model for each reading
-/// (`ReadingModel`), and a Gaussian process for the share of failures. Readings of one heap are correlated: a heap that
-/// happens to stay high is narrow. The correlation is learnt from the fillings of the same candidates, drawn towards
-/// none by three heaps' worth of doubt. It is none between tests.
-/// The likelihood of a candidate follows: the laboratory's means are off the mean answers of the simulations by the
-/// laboratory's own errors and by what is not known of those answers, normal with
+/// (`ReadingModel`), a Gaussian process for the share of failures, and a classifier for the share of heaps that a
+/// laboratory would reject, p: that it reports n heaps is worth n log(1 - p). Readings of one heap are correlated: a
+/// heap that happens to stay high is narrow. The correlation is learnt from the fillings of the same candidates, drawn
+/// towards none by three heaps' worth of doubt. It is none between tests. The likelihood of a candidate follows: the
+/// laboratory's means are off the mean answers of the simulations by the laboratory's own errors and by what is not
+/// known of those answers, normal with
 ///     C = L + M,   M_jk = (doubt of the two means: that of j for j = k; else what the same heaps brought into both),
 ///     L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j n_k);
 /// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
@@ -68,6 +70,7 @@ class ResponseModel {
   double independent_ = 1;                                // n/N
   std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
   std::optional<GaussianProcess> failures_;
+  std::optional<Classifier> rejections_;
 };
 
 }  // namespace pastefit

@@ -217,13 +217,12 @@ std::optional<bool> is_rejected(const SlumpTest& test, const Observables& run) {
 
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {
   int sheared = 0, whole = 0;
-  double all_mm = 0, whole_mm = 0;
+  double all_mm = 0;
   for (const Observables& run : runs) {
     const double height_mm = run.find("step1.height_mm").value_or(0);
     const bool broke = has_sheared(test, run);
     ++(broke ? sheared : whole);
     all_mm += height_mm;
-    if (!broke) whole_mm += height_mm;
   }
   if (sheared == 0) return {};
   const double limit_mm = mm * kShearedShift * wider_radius_m(test.mould);
@@ -231,12 +230,13 @@ std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs)
     return format("the heap sheared off: its top shifted by %.0f mm, more than %g mm; the standards reject such a test",
                   *runs[0].find("step1.lateral_shift_mm"), limit_mm);
   const ProbabilityInterval share = binomial_interval(sheared, sheared + whole);
-  return format(
-             "%d of %zu packings sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than "
-             "%g mm), "
-             "which the standards reject: height after step 1 %.1f mm with them",
-             sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm, all_mm / (sheared + whole)) +
-         (whole > 0 ? format(", %.1f mm without", whole_mm / whole) : std::string());
+  const std::string heaps = format(
+      "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than %g mm); the "
+      "standards have such a test repeated",
+      sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm);
+  if (whole == 0) return heaps + ", and no heap is left to be read";
+  return heaps + format(", and the readings are of the others (height after step 1 with them: %.1f mm)",
+                        all_mm / (sheared + whole));
 }
 
 }  // namespace pastefit

@@ -146,6 +146,15 @@ std::optional<bool> is_rejected(const Test& test, const Observables& run) {
   return std::visit([&](const auto& one) { return is_rejected(one, run); }, test);
 }
 
+std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs) {
+  std::vector<std::size_t> all, good;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    all.push_back(i);
+    if (!is_rejected(test, runs[i]).value_or(false)) good.push_back(i);
+  }
+  return good.empty() ? all : good;
+}
+
 std::string remarks_on(const Test& test, std::span<const Observables> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }

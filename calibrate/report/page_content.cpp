@@ -59,15 +59,13 @@ ordered_json parameters_of(const Study& study) {
   return out;
 }
 
-ordered_json page_readings(const CardTest& test, std::size_t packings) {
+ordered_json page_readings(const CardTest& test) {
   auto out = ordered_json::array();
   for (const CardObservable& one : test.observables) {
     ordered_json reading{{"name", one.name},
                          {"simulated", one.simulated},
                          {"simulated_standard_deviation", one.simulated_standard_deviation}};
-    // One packing says nothing of its error.
-    if (packings > 1)
-      reading["standard_error"] = one.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
+    if (const auto error = standard_error(one)) reading["standard_error"] = *error;
     reading["packings"] = ordered_json::array();
     for (const Baseline::Run& run : test.baseline.runs)
       if (const auto value = run.observables.find(one.name)) reading["packings"].push_back(*value);
@@ -169,7 +167,7 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
                    {"conditions", conditions_in_words(test.test)},
                    {"grain_radius_mm", 1e3 * specimen_of(test.test).grains.radius_m}};
   if (test.within_noise) out["within_noise"] = *test.within_noise;
-  out["readings"] = page_readings(test, card.confirmation.packings.size());
+  out["readings"] = page_readings(test);
   std::vector<Observables> runs;
   for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
   const std::string remarks = remarks_on(test.test, runs);

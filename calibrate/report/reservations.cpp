@@ -16,13 +16,13 @@ std::vector<Observables> runs_of(const CardTest& test) {
   return runs;
 }
 
-void add_marginal_readings(const CardTest& test, std::size_t packings, std::vector<std::string>& out) {
+void add_marginal_readings(const CardTest& test, std::vector<std::string>& out) {
   for (const CardObservable& one : test.observables) {
-    if (!one.measured || one.weight <= 0 || test.hold_out || packings < 2) continue;
+    const auto error = standard_error(one);
+    if (!one.measured || one.weight <= 0 || test.hold_out || !error) continue;
     const double off = std::abs(one.simulated - *one.measured);
-    const double error = one.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
-    if (off > one.tolerance || off + error <= one.tolerance) continue;
-    out.push_back(reading_name(test, one.name) + " is off by " + plain(off) + " +- " + plain(error, 2) + " of the " +
+    if (off > one.tolerance || off + *error <= one.tolerance) continue;
+    out.push_back(reading_name(test, one.name) + " is off by " + plain(off) + " +- " + plain(*error, 2) + " of the " +
                   plain(one.tolerance) + " allowed");
   }
 }
@@ -47,7 +47,7 @@ std::vector<std::string> reservations_on(const Card& card) {
   for (const CardTest& test : card.tests)
     if (const std::string remarks = remarks_on(test.test, runs_of(test)); !remarks.empty())
       out.push_back(heading_of(test) + remarks);
-  for (const CardTest& test : card.tests) add_marginal_readings(test, card.confirmation.packings.size(), out);
+  for (const CardTest& test : card.tests) add_marginal_readings(test, out);
   add_bounds(card, out);
   if (card.confirmation.packings.size() == 1) out.push_back("one packing, error unknown");
   return out;

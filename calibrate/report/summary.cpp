@@ -26,14 +26,14 @@ std::string parameter_lines(const Card& card) {
   return out;
 }
 
-std::string observable_lines(const std::vector<CardObservable>& observables, std::size_t packings) {
+std::string observable_lines(const std::vector<CardObservable>& observables) {
   std::string out;
   for (const auto& observable : observables) {
-    const double error = observable.simulated_standard_deviation / std::sqrt(static_cast<double>(packings));
+    const auto error = standard_error(observable);
     out += format("  %-24s ", observable.name.c_str());
     out += observable.measured ? format("%10.4g %10.3g ", *observable.measured, observable.standard_deviation)
                                : format("%10s %10s ", "-", "-");
-    out += format("%10.5g ", observable.simulated) + (packings > 1 ? format("+- %-6.2g", error) : std::string(9, ' '));
+    out += format("%10.5g ", observable.simulated) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
     if (observable.measured)
       out += format(" %+9.3g%s", observable.simulated - *observable.measured,
                     observable.weight > 0 ? "" : "   (not fitted)");
@@ -49,7 +49,7 @@ std::string reading_lines(const Card& card) {
       format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- error", "difference");
   for (const auto& test : card.tests) {
     if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
-    out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables, packings);
+    out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables);
   }
   if (packings == 1) out += "  Simulated: one packing, error unknown.\n";
   return out;
@@ -101,11 +101,18 @@ std::string verdict_on_fitted(const Card& card) {
   const auto& confirmation = card.confirmation;
   const MisfitUnit unit = misfit_unit_of(card);
   const auto packings = confirmation.packings.size();
+  std::size_t accepted = packings;
+  for (const CardTest& test : card.tests)
+    for (const CardObservable& one : test.observables)
+      if (one.measured && one.weight > 0 && !test.hold_out)
+        accepted = std::min(accepted, static_cast<std::size_t>(one.packings));
   const std::string largest =
       "largest error " +
       (unit.tolerance_mm ? unit.words(confirmation.misfit, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"
                          : format("%.2f of its tolerance", confirmation.misfit)) +
-      (packings == 1 ? " (one packing, error unknown)" : format(" (mean of %zu packings)", packings));
+      (packings == 1         ? " (one packing, error unknown)"
+       : accepted < packings ? format(" (mean of %zu of %zu packings)", accepted, packings)
+                             : format(" (mean of %zu packings)", packings));
   if (confirmation.meets_laboratory)
     return std::string("The material meets the laboratory") +
            (reservations_on(card).empty() ? "" : ", with reservations") + ": " + largest + ".";

@@ -349,9 +349,11 @@ Response SimulationObjective::response_of(std::vector<Evaluation> evaluations) c
     }
     out.ended_early = out.ended_early || evaluation.ended_early;
     out.rejected += evaluation.rejected ? 1 : 0;
-    for (Eigen::Index i = 0; i < count; ++i)
-      out.observables[i] += evaluation.observables[static_cast<std::size_t>(i)] / packings;
   }
+  const auto judged = accepted(evaluations);
+  for (const Evaluation* one : judged)
+    for (Eigen::Index i = 0; i < count && !one->failure; ++i)
+      out.observables[i] += one->observables[static_cast<std::size_t>(i)] / static_cast<double>(judged.size());
   if (!evaluations.empty()) out.point = evaluations.front().point;
   out.evaluations = std::move(evaluations);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "calibrate/base/statistics.h"
@@ -23,12 +24,13 @@ struct Evaluation {
   int simulations = 1;       ///< that were spent on it; 0: it was known, or cut off by a stop
 };
 
-/// What a candidate answers on a set of packings: the mean over them, against the laboratory.
+/// What a candidate answers on a set of packings: the mean over those that a laboratory would accept (`accepted`),
+/// against the laboratory.
 struct Response {
   UnitPoint point;
   std::vector<std::uint64_t> packings;
   std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;          ///< mean over the packings, one for each reading; NaN: some packing has none
+  Eigen::VectorXd observables;          ///< mean over the accepted, one for each reading; NaN: one of them has none
   /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
   /// their standard deviations. Finite; graded if it failed.
   Eigen::VectorXd residuals;
@@ -61,12 +63,24 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
   return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
 }
 
-/// Square of the standard error of a mean reading, from its scatter over the packings: sum (x - mean)^2/(n (n - 1)).
-/// 0 for a single packing, a failure, or a reading that was not taken.
+/// Those that a laboratory would not reject; all of them, if it would reject every one: a reading is never without a
+/// number.
+inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evaluations) {
+  std::vector<const Evaluation*> all, good;
+  for (const Evaluation& one : evaluations) {
+    all.push_back(&one);
+    if (!one.rejected) good.push_back(&one);
+  }
+  return good.empty() ? all : good;
+}
+
+/// Square of the standard error of a mean reading, from its scatter over the accepted packings:
+/// sum (x - mean)^2/(n (n - 1)). 0 for a single packing, a failure, or a reading that was not taken.
 inline double squared_standard_error(const Response& response, std::size_t reading) {
-  if (response.evaluations.size() < 2 || response.failed) return 0;
+  const auto judged = accepted(response.evaluations);
+  if (judged.size() < 2 || response.failed) return 0;
   std::vector<double> values;
-  for (const Evaluation& one : response.evaluations) values.push_back(one.observables[reading]);
+  for (const Evaluation* one : judged) values.push_back(one->observables[reading]);
   const Sample sample = sample_of(values);
   const double square = sample.standard_deviation * sample.standard_deviation / sample.count;
   return std::isfinite(square) ? square : 0;

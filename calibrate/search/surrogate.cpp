@@ -37,7 +37,7 @@ double compressed(double residual, double far) {
 Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances, double rejected_share) {
   learn_rejections(seen, tolerances, rejected_share);
   std::vector<UnitPoint> all;
-  std::vector<const Response*> feasible;
+  std::vector<const Response*> feasible, learnt;
   Eigen::VectorXd failed(static_cast<Eigen::Index>(seen.size()));
   for (const Response& response : seen) {
     failed[static_cast<Eigen::Index>(all.size())] = is_feasible(response) ? 0 : 1;
@@ -45,12 +45,14 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
     if (!is_feasible(response)) continue;
     feasible.push_back(&response);
     worst_ = std::max(worst_, response.misfit);
+    if (response.rejected == 0) learnt.push_back(&response);
   }
+  if (learnt.empty()) learnt = feasible;
   for (Eigen::Index k = 0; k < feasible.front()->residuals.size(); ++k) {
     const double tolerance = k < tolerances.size() ? tolerances[k] : 0;
     std::vector<UnitPoint> points;
     std::vector<double> values;
-    for (const Response* response : feasible) {
+    for (const Response* response : learnt) {
       if (!has_reading(*response, k)) continue;
       points.push_back(response->point);
       values.push_back(response->residuals[k]);

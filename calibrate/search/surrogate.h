@@ -14,7 +14,8 @@ namespace pastefit {
 /// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
 /// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
 /// something is known, little fails, and packings agree. It never fails. Each residual is learnt from the simulations
-/// that took its reading; one that none took is expected to be met.
+/// that took its reading and that a laboratory would not reject; from all, where it would reject every one. A residual
+/// that none took is expected to be met.
 class Surrogate {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,

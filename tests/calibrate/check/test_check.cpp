@@ -102,6 +102,7 @@ TEST_CASE("every test of a card is checked, and a reading carries the name of it
   low.name = "step1.height_axis_mm";
   low.simulated = 50;
   low.simulated_standard_deviation = 1;
+  low.packings = 2;
   lower.observables.push_back(low);
   card.confirmation.packings = {10, 11};
   card.tests.push_back(lower);

@@ -270,3 +270,16 @@ TEST_CASE("readings of one heap that scatter against each other tell more togeth
   for (const double correlation : {0.0, -0.8})
     CHECK(uncertainty(correlation) == Approx(0.05 * std::sqrt((1 + correlation) / 2)).epsilon(0.15));
 }
+
+TEST_CASE("that a laboratory reports its heaps tells against materials of which most shear off") {
+  Evidence evidence = evidence_for({first_alone}, 60);
+  for (const UnitPoint& point : evidence.points) evidence.rejected.push_back(point[1] > 0.5);
+  const auto range = [&](int heaps) {
+    evidence.accepted_heaps = heaps;
+    const Inference inference = infer(evidence, middle);
+    return std::pair{inference.intervals[1].lower, inference.intervals[1].upper};
+  };
+  CHECK(range(0).second > 0.95);
+  CHECK(range(3).second < 0.85);
+  CHECK(range(3).first < 0.05);
+}

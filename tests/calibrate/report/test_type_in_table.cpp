@@ -104,7 +104,7 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
     if (one.name == "step1.height_mm") one.simulated = *one.measured + 0.95 * one.tolerance;
   const auto reservations = reservations_on(card);
   REQUIRE(reservations.size() == 3);
-  CHECK_THAT(reservations[0], Catch::Contains("1 of 8 packings sheared off"));
+  CHECK_THAT(reservations[0], Catch::Contains("1 of 8 heaps sheared off"));
   CHECK_THAT(reservations[1], Catch::Contains("step1.height_mm is off by") && Catch::Contains("of the 7.5 allowed"));
   CHECK_THAT(reservations[2], Catch::Contains("strength_pa") && Catch::Contains("lower bound"));
   CHECK_THAT(verdict_of(card), Catch::Contains("meets the laboratory, with reservations"));
@@ -115,7 +115,10 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
 TEST_CASE("the readings of a single packing have no error") {
   Card card = without_reservations();
   card.confirmation.packings = {1};
-  for (auto& one : card.tests[0].observables) one.simulated_standard_deviation = 0;
+  for (auto& one : card.tests[0].observables) {
+    one.simulated_standard_deviation = 0;
+    one.packings = 1;
+  }
   CHECK_THAT(summary_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("Simulated: one packing, error unknown"));
   CHECK_THAT(verdict_of(card), Catch::Contains("with reservations") && Catch::Contains("one packing, error unknown"));
   CHECK(reservations_on(card) == std::vector<std::string>{"one packing, error unknown"});

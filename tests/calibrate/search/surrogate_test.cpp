@@ -21,6 +21,22 @@ double slope(const UnitPoint& point) {
   return 200 * (point[0] - 0.5) + 100 * (point[1] - 0.5) * (point[1] - 0.5);
 }
 
+/// The same in two of five heaps; the others have sheared off, and read 80 mm less.
+std::vector<Response> heaps_of_which_some_shear() {
+  std::vector<Response> heaps;
+  for (const UnitPoint& point : screening_points(2, 60, 1)) {
+    Response heap;
+    heap.point = point;
+    heap.rejected = heaps.size() % 5 < 3 ? 1 : 0;
+    heap.evaluations.resize(1);
+    heap.evaluations[0].rejected = heap.rejected > 0;
+    heap.residuals = Eigen::VectorXd::Constant(1, slope(point) - 80 * heap.rejected);
+    heap.misfit = 0.5 * heap.residuals.squaredNorm();
+    heaps.push_back(heap);
+  }
+  return heaps;
+}
+
 /// Root mean square error of a surrogate of 40 heaps where they are within twice the tolerance of 7.5.
 double error_near_the_laboratory(Height height, const Eigen::VectorXd& tolerances) {
   std::vector<Response> heaps;
@@ -56,4 +72,13 @@ TEST_CASE("a height that changes evenly over the whole box is learnt as it is") 
   const double with = error_near_the_laboratory(slope, tolerance), without = error_near_the_laboratory(slope, {});
   INFO(with << " mm, " << without << " mm where every residual is learnt as it is");
   CHECK(with <= 1.05 * without);
+}
+
+TEST_CASE("what is learnt of a reading is that of the heaps that stand, and how many shear is learnt beside it") {
+  const Surrogate surrogate(heaps_of_which_some_shear(), tolerance, 0.2);
+  for (const UnitPoint& point : screening_points(2, 50, 2)) {
+    CHECK(surrogate.rejecting(point) > 0.3);
+    if (std::abs(slope(point)) > 15) continue;
+    CHECK(surrogate.expected_residuals(point)[0] == Approx(slope(point)).margin(5));
+  }
 }

@@ -140,9 +140,11 @@ class Synthetic : public Objective {
       response.failed = response.failed || evaluation.failure;
       response.ended_early = response.ended_early || evaluation.ended_early;
       response.rejected += evaluation.rejected ? 1 : 0;
-      for (int k = 0; k < count && !evaluation.failure; ++k) response.observables[k] += evaluation.observables[k];
     }
-    response.observables /= static_cast<double>(evaluations.size());
+    const auto judged = accepted(evaluations);
+    for (const Evaluation* one : judged)
+      for (int k = 0; k < count && !one->failure; ++k)
+        response.observables[k] += one->observables[k] / static_cast<double>(judged.size());
     response.evaluations = std::move(evaluations);
     response.residuals.resize(residuals());
     const auto priors = known(response.point);

@@ -37,6 +37,27 @@ TEST_CASE("a candidate answers with the mean over its packings against the labor
   CHECK(objective.budget_left() == 16);
 }
 
+TEST_CASE("a reading is the mean over the heaps that a laboratory would not reject, or over all if it would each") {
+  const UnitPoint point = at(0.5, 0.5);
+  const auto answer = [&](const std::set<std::uint64_t>& sheared) {
+    Laboratory laboratory;
+    laboratory.twist = [&](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
+      outcome.observables.set("step1.lateral_shift_mm", sheared.contains(test.packing_seed) ? 500 : 0);
+    };
+    auto store = laboratory.store();
+    SimulationObjective objective(laboratory.study, store, laboratory.options);
+    return objective.evaluate({&point, 1}, std::vector<std::uint64_t>{1, 2, 6}).at(0);
+  };
+  const Response one = answer({6});
+  CHECK(one.rejected == 1);
+  CHECK(one.observables[0] == Approx(101.5));
+  CHECK(one.miss == Approx(1));  // of the mass
+  CHECK(one.noise == Approx(0.5 / 5));
+  const Response all = answer({1, 2, 6});
+  CHECK(all.rejected == 3);
+  CHECK(all.observables[0] == Approx(103));
+}
+
 TEST_CASE("the mould is filled once for each packing and way to fill it, however many candidates and threads ask") {
   Laboratory laboratory;
   auto store = laboratory.store();
