@@ -24,8 +24,9 @@ struct SeenRun {
   std::optional<Curve> curve;
 };
 
-/// Whose word a part of a drawing is: each has its own look.
-enum class DrawnBy { laboratory, simulation, apparatus };
+/// Whose word a part of a drawing is: each has its own look. `run` is one simulation of those behind the means of
+/// `simulation`, `rejected` one that a laboratory would repeat.
+enum class DrawnBy { laboratory, simulation, apparatus, run, rejected };
 
 using DrawnPoint = std::array<double, 2>;
 

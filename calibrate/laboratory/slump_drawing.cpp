@@ -4,6 +4,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump.h"
+#include "calibrate/laboratory/test.h"
 
 namespace pastefit {
 
@@ -18,11 +19,16 @@ class HeapDrawing {
  public:
   HeapDrawing(const SlumpTest& test, std::string step, std::span<const SeenRun> runs,
               std::span<const Measurement> measured)
-      : test_(test), step_(std::move(step)), runs_(runs), measured_(measured) {
+      : test_(test), step_(std::move(step)), measured_(measured) {
+    std::vector<Observables> readings;
+    for (const SeenRun& run : runs) readings.push_back(run.readings);
+    for (const std::size_t run : accepted(test, readings)) accepted_.push_back(runs[run]);
     for (const SeenRun& run : runs)
-      if (const auto seen = run.outlines.find(step_); seen != run.outlines.end()) outlines_.push_back(&seen->second);
+      if (const auto seen = run.outlines.find(step_); seen != run.outlines.end())
+        outlines_.push_back(
+            {&seen->second, std::ranges::find(accepted_, run.packing, &SeenRun::packing) != accepted_.end()});
     half_width_ = diameter_at_base() / 2;
-    for (const Outline* outline : outlines_) {
+    for (const auto& [outline, is_accepted] : outlines_) {
       const double end = outline->first_x_m + outline->spacing_m * static_cast<double>(outline->height_m.size());
       half_width_ = std::max({half_width_, -mm * outline->first_x_m, mm * end});
     }
@@ -53,23 +59,26 @@ class HeapDrawing {
     drawing_.lines.push_back({"table", DrawnBy::apparatus, {{-table, 0}, {table, 0}}});
   }
 
+  /// Every heap, and the mean of those that a laboratory would accept.
   void draw_simulations() {
     if (outlines_.empty()) return;
-    const auto count = static_cast<double>(outlines_.size());
-    DrawnBand band{format("%zu packings, lowest to highest", outlines_.size()), {}};
+    for (const Seen& seen : outlines_) {
+      DrawnLine line{seen.accepted ? "simulated, each heap" : "sheared off: a laboratory would repeat the test",
+                     seen.accepted ? DrawnBy::run : DrawnBy::rejected,
+                     {}};
+      for (double x = -half_width_; x <= half_width_; x += kStep)
+        line.points.push_back({x, mm * seen.outline->at(x / mm)});
+      drawing_.lines.push_back(std::move(line));
+    }
+    const auto count = static_cast<double>(std::ranges::count_if(outlines_, &Seen::accepted));
+    if (count == 0) return;
     DrawnLine mean{"simulated, mean", DrawnBy::simulation, {}};
     for (double x = -half_width_; x <= half_width_; x += kStep) {
-      double low = rim(), high = 0, sum = 0;
-      for (const Outline* outline : outlines_) {
-        const double height = mm * outline->at(x / mm);
-        low = std::min(low, height);
-        high = std::max(high, height);
-        sum += height;
-      }
-      band.points.push_back({x, low, high});
+      double sum = 0;
+      for (const Seen& seen : outlines_)
+        if (seen.accepted) sum += mm * seen.outline->at(x / mm);
       mean.points.push_back({x, sum / count});
     }
-    if (outlines_.size() > 1) drawing_.bands.push_back(std::move(band));
     drawing_.lines.push_back(std::move(mean));
   }
 
@@ -131,7 +140,9 @@ class HeapDrawing {
   const Measurement* measurement(const std::string& name) const {
     return find_measurement(measured_, step_ + "." + name);
   }
-  std::optional<double> mean_of_runs(const std::string& name) const { return mean_reading(runs_, step_ + "." + name); }
+  std::optional<double> mean_of_runs(const std::string& name) const {
+    return mean_reading(accepted_, step_ + "." + name);
+  }
 
   /// Calls `draw(by, value, standard deviation)` for what the laboratory and what the simulations say of a reading.
   template <class Draw>
@@ -147,10 +158,14 @@ class HeapDrawing {
 
   const SlumpTest& test_;
   std::string step_;
-  std::span<const SeenRun> runs_;
+  std::vector<SeenRun> accepted_;  // by a laboratory: means are over these
   std::span<const Measurement> measured_;
-  std::vector<const Outline*> outlines_;
-  double half_width_ = 0;  // of what is drawn [mm]
+  struct Seen {
+    const Outline* outline = nullptr;
+    bool accepted = true;
+  };
+  std::vector<Seen> outlines_;  // of every run
+  double half_width_ = 0;       // of what is drawn [mm]
   Drawing drawing_;
 };
 

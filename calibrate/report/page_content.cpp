@@ -87,7 +87,8 @@ ordered_json rounded_point(const DrawnPoint& point) {
 }
 
 std::string drawn_by(DrawnBy by) {
-  return by == DrawnBy::laboratory ? "laboratory" : by == DrawnBy::simulation ? "simulation" : "apparatus";
+  constexpr std::array<const char*, 5> names{"laboratory", "simulation", "apparatus", "run", "rejected"};
+  return names[static_cast<std::size_t>(by)];
 }
 
 ordered_json json_of_drawing(const Drawing& drawing) {

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "calibrate/laboratory/test.h"
 
@@ -7,8 +8,10 @@ using namespace pastefit;
 namespace {
 
 /// A run that reads this, and whose heap is a box of this height, 0.2 m wide.
-SeenRun box_heap(double height_m) {
+SeenRun box_heap(double height_m, double shift_mm = 0) {
   SeenRun run;
+  run.packing = static_cast<std::uint64_t>(1e3 * height_m);
+  run.readings.set("step1.lateral_shift_mm", shift_mm);
   run.readings.set("step1.height_mm", 1e3 * height_m);
   run.readings.set("step1.spread_mm", 200);
   run.outlines["step1"] = {-0.1, 0.01, std::vector<double>(21, height_m)};
@@ -17,18 +20,22 @@ SeenRun box_heap(double height_m) {
 
 }  // namespace
 
-TEST_CASE("the drawing of a heap has the band of its packings, and each length where it is measured") {
-  const std::vector<SeenRun> runs{box_heap(0.10), box_heap(0.12)};
+TEST_CASE("the drawing of a heap has every heap, the mean of those that stand, and each length where it is measured") {
+  const std::vector<SeenRun> runs{box_heap(0.10), box_heap(0.12), box_heap(0.05, 90)};
   const std::vector<Measurement> measured{{"step1.height_mm", 150, 7.5, 1}, {"step1.spread_mm", 310, 25, 1}};
   const auto drawings = drawings_of(Test(SlumpTest{}), runs, measured);
   REQUIRE(drawings.size() == 1);
   const Drawing& heap = drawings[0];
   CHECK(heap.to_scale);
-  REQUIRE(heap.bands.size() == 1);
-  const auto& [x, low, high] = heap.bands[0].points[heap.bands[0].points.size() / 2];
-  CHECK(x == Approx(0).margin(2));
-  CHECK(low == Approx(100));
-  CHECK(high == Approx(120));
+  const auto heights_by = [&](DrawnBy by) {
+    std::vector<double> heights;
+    for (const DrawnLine& line : heap.lines)
+      if (line.by == by) heights.push_back(std::round(line.points[line.points.size() / 2][1]));
+    return heights;
+  };
+  CHECK(heights_by(DrawnBy::run) == std::vector<double>{100, 120});
+  CHECK(heights_by(DrawnBy::rejected) == std::vector<double>{50});
+  CHECK(heights_by(DrawnBy::simulation) == std::vector<double>{110});
   REQUIRE(heap.lengths.size() == 4);
   CHECK(heap.lengths[0].value == 150);
   CHECK(heap.lengths[0].deviation == 7.5);

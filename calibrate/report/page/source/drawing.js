@@ -35,10 +35,19 @@ function lengthMarks(length, scale, among) {
   ];
 }
 
+/// How a line looks, by whose word it is.
+const looks = {
+  laboratory: { stroke: colour.laboratory, strokeWidth: 2.2, strokeDasharray: "8 3" },
+  simulation: { stroke: colour.simulation, strokeWidth: 2.2 },
+  apparatus: { stroke: colour.apparatus, strokeWidth: 1.2, strokeDasharray: "5 3" },
+  run: { stroke: colour.simulation, strokeWidth: 0.8, strokeOpacity: 0.6 },
+  rejected: { stroke: colour.failure, strokeWidth: 1, strokeOpacity: 0.9 },
+};
+
 function lineMarks({ by, points, deviation }) {
-  const stroke = colour[by];
+  const { stroke } = looks[by];
   const band = deviation > 0 ? [Plot.areaY(points, { x: "0", y1: ([, y]) => y - deviation, y2: ([, y]) => y + deviation, fill: stroke, fillOpacity: 0.15 })] : [];
-  return [...band, Plot.line(points, { stroke, strokeWidth: by === "apparatus" ? 1.2 : 2.2, strokeDasharray: by === "apparatus" ? "5 3" : by === "laboratory" ? "8 3" : null })];
+  return [...band, Plot.line(points, looks[by])];
 }
 
 function drawn(drawing, width) {
@@ -61,7 +70,8 @@ function drawn(drawing, width) {
 }
 
 function legendOf({ bands, lines, lengths }) {
-  const entries = [...bands.map(({ name }) => [name, "band"]), ...lines.map(({ name, by }) => [name, `line ${by}`])];
+  const names = new Map(lines.map(({ name, by }) => [name, `line ${by}`])); // heaps share one
+  const entries = [...bands.map(({ name }) => [name, "band"]), ...names];
   const told = new Set();
   for (const { by } of lengths) if (!told.has(by)) told.add(by);
   for (const by of told) entries.push([by === "laboratory" ? "the laboratory's lengths \u00b1 deviation" : "simulated lengths, means \u00b1 standard error", `line ${by}`]);
