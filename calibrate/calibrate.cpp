@@ -112,7 +112,8 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   if (auto faults = objective.store_faults(); !faults.empty()) return faults;
   result.counts = objective.counts();
   if (!any) return result;
-  result.card = card_of(study, found, asked, store, result.counts, options.study_file);
+  result.card =
+      card_of(study, found, asked, baselines_of(study, shown_of(found), store), result.counts, options.study_file);
   if (result.inference) result.card->inference = card_inference(*result.inference);
   return result;
 }

@@ -34,18 +34,6 @@ std::optional<CardObservable> mean_over(const std::string& name, const std::vect
   return out;
 }
 
-/// A material in one test of a study: what the store has of it on these packings; nothing if one of them is missing.
-std::vector<Observables> runs_of(const Study& study, std::size_t test, const std::vector<double>& values,
-                                 const std::vector<std::uint64_t>& packings, const Store& store) {
-  std::vector<Observables> runs;
-  for (const auto packing : packings) {
-    auto found = store.find(key_of(study, test, values, packing, store.identity().program));
-    if (!found || failure_of(study.tests[test], *found)) return {};
-    runs.push_back(std::move(found->observables));
-  }
-  return runs;
-}
-
 /// Every reading of the runs that a laboratory would accept, beside the laboratory's where it has one.
 std::vector<CardObservable> observables_of(const Study& study, std::size_t index, const std::vector<Observables>& all) {
   const StudyTest& test = study.tests[index];
@@ -91,15 +79,8 @@ void judge(CardTest& test) {
   }
 }
 
-Baseline baseline_of(const std::vector<Observables>& runs, const std::vector<std::uint64_t>& packings,
-                     const Store& store) {
-  Baseline out{store.identity().program, machine_type(), {}};
-  for (std::size_t i = 0; i < runs.size(); ++i) out.runs.push_back({packings[i], runs[i]});
-  return out;
-}
-
 CardTest card_test_of(const Study& study, std::size_t index, const std::vector<double>& values,
-                      const std::vector<std::uint64_t>& packings, const Store& store) {
+                      std::uint64_t first_packing, const Baseline& baseline) {
   const auto& test = study.tests[index];
   CardTest out;
   out.name = test.name;
@@ -108,11 +89,12 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   out.lab_hash = test.lab.hash;
   out.lab = test.lab.provenance;
   if (!test.lab.note.empty()) out.lab.notes += (out.lab.notes.empty() ? "" : "; ") + test.lab.note;
-  out.test = test_with(test.lab.test, values, packings.at(0));
-  const auto runs = runs_of(study, index, values, packings, store);
-  if (runs.empty()) return out;
+  out.test = test_with(test.lab.test, values, first_packing);
+  if (baseline.runs.empty()) return out;
+  std::vector<Observables> runs;
+  for (const Baseline::Run& run : baseline.runs) runs.push_back(run.observables);
   out.observables = observables_of(study, index, runs);
-  out.baseline = baseline_of(runs, packings, store);
+  out.baseline = baseline;
   if (out.hold_out) judge(out);
   return out;
 }
@@ -128,16 +110,31 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
 
 }  // namespace
 
-Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,
-             const EvaluationCounts& counts, const std::string& study_file) {
+const Response& shown_of(const Calibration& calibration) {
   const bool fresh = calibration.confirmation.point.size() > 0 && !calibration.confirmation.failed;
-  const auto& shown = fresh ? calibration.confirmation : calibration.best;
+  return fresh ? calibration.confirmation : calibration.best;
+}
+
+std::vector<Baseline> baselines_of(const Study& study, const Response& candidate, const Store& store) {
+  std::vector<Baseline> baselines;
+  for (std::size_t test = 0; test < study.tests.size(); ++test) {
+    Baseline& baseline = baselines.emplace_back(Baseline{store.identity().program, machine_type(), {}});
+    auto runs = known_runs(study, test, candidate.point, candidate.packings, store);
+    for (std::size_t i = 0; i < runs.size(); ++i) baseline.runs.push_back({candidate.packings[i], std::move(runs[i])});
+  }
+  return baselines;
+}
+
+Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options,
+             const std::vector<Baseline>& baselines, const EvaluationCounts& counts, const std::string& study_file) {
+  const Response& shown = shown_of(calibration);
+  const bool fresh = &shown == &calibration.confirmation;
   const auto values = values_at(study, coordinates(shown.point));
 
   Card card;
   card.title = study.title;
   for (std::size_t i = 0; i < study.tests.size(); ++i)
-    card.tests.push_back(card_test_of(study, i, values, shown.packings, store));
+    card.tests.push_back(card_test_of(study, i, values, shown.packings.at(0), baselines.at(i)));
   card.material = material_of(study, values, card.tests.front());
 
   card.confirmation = {shown.packings, fresh, shown.miss,
@@ -152,7 +149,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
                  {},
                  calibration.coarse_simulations};
   for (const auto& [reason, count] : counts.failures) card.search.failures[std::string(name_of(reason))] = count;
-  card.provenance = {study_file, study.hash, store.identity().program};
+  card.provenance = {study_file, study.hash, baselines.at(0).program};
   return card;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibrate/card/card.h"
 #include "calibrate/search/evaluator.h"
@@ -15,12 +16,18 @@ void predict_hold_outs(const Study& study, const Calibration& calibration, Simul
 /// What that costs, to be kept back from the search.
 int hold_out_simulations(const Study& study, const SearchOptions& options);
 
-/// The card of a finished calibration. Readings that the laboratory did not take, and hold-outs, come from the store.
-/// Its material is stated for the grains of the study's first test. A hold-out is judged by the noise of both sides
-/// (Welch, `base/statistics.h`), with a probability of 0.05 to call a right prediction wrong.
-/// `options`: what the search ran with. `study_file`: name for the provenance.
-/// Requirement: the best candidate did not fail.
-Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options, const Store& store,
-             const EvaluationCounts& counts, const std::string& study_file);
+/// What a card reports of a calibration: the confirmation, or the best candidate where there is none.
+const Response& shown_of(const Calibration& calibration);
+
+/// What a candidate read in each test of the study, as the store has it; simulates nothing.
+std::vector<Baseline> baselines_of(const Study& study, const Response& candidate, const Store& store);
+
+/// The card of a finished calibration. `baselines`: what `shown_of` read in each test of the study on each of its
+/// packings (`baselines_of`); one without runs was not simulated. Its material is stated for the
+/// grains of the study's first test. A hold-out is judged by the noise of both sides (Welch, `base/statistics.h`), with
+/// a probability of 0.05 to call a right prediction wrong. `options`: what the search ran with. `study_file`: name for
+/// the provenance. Requirement: the best candidate did not fail.
+Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options,
+             const std::vector<Baseline>& baselines, const EvaluationCounts& counts, const std::string& study_file);
 
 }  // namespace pastefit

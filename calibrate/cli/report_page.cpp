@@ -12,7 +12,7 @@ namespace pastefit {
 
 Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, const std::atomic<bool>& stop,
                      const LookOptions& options) {
-  constexpr std::size_t kMostPackings = 8;
+  constexpr std::size_t kMostPackings = 16;
   if (!findings.card) return {};
   const Card& card = *findings.card;
   const auto& packings = card.confirmation.packings;

@@ -20,7 +20,7 @@ struct LookOptions {
   Looks* seen = nullptr;
 };
 
-/// Shows the card's tests on the packings that confirmed it, the first eight at most: as they were seen, or as the
+/// Shows the card's tests on the packings that confirmed it, the first sixteen at most: as they were seen, or as the
 /// folder has kept them (`kViewsFile`); what is neither is simulated, until `stop` becomes true, and then kept. What
 /// could not be shown is missing in the findings. Errors: what was seen could not be kept.
 Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, const std::atomic<bool>& stop,

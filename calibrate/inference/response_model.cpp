@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calibrate/models/replicates.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -29,13 +30,7 @@ double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
 
 ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence)) {
   if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
-  std::vector<UnitPoint> places;
-  std::vector<std::size_t> sites;  // of the simulations
-  for (const UnitPoint& point : evidence_.points) {
-    const auto known = std::ranges::find(places, point);
-    sites.push_back(static_cast<std::size_t>(known - places.begin()));
-    if (known == places.end()) places.push_back(point);
-  }
+  const auto [places, sites] = sites_of(evidence_.points);
   for (std::size_t k = 0; k < evidence_.readings.size(); ++k) {
     const ReadingEvidence& reading = evidence_.readings[k];
     std::vector<ReadingModel::Answer> answers;
@@ -106,7 +101,7 @@ void ResponseModel::find_shared() {
       for (std::size_t a = 0; a < first.size(); ++a)
         for (std::size_t b = 0; b < second.size(); ++b) {
           if (first[a].site != second[b].site || first[a].is_bound || second[b].is_bound) continue;
-          const double both = std::min(first[a].count, second[b].count) / (first[a].count * second[b].count);
+          const double both = 1 / std::max(first[a].answers.weight, second[b].answers.weight);
           shared.push_back({static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b),
                             correlation * first[a].noise * second[b].noise * both});
         }

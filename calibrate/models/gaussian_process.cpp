@@ -6,6 +6,7 @@
 
 #include "calibrate/models/hyperparameters.h"
 #include "calibrate/models/matern.h"
+#include "calibrate/models/replicates.h"
 
 namespace pastefit {
 namespace {
@@ -42,26 +43,19 @@ double GaussianProcess::deviance() const {
 
 void GaussianProcess::pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
                            const Eigen::VectorXd& precisions) {
-  std::vector<double> sums, squares, counts;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double value = values[static_cast<Eigen::Index>(i)], precision = precisions[static_cast<Eigen::Index>(i)];
-    const auto known = static_cast<std::size_t>(std::ranges::find(points_, points[i]) - points_.begin());
-    if (known == points_.size()) {
-      points_.push_back(points[i]);
-      sums.push_back(0);
-      squares.push_back(0);
-      counts.push_back(0);
-    }
-    // Welford's update: the squares about the mean so far, without cancellation.
-    const double before = counts[known] > 0 ? value - sums[known] / counts[known] : 0;
-    sums[known] += precision * value;
-    counts[known] += precision;
-    squares[known] += precision * before * (value - sums[known] / counts[known]);
+  const Sites sites = sites_of(points);
+  points_ = sites.points;
+  std::vector<Replicates> pooled(points_.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    pooled[sites.of[i]].add(values[static_cast<Eigen::Index>(i)], precisions[static_cast<Eigen::Index>(i)]);
+  values_.resize(std::ssize(pooled));
+  counts_.resize(std::ssize(pooled));
+  for (Eigen::Index i = 0; i < values_.size(); ++i) {
+    const Replicates& one = pooled[static_cast<std::size_t>(i)];
+    values_[i] = one.mean;
+    counts_[i] = one.weight;
+    squares_within_ += one.squares;
   }
-  const auto n = static_cast<Eigen::Index>(points_.size());
-  counts_ = Eigen::Map<const Eigen::VectorXd>(counts.data(), n);
-  values_ = Eigen::Map<const Eigen::VectorXd>(sums.data(), n).cwiseQuotient(counts_);
-  squares_within_ = Eigen::Map<const Eigen::VectorXd>(squares.data(), n).sum();
   answers_ = static_cast<double>(points.size());
 }
 

@@ -37,7 +37,7 @@ double log_normal_share(double z) {
 /// that it has under Phi((bound - mean)/noise).
 void ReadingModel::Row::match(double mean, double doubt) {
   const double total = doubt + noise * noise;
-  const double z = std::clamp((value - mean) / std::sqrt(total), -30.0, 30.0);
+  const double z = std::clamp((answers.mean - mean) / std::sqrt(total), -30.0, 30.0);
   const double hazard = std::exp(log_normal_density(z) - log_normal_share(z));
   const double slope = -hazard / std::sqrt(total);
   const double bend = std::max(hazard * (z + hazard) / total, least_bend);
@@ -76,7 +76,7 @@ double ReadingModel::deviance() const {
                  0.5 * (std::pow(settings_.noise_slope, 2) + std::pow(settings_.noise_bend, 2));
   for (const double length : settings_.lengths) prior += off(length, usual_length);
   double answers = 0;
-  for (const Row& row : rows_) answers += row.count;
+  for (const Row& row : rows_) answers += row.answers.weight;
   return std::exp(2 * (prior - log_evidence_) / answers);
 }
 
@@ -105,32 +105,26 @@ void ReadingModel::pool(std::span<const Answer> answers) {
   for (const Answer& answer : answers) {
     const auto same = [&](const Row& row) { return row.site == answer.site && !row.is_bound; };
     const auto known = answer.is_bound ? rows_.end() : std::ranges::find_if(rows_, same);
-    if (known == rows_.end()) {
-      rows_.push_back({.site = answer.site, .is_bound = answer.is_bound, .value = answer.value});
-      continue;
-    }
-    // Welford's update: without cancellation.
-    known->count += 1;
-    const double before = answer.value - known->value;
-    known->value += before / known->count;
-    known->squares += before * (answer.value - known->value);
+    Row& row =
+        known == rows_.end() ? rows_.emplace_back(Row{.site = answer.site, .is_bound = answer.is_bound}) : *known;
+    row.answers.add(answer.value);
   }
 }
 
 void ReadingModel::standardise() {
   const auto count = static_cast<double>(rows_.size());
-  for (const Row& row : rows_) centre_ += row.value / count;
-  for (const Row& row : rows_) scale_ += std::pow(row.value - centre_, 2) / count;
+  for (const Row& row : rows_) centre_ += row.answers.mean / count;
+  for (const Row& row : rows_) scale_ += std::pow(row.answers.mean - centre_, 2) / count;
   scale_ = std::sqrt(scale_);
   if (scale_ <= 1e-12 * (1 + std::abs(centre_))) scale_ = 0;
   if (scale_ == 0) return;
   lowest_ = std::numeric_limits<double>::infinity();
   highest_ = -lowest_;
   for (Row& row : rows_) {
-    row.observed = row.value = (row.value - centre_) / scale_;
-    row.squares /= scale_ * scale_;
-    lowest_ = std::min(lowest_, row.value);
-    highest_ = std::max(highest_, row.value);
+    row.observed = row.answers.mean = (row.answers.mean - centre_) / scale_;
+    row.answers.squares /= scale_ * scale_;
+    lowest_ = std::min(lowest_, row.answers.mean);
+    highest_ = std::max(highest_, row.answers.mean);
   }
 }
 
@@ -164,9 +158,9 @@ void ReadingModel::condition() {
     const double noise = noise_variance(levels_[i]);
     row.noise = std::sqrt(noise);
     if (row.is_bound) continue;
-    row.variance = noise / row.count;
-    log_within -=
-        0.5 * ((row.count - 1) * std::log(2 * std::numbers::pi * noise) + row.squares / noise + std::log(row.count));
+    row.variance = noise / row.answers.weight;
+    log_within -= 0.5 * ((row.answers.weight - 1) * std::log(2 * std::numbers::pi * noise) +
+                         row.answers.squares / noise + std::log(row.answers.weight));
   }
   Eigen::LLT<Eigen::MatrixXd> cholesky;
   Eigen::VectorXd observed(n);

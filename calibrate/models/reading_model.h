@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "calibrate/models/replicates.h"
 #include "calibrate/optimisers/problem.h"
 
 namespace pastefit {
@@ -38,13 +39,11 @@ class ReadingModel {
   /// The answers of one site that are no bounds, or one bound.
   struct Row {
     std::size_t site = 0;
-    double count = 1;
     bool is_bound = false;
     double noise = 0;  ///< standard deviation of one answer
 
     // In standard deviations of all sites, from their mean.
-    double value = 0;                     // mean of the answers, or the bound
-    double squares = 0;                   // of the answers about their mean
+    Replicates answers = {};              // or the bound alone
     double observed = 0, variance = 1e9;  // the same as one normal observation
     double log_weight = 0;                // of that one, so that it has the bound's evidence
 

@@ -129,6 +129,18 @@ double rejected_share_of(const Study& study) {
   return std::ranges::any_of(fitted, may_be) ? study.search.rejected_share : 1;
 }
 
+std::vector<Observables> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
+                                    std::span<const std::uint64_t> packings, const Store& store) {
+  const std::vector<double> values = values_at(study, coordinates(point));
+  std::vector<Observables> runs;
+  for (const std::uint64_t packing : packings) {
+    auto found = store.find(key_of(study, test, values, packing, store.identity().program));
+    if (!found || failure_of(study.tests[test], *found)) return {};
+    runs.push_back(std::move(found->observables));
+  }
+  return runs;
+}
+
 std::size_t holding(const Study& study, const Store& store) {
   const auto all = store.all();
   return static_cast<std::size_t>(std::ranges::count_if(all, [&](const StoredEvaluation& one) {

@@ -35,7 +35,10 @@ struct Twin {
   SimulationObjective objective{study, store, {}};
   Calibration calibration = search(objective, study.search, {}, {}, {}, nullptr);
 
-  Card card() { return card_of(study, calibration, study.search, store, objective.counts(), "drop-twin.json"); }
+  Card card() {
+    return card_of(study, calibration, study.search, baselines_of(study, shown_of(calibration), store),
+                   objective.counts(), "drop-twin.json");
+  }
 };
 
 TEST_CASE("a drop test is read in millimetres and degrees, and survives JSON bit for bit") {

@@ -93,7 +93,8 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
     calibration.best = calibration.search = calibration.confirmation =
         objective.evaluate(points, std::vector<std::uint64_t>{1, 2, 3, 4})[0];
     const auto card = [&] {
-      return card_of(laboratory.study, calibration, laboratory.study.search, store, objective.counts(), "study.json");
+      return card_of(laboratory.study, calibration, laboratory.study.search,
+                     baselines_of(laboratory.study, shown_of(calibration), store), objective.counts(), "study.json");
     };
     REQUIRE(card().tests.size() == 2);
     CHECK(card().tests[1].observables.empty());  // not predicted yet
