@@ -45,7 +45,7 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
                          ? "The search was stopped; the best so far is given"
                          : "The search was stopped before a simulation had all its readings; --resume goes on") +
                     spent;
-  } else if (ending.out_of_reach) {
+  } else if (ending.out_of_reach && !ending.searched) {
     result.status = CalibrationStatus::out_of_reach;
     result.reason = words_of(*ending.out_of_reach, readings, parameters) +
                     " The search was not begun; the material that comes nearest is given" + spent;
@@ -63,9 +63,11 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
       result.reason +=
           " " + name + " went from " + format("%.3g", reach.lowest) + " to " + format("%.3g", reach.highest);
       if (reach.all_above || reach.all_below) {
-        result.status = CalibrationStatus::out_of_reach;
-        result.reason += std::string(", always ") + (reach.all_above ? "above" : "below") +
-                         " the laboratory: the model cannot reach it within these bounds";
+        const bool certain = ending.out_of_reach && ending.out_of_reach->reading == k;
+        if (certain) result.status = CalibrationStatus::out_of_reach;
+        result.reason +=
+            std::string(", always ") + (reach.all_above ? "above" : "below") + " the laboratory" +
+            (certain ? ": the model cannot reach it within these bounds" : ", which may still be in reach");
       }
       result.reason += ".";
     }

@@ -15,7 +15,8 @@ struct Ending {
   bool stopped = false;       ///< by the user or a limit
   bool any_feasible = false;  ///< some simulation did not fail
   bool with_coarse = false;   ///< coarse grains were simulated too
-  std::optional<OutOfReach> out_of_reach;
+  bool searched = true;       ///< else the screening was enough
+  std::optional<OutOfReach> out_of_reach = std::nullopt;
   double rejected_share = 1;      ///< of a candidate's heaps, at most; 1: not judged
   bool some_ended_early = false;  ///< of the simulations
 };

@@ -1,21 +1,25 @@
 #include "calibrate/search/reachability.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "calibrate/base/format.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/optimisers/nlopt.h"
+#include "calibrate/search/coarse_rung.h"
 
 namespace pastefit {
 
 namespace {
 
-constexpr double sure = 3;            // standard deviations of doubt and noise that a candidate is given
-constexpr double laboratory = 2;      // standard deviations of the laboratory within which a reading is met
-constexpr double on_the_bound = 0.1;  // of a range: nearer than that a flat end of the model does not tell
-constexpr double step_back = 0.2;     // of a range
+constexpr double sure = 3;             // standard deviations that a candidate is given, were they known
+constexpr double laboratory = 2;       // standard deviations of the laboratory within which a reading is met
+constexpr double on_the_bound = 0.1;   // of a range: nearer than that a flat end of the model does not tell
+constexpr double step_back = 0.2;      // of a range
+constexpr std::size_t neighbours = 4;  // of a place, all of which have to have finished
 
 /// One reading of all simulations that ended well, turned so that the laboratory lies below.
 class Nearing {
@@ -26,10 +30,11 @@ class Nearing {
     const Response* high = nullptr;
     int above = 0;
     for (const Response& single : singles) {
+      note_run(single);
       if (!is_feasible(single) || !has_reading(single, reading_)) continue;
       points_.push_back(single.point);
-      if (!low || value_of(single) < value_of(*low)) low = &single;
-      if (!high || value_of(single) > value_of(*high)) high = &single;
+      if (is_fine(single) && (!low || value_of(single) < value_of(*low))) low = &single;
+      if (is_fine(single) && (!high || value_of(single) > value_of(*high))) high = &single;
       above += single.residuals[reading_] > 0 ? 1 : -1;
       all_bounds_ = all_bounds_ && single.ended_early && single.residuals[reading_] < 0;
     }
@@ -44,7 +49,8 @@ class Nearing {
     misses_.resize(static_cast<Eigen::Index>(points_.size()));
     Eigen::Index i = 0;
     for (const Response& single : singles)
-      if (is_feasible(single) && has_reading(single, reading_)) misses_[i++] = side_ * (value_of(single) - measured_);
+      if (is_feasible(single) && has_reading(single, reading_))
+        misses_[i++] = side_ * deviation_ * single.residuals[reading_];
   }
 
   bool suspect() const { return one_side_ && misses_.minCoeff() > met_; }
@@ -54,8 +60,39 @@ class Nearing {
   double side() const { return side_; }
   double least() const { return misses_.minCoeff(); }
   GaussianProcess model() const { return {points_, misses_}; }
+  UnitPoint middle() const { return UnitPoint::Constant(points_.front().size(), 0.5); }
+
+  /// Student's t: how many estimated standard deviations are as sure as `sure` known ones.
+  double deviations() const {
+    const double probability = boost::math::cdf(boost::math::normal_distribution<>(), sure);
+    const double freedom = std::max<double>(1, static_cast<double>(points_.size()) - 1);
+    return boost::math::quantile(boost::math::students_t_distribution<>(freedom), probability);
+  }
+
+  /// Whether more candidates finished than did not, and all of those nearest to a place did.
+  bool vouches_for(const UnitPoint& place) const {
+    if (2 * std::ranges::count_if(runs_, &Run::finished) <= std::ssize(runs_)) return false;
+    std::vector<Run> nearest = runs_;
+    const auto distance = [&](const Run& one) { return (one.point - place).squaredNorm(); };
+    std::ranges::stable_sort(nearest, {}, distance);
+    nearest.resize(std::min(neighbours, nearest.size()));
+    return std::ranges::all_of(nearest, &Run::finished);
+  }
 
  private:
+  struct Run {
+    UnitPoint point;
+    bool finished = false;  // on some packing
+  };
+
+  void note_run(const Response& single) {
+    auto known = std::ranges::find_if(runs_, [&](const Run& one) { return one.point == single.point; });
+    if (known == runs_.end()) known = runs_.insert(known, {single.point, false});
+    known->finished = known->finished || is_whole(single);
+  }
+
+  /// Of coarse grains only the residuals are corrected.
+  static bool is_fine(const Response& single) { return single.packings.front() < coarse_packings; }
   double value_of(const Response& single) const { return single.observables[reading_]; }
 
   Eigen::Index reading_;
@@ -64,19 +101,25 @@ class Nearing {
   double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
   std::vector<UnitPoint> points_;
   Eigen::VectorXd misses_;
+  std::vector<Run> runs_;
 };
 
-/// The miss that the model gives a candidate, so many deviations of its uncertainty and noise taken off.
-double miss_at(const GaussianProcess& model, const UnitPoint& point, double deviations) {
+/// How far a candidate may get beyond its predicted mean.
+struct Allowance {
+  double deviations = 0;  ///< of the predictive variance and the noise
+  double noise = 0;       ///< its variance
+};
+
+/// The miss that the model gives a candidate.
+double miss_at(const GaussianProcess& model, const UnitPoint& point, const Allowance& allowance) {
   const auto prediction = model.predict(point);
-  return prediction.mean - deviations * std::sqrt(prediction.variance + model.noise_variance());
+  return prediction.mean - allowance.deviations * std::sqrt(prediction.variance + allowance.noise);
 }
 
 /// The candidate of least miss. `scale`: a miss that counts as large.
-UnitPoint nearest_by(const GaussianProcess& model, double deviations, double scale, const UnitPoint& start) {
+UnitPoint nearest_by(const GaussianProcess& model, const Allowance& allowance, double scale, const UnitPoint& start) {
   // Positive, in the order of the miss.
-  return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, deviations) / scale); },
-                     start);
+  return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, allowance) / scale); }, start);
 }
 
 /// The bounds that the nearest candidate lies on, where a step back costs more than the model's doubt there.
@@ -100,11 +143,35 @@ std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint6
   return points;
 }
 
+/// What is said of a reading whose candidates get no farther than `hopeful` may; nothing if that may be far enough, or
+/// if too few simulations finished to tell.
+std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance,
+                                const UnitPoint& hopeful) {
+  const double at_best = miss_at(model, hopeful, allowance);
+  if (at_best <= approach.met() || !approach.vouches_for(hopeful)) return std::nullopt;
+  OutOfReach found;
+  found.above = approach.side() > 0;
+  found.measured = approach.measured();
+  found.nearest = nearest_by(model, {}, approach.least(), hopeful);
+  found.likely = approach.measured() + approach.side() * miss_at(model, found.nearest, {});
+  found.at_best = approach.measured() + approach.side() * at_best;
+  found.bounds = bounds_of(model, found.nearest);
+  if (!approach.vouches_for(found.nearest)) return std::nullopt;
+  return found;
+}
+
+/// The candidate that may get farthest.
+UnitPoint hopeful_of(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance) {
+  return nearest_by(model, allowance, approach.least(), approach.middle());
+}
+
+double whole_tolerance(const Archive& archive, std::size_t reading) {
+  return archive.tolerance(reading) * std::sqrt(archive.readings());
+}
+
 std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
-  const int parameters = archive.parameters();
-  const double tolerance = archive.tolerance(reading) * std::sqrt(archive.readings());
   while (!archive.stop_requested()) {
-    const Nearing approach(archive.singles(), reading, tolerance);
+    const Nearing approach(archive.singles(), reading, whole_tolerance(archive, reading));
     if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
     // How far they would have gone is what matters here.
     if (const auto ended = ended_early(archive.singles(), options.packing); !ended.empty()) {
@@ -114,20 +181,9 @@ std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const Rea
     }
     if (!approach.suspect()) return std::nullopt;
     const GaussianProcess model = approach.model();
-    const UnitPoint middle = UnitPoint::Constant(parameters, 0.5);
-    const UnitPoint hopeful = nearest_by(model, sure, approach.least(), middle);
-    const double at_best = miss_at(model, hopeful, sure);
-    if (at_best > approach.met()) {
-      OutOfReach found;
-      found.reading = reading;
-      found.above = approach.side() > 0;
-      found.measured = approach.measured();
-      found.nearest = nearest_by(model, 0, approach.least(), hopeful);
-      found.likely = approach.measured() + approach.side() * miss_at(model, found.nearest, 0);
-      found.at_best = approach.measured() + approach.side() * at_best;
-      found.bounds = bounds_of(model, found.nearest);
-      return found;
-    }
+    const Allowance allowance{approach.deviations(), model.noise_variance()};
+    const UnitPoint hopeful = hopeful_of(approach, model, allowance);
+    if (auto found = claim(approach, model, allowance, hopeful)) return found;
     if (probes < 1 || archive.budget_left() < 1) return std::nullopt;
     --probes;
     const std::size_t before = archive.singles().size();
@@ -146,8 +202,34 @@ std::string name_at(std::span<const std::string> names, std::size_t index, const
 std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options) {
   int probes = options.probes;
   for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k)
-    if (auto found = probe(archive, k, options, probes)) return found;
+    if (auto found = probe(archive, k, options, probes)) {
+      found->reading = k;
+      return found;
+    }
   return std::nullopt;
+}
+
+std::optional<OutOfReach> known_out_of_reach(const Archive& archive, ReachOf what) {
+  const std::vector<Response> evidence = archive.evidence();
+  for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k) {
+    const Nearing approach(evidence, k, whole_tolerance(archive, k));
+    if (!approach.suspect()) continue;
+    const GaussianProcess model = approach.model();
+    const double noise = what == ReachOf::simulations ? model.noise_variance() : 0;
+    const Allowance allowance{approach.deviations(), noise};
+    if (auto found = claim(approach, model, allowance, hopeful_of(approach, model, allowance))) {
+      found->reading = k;
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+bool contradicts(const Response& single, const OutOfReach& found) {
+  const auto reading = static_cast<Eigen::Index>(found.reading);
+  if (!is_whole(single) || !has_reading(single, reading)) return false;
+  const double read = single.observables[reading];
+  return found.above ? read <= found.at_best : read >= found.at_best;
 }
 
 std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
@@ -156,7 +238,7 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
       name_at(readings, found.reading, "reading ") + " is out of reach: the model stays " +
       format("%s the laboratory's %.3g. The %s it is likely to give within these bounds is %.3g",
              found.above ? "above" : "below", found.measured, found.above ? "least" : "most", found.likely) +
-      format(", %s %.3g with all doubt and noise", found.above ? "no less than" : "no more than", found.at_best);
+      format(", %s %.3g with 99.9 %% probability", found.above ? "no less than" : "no more than", found.at_best);
   if (found.bounds.empty()) return out + ". No bound stands in the way: it is the model, or its grains.";
   out += ". In the way ";
   out += found.bounds.size() == 1 ? "stands" : "stand";
@@ -164,6 +246,11 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
     out += std::string(i == 0 ? " the " : " and the ") + (found.bounds[i].upper ? "upper" : "lower") + " bound of " +
            name_at(parameters, static_cast<std::size_t>(found.bounds[i].parameter), "parameter ");
   return out + ".";
+}
+
+std::string words_of_withdrawal(const OutOfReach& found, std::span<const std::string> readings) {
+  return name_at(readings, found.reading, "reading ") +
+         " is not out of reach for certain: a simulation came nearer than expected, and the search goes on.";
 }
 
 std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings) {

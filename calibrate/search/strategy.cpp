@@ -50,8 +50,9 @@ class Strategy {
     if (!archive_.singles().empty() && is_out_of_reach()) {
       archive_.evaluate({&out_of_reach_->nearest, 1}, common_);
       if (!archive_.stop_requested() && prospects().best().size() > 0) confirm();
-      return conclude();
+      if (archive_.stop_requested() || confirmed_ || claim_stands()) return conclude();
     }
+    searched_ = true;
     while (any_evidence() && may_go_on()) {
       if (!look_for_candidate()) break;
       refine();
@@ -106,6 +107,22 @@ class Strategy {
     archive_.say(out_of_reach_ ? words_of(*out_of_reach_, readings_, parameters_)
                                : words_of_screening(archive_.singles(), readings_));
     return out_of_reach_.has_value();
+  }
+
+  /// Asks again what was said to be out of reach, by all that was simulated since; withdraws it if it is not.
+  bool claim_stands() {
+    const auto against = [&](const Response& one) { return contradicts(one, *out_of_reach_); };
+    const auto contradiction = std::ranges::find_if(archive_.singles(), against);
+    if (contradiction == archive_.singles().end()) {
+      if (const auto again = known_out_of_reach(archive_, ReachOf::simulations);
+          again && again->reading == out_of_reach_->reading) {
+        out_of_reach_ = again;
+        return true;
+      }
+    }
+    archive_.say(words_of_withdrawal(*out_of_reach_, readings_));
+    out_of_reach_.reset();
+    return false;
   }
 
   Prospects prospects() const { return {archive_, refuted_}; }
@@ -314,7 +331,9 @@ class Strategy {
         reach.all_below = reach.all_below && residual < -allowances[k];
       }
     }
-    Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), with_coarse_, out_of_reach_};
+    Ending ending{confirmed_, archive_.stop_requested(), archive_.any_feasible(), with_coarse_, searched_};
+    if (!confirmed_ && !ending.stopped)
+      ending.out_of_reach = searched_ ? known_out_of_reach(archive_, ReachOf::means) : out_of_reach_;
     ending.some_ended_early = std::ranges::any_of(archive_.singles(), &Response::ended_early);
     ending.rejected_share = scoring_.rejected_share();
     explain(result_, ending, scoring_.misfit_unit(), readings_, parameters_);
@@ -327,6 +346,7 @@ class Strategy {
   Archive archive_;
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
+  bool searched_ = false;              // a search was begun
   std::vector<std::uint64_t> common_;  // every candidate is compared on these
   std::vector<UnitPoint> refuted_;     // candidates that a confirmation has judged
   std::uint64_t packings_used_ = 0;

@@ -44,11 +44,11 @@ struct SearchStart {
 
 /// Calibrates: finds the candidate that meets the laboratory, and confirms it on packings the search has not used.
 ///   1. Screening: space-filling points on one packing, all at once. If they leave the laboratory out of reach for
-///      certain (`reachability.h`), the nearest candidate is confirmed, and that is the end. What is known from
-///      earlier counts as screening. With `coarse` on that instead, and then every candidate of the default strategy is
-///      tried there first. What the coarse simulations say is corrected by the bias between the rungs (`coarse_rung.h`)
-///      and counts in the surrogate as a simulation; nothing else does. They are outside of the budget, and `history`
-///      does not hold them.
+///      certain (`reachability.h`), the nearest candidate is confirmed, and that is the end; unless it comes so near
+///      that the claim is withdrawn. What is known from earlier counts as screening. With `coarse` on that instead, and
+///      then every candidate of the default strategy is tried there first. What the coarse simulations say is corrected
+///      by the bias between the rungs (`coarse_rung.h`) and counts in the surrogate as a simulation; nothing else does.
+///      They are outside of the budget, and `history` does not hold them.
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; the point that
 ///      promises most (`proposals.h`) is tried out on one packing, one of the common ones in turn
 ///      (`Objective::try_out`, as the screening), and simulated to its end if the bound that this brings does not rule

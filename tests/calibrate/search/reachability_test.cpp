@@ -121,3 +121,87 @@ TEST_CASE("a search that would be in vain ends after the screening, and says so"
   }
   CHECK(ended >= 15);
 }
+
+namespace {
+
+/// As thin mortar pats: what is weak never comes to rest, unless it rolls badly (coordinate 1 above 0.85). The weaker
+/// ones of those that come to rest read what the laboratory has; all strong ones come to rest and read far more.
+Synthetic seldom_at_rest(std::uint64_t seed) {
+  Synthetic objective = fake_slump(100, seed);
+  objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[0] < 0.75 && x[1] < 0.85; };
+  return objective;
+}
+
+/// As a shear cell: only the softest fifth comes to its end; the reading falls to the laboratory's with coordinate 2.
+Synthetic soft_alone(std::uint64_t seed) {
+  Synthetic objective = fake_slump(60, seed);
+  objective.fails = [](const UnitPoint& x, std::uint64_t) { return x[3] > 0.2; };
+  objective.observe = [seed](const UnitPoint& x, std::uint64_t packing) {
+    const double fall = 1 / (1 + std::exp(-12 * (x[2] - 0.8)));
+    return std::vector<double>{250 - 200 * fall + 3 * normal(digest(x), hash_of(seed, packing))};
+  };
+  return objective;
+}
+
+/// The first packing stands; the others of what is weak flow beyond what the laboratory reads.
+Synthetic first_packing_stands(std::uint64_t seed) {
+  Synthetic objective = fake_slump(60, seed);
+  objective.observe = [seed](const UnitPoint& x, std::uint64_t packing) {
+    const double height = 150 + 100 * x[0] + 2 * normal(digest(x), hash_of(seed, packing));
+    return std::vector<double>{packing == seed * 1000 + 1 ? height : height - 110};
+  };
+  objective.fails = [](const UnitPoint&, std::uint64_t) { return false; };
+  return objective;
+}
+
+SearchOptions eighty_simulations(std::uint64_t seed) {
+  SearchOptions options;
+  options.seed = seed;
+  options.budget_simulations = 80;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a laboratory that few candidates meet while most fail is not called out of reach") {
+  const auto made = GENERATE(seldom_at_rest, soft_alone);
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Synthetic objective = made(seed);
+    const Calibration calibration = search(objective, eighty_simulations(seed), {}, reading, parameters);
+    CAPTURE(seed, calibration.simulations, calibration.failures, calibration.reason);
+    CHECK(calibration.status != CalibrationStatus::out_of_reach);
+    CHECK(calibration.failures > 0);
+  }
+}
+
+TEST_CASE("what is out of reach is called so after a third of the budget, whether or not some candidates fail") {
+  const bool some_fail = GENERATE(true, false);
+  int early = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Synthetic objective = too_stiff(seed);
+    if (!some_fail) objective.fails = [](const UnitPoint&, std::uint64_t) { return false; };
+    const Calibration calibration = search(objective, eighty_simulations(seed), {}, reading, parameters);
+    CAPTURE(seed, calibration.reason);
+    if (calibration.status == CalibrationStatus::out_of_reach && calibration.simulations <= 34) ++early;
+  }
+  CHECK(early == 10);
+}
+
+TEST_CASE("a claim that a later simulation contradicts is withdrawn, and the search goes on to the material") {
+  int withdrawn = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Synthetic objective = first_packing_stands(seed);
+    std::string told;
+    const Calibration calibration = search(
+        objective, eighty_simulations(seed), [&](const Progress& progress) { told += progress.note; }, reading,
+        parameters);
+    CAPTURE(seed, told, calibration.reason);
+    CHECK(calibration.status != CalibrationStatus::out_of_reach);
+    CHECK(calibration.reason.find("out of reach") == std::string::npos);
+    if (told.find("is out of reach") == std::string::npos) continue;
+    ++withdrawn;
+    CHECK_THAT(told, Catch::Contains("the search goes on"));
+    CHECK(calibration.simulations > 34);
+  }
+  CHECK(withdrawn >= 5);
+}
