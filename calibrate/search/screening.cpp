@@ -1,37 +1,33 @@
 #include "calibrate/search/screening.h"
 
-#include <boost/random/sobol.hpp>
-#include <cmath>
-#include <stdexcept>
+#include <algorithm>
+#include <span>
+
+#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/space_filling.h"
 
 namespace pastefit {
 
-std::uint64_t hash_of(std::uint64_t seed, std::uint64_t counter) {
-  std::uint64_t z = seed * 0xd1342543de82ef95ULL + (counter + 1) * 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
+void screen(StrategyState& state) {
+  state.archive.enter("screening");
+  const std::span<const std::uint64_t> first(state.common.data(), 1);
+  const int known = static_cast<int>(state.archive.singles().size());
+  int asked = 0;
+  while ((!state.archive.any_feasible() || known + asked < state.options.screening) &&
+         !state.archive.stop_requested()) {
+    const int missing = state.options.screening - (state.archive.any_feasible() ? known + asked : 0);
+    const int count = std::min(missing, state.archive.budget_left());
+    if (count < 1 || asked > state.options.budget_simulations / state.scoring().simulations_each() / 2) return;
+    const auto points = screening_points(state.scoring().parameters(), asked + count, state.options.seed);
+    state.archive.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
+    asked += count;
+  }
 }
 
-std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t seed) {
-  if (dimension < 1 || count < 0) throw std::logic_error("screening_points: needs dimension >= 1 and count >= 0");
-  UnitPoint shift = UnitPoint::Zero(dimension);
-  if (seed != 0) {
-    for (int k = 0; k < dimension; ++k) {
-      shift[k] = std::ldexp(static_cast<double>(hash_of(seed, static_cast<std::uint64_t>(k)) >> 11), -53);
-    }
-  }
-  // The engine leaves out the corner 0 by itself. It yields 64-bit integers; their top 53 bits make the coordinate
-  // exact and the same everywhere.
-  boost::random::sobol engine(static_cast<std::size_t>(dimension));
-  std::vector<UnitPoint> points(static_cast<std::size_t>(count), UnitPoint(dimension));
-  for (UnitPoint& point : points) {
-    for (int k = 0; k < dimension; ++k) {
-      const double moved = std::ldexp(static_cast<double>(engine() >> 11), -53) + shift[k];
-      point[k] = moved >= 1 ? moved - 1 : moved;
-    }
-  }
-  return points;
+void screen_coarsely(StrategyState& state) {
+  state.archive.enter("screening");
+  const auto points = screening_points(state.scoring().parameters(), state.options.screening, state.options.seed);
+  state.archive.evaluate_coarse(points, packings_of_coarse(state.options.seed, 1));
 }
 
 }  // namespace pastefit

@@ -6,7 +6,7 @@
 
 #include "../search/synthetic.h"
 #include "calibrate/models/matern.h"
-#include "calibrate/search/screening.h"
+#include "calibrate/search/space_filling.h"
 
 using namespace pastefit;
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/search/screening.h"
+#include "calibrate/search/space_filling.h"
 
 using namespace pastefit;
 

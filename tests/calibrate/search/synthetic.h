@@ -11,7 +11,7 @@
 
 #include "calibrate/search/objective.h"
 #include "calibrate/search/response.h"
-#include "calibrate/search/screening.h"
+#include "calibrate/search/space_filling.h"
 
 namespace pastefit::synthetic {
 

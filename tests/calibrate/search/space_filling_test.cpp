@@ -1,4 +1,4 @@
-#include "calibrate/search/screening.h"
+#include "calibrate/search/space_filling.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>

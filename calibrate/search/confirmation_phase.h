@@ -1,0 +1,37 @@
+#pragma once
+
+#include "calibrate/search/strategy_state.h"
+
+namespace pastefit {
+
+/// The last phase: judges the likely best candidate on packings that the search has not used, and keeps the one to be
+/// reported.
+class ConfirmationPhase {
+ public:
+  explicit ConfirmationPhase(StrategyState& state) : state_(state) {}
+
+  /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
+  /// quarter of them is asked first: if it is unlikely then that it will do, the others are saved, but for
+  /// `whatever_it_does`.
+  bool confirm(bool whatever_it_does);
+  /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them. They may prove
+  /// wrong what broke it off.
+  void finish();
+
+  bool confirmed() const { return confirmed_; }
+  int rounds() const { return rounds_; }
+  const Response& best() const { return best_; }                  ///< on every packing; no point if none was judged
+  const Response& search() const { return search_; }              ///< the same on those before it was judged
+  const Response& confirmation() const { return confirmation_; }  ///< the same on the fresh ones
+
+ private:
+  /// The result is this candidate, judged on fresh packings, if no better one was.
+  void report(const Response& confirmation);
+
+  StrategyState& state_;
+  bool confirmed_ = false;
+  int rounds_ = 0;
+  Response best_, search_, confirmation_;
+};
+
+}  // namespace pastefit

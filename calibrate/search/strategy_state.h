@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/search/archive.h"
+#include "calibrate/search/prospects.h"
+#include "calibrate/search/strategy.h"
+
+namespace pastefit {
+
+/// What the phases of a strategy share: all answers, the packings on which every candidate is compared, and the
+/// candidates that a confirmation has judged.
+class StrategyState {
+ public:
+  StrategyState(CandidateQueue& queue, const SearchOptions& asked, const SearchStart& start,
+                const std::function<void(const Progress&)>& progress)
+      : options(asked), archive(queue, start.earlier, asked, progress), common(fresh_packings(asked.packings)) {}
+
+  const SearchOptions& options;
+  Archive archive;
+
+ private:
+  std::uint64_t packings_used_ = 0;
+
+ public:
+  const std::vector<std::uint64_t> common;  ///< every candidate is compared on these
+  std::vector<UnitPoint> refuted;           ///< by a confirmation
+
+  const Scoring& scoring() const { return archive.scoring(); }
+
+  /// Packing seeds that no simulation of this search has used.
+  std::vector<std::uint64_t> fresh_packings(int count);
+  bool affordable(std::size_t packings) const { return archive.budget_left() >= static_cast<int>(packings); }
+  bool may_go_on() const { return !archive.stop_requested() && affordable(common.size()); }
+
+  /// The candidates in the light of all answers. Requirement: some evidence is feasible.
+  Prospects prospects() const { return {archive, refuted}; }
+  /// True if the best candidate is more likely than not to do.
+  static bool goal_is_met(const Prospects& prospects);
+  /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
+  double optimisers_goal() const;
+};
+
+}  // namespace pastefit
