@@ -1,6 +1,6 @@
 """Reads every page of the project: none names a commit outside of tests/results, READMEs are short, links lead somewhere.
 
-usage: check_pages.py SOURCE_DIR
+usage: check_pages.py SOURCE_DIR [unittest options]
 """
 
 import os
@@ -143,4 +143,4 @@ class Pages(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)

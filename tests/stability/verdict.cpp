@@ -19,7 +19,7 @@ namespace pastefit {
 
 namespace {
 
-// A valid run may have created this share of the energy put in: the engine's own promise (core/README.md).
+// A valid run may have created this share of the energy put in: the engine's own promise (core/step/README.md).
 constexpr double kCreated = 0.05;
 constexpr double kGround = 0.1;  // depth of the ground below the table [m]
 

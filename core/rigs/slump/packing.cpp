@@ -123,7 +123,7 @@ double pouring_speed(const World& world) {
 }
 
 /// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
-/// 0.59: a weak paste then stands 20 mm lower (core/README.md).
+/// 0.59: a weak paste then stands 20 mm lower.
 void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
   const double top = highest(packing);
   World world = filling_world(test, options, packing, top);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStepsPerLook = 64;  // at the highest point of the heap
 // [radii] A lost heap may rise by so much again: a mould that drags it along, a column that swings, a grain that hops.
-// Twice the most that was seen (tests/bench/README.md).
+// Twice the most that was seen (tests/results/skipping.md).
 constexpr double kRebound = 1;
 
 /// Step 1, phase by phase, each as a person in the laboratory would say it.
@@ -39,7 +39,7 @@ class MouldLift {
 
   /// Step 1 is certain to read less than is asked for: its highest point and the roughness of the packing lie a grain's
   /// radius below. No height is above those two, and while nothing lifts a heap that only sinks, but for a column that
-  /// swings, a grain that hops, a mould that drags them along (by less than half a radius, `tests/bench/README.md`).
+  /// swings, a grain that hops, a mould that drags them along (by less than half a radius, tests/results/skipping.md).
   bool lost() const { return lost_below_ > 0 && highest_point(world_.particles) < lost_below_; }
 
   /// Step 1 reads beyond what is asked for.
