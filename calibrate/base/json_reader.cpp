@@ -75,11 +75,11 @@ std::string text_of(const Range& range, std::string_view unit) {
   const bool below = range.smallest > std::numeric_limits<double>::lowest();
   const bool above = range.largest < std::numeric_limits<double>::max();
   const std::string end = unit.empty() ? "" : " " + std::string(unit);
-  if (!below && !above) return "a number";
-  if (!below) return "a number of at most " + shown(range.largest) + end;
-  if (!above) return (range.open ? "a number above " : "a number of at least ") + shown(range.smallest) + end;
-  if (range.open) return "a number above " + shown(range.smallest) + " and at most " + shown(range.largest) + end;
-  return "a number from " + shown(range.smallest) + " to " + shown(range.largest) + end;
+  if (!below && !above) return "must be a number";
+  if (!below) return "must be at most " + shown(range.largest) + end;
+  if (!above) return (range.open ? "must be above " : "must be at least ") + shown(range.smallest) + end;
+  if (range.open) return "must be above " + shown(range.smallest) + " and at most " + shown(range.largest) + end;
+  return "must be " + shown(range.smallest) + " to " + shown(range.largest) + end;
 }
 
 ObjectReader::ObjectReader(const json& value, std::string place, Faults& faults)
@@ -146,7 +146,7 @@ bool ObjectReader::integer(std::string_view key, int& target, int smallest, int 
   const double number = value->is_number() ? value->get<double>() : 0.5;
   if (number != std::floor(number) || number < smallest || number > largest) {
     fault(key, "is " + text_of(*value),
-          "a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest));
+          "must be a whole number, " + std::to_string(smallest) + " to " + std::to_string(largest));
     return false;
   }
   target = static_cast<int>(number);
@@ -311,7 +311,8 @@ bool ObjectReader::check_number(std::string_view place, const json& value, const
     if (const std::string meant = in_other_units(value.get<double>(), unit->key, range.smallest, range.largest);
         !meant.empty())
       remedy += "; " + meant;
-  faults_.push_back({std::string(place), "is " + text_of(value), std::move(remedy)});
+  const std::string in_unit = value.is_number() && unit ? " " + std::string(unit->name) : "";
+  faults_.push_back({std::string(place), "is " + text_of(value) + in_unit, std::move(remedy)});
   return false;
 }
 

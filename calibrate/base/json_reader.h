@@ -27,7 +27,7 @@ struct Range {
   bool open = false;  ///< `smallest` itself is refused
 };
 
-/// "a number from 1 to 5000 mm", for remedies.
+/// "must be 1 to 5000 mm", for remedies.
 std::string text_of(const Range& range, std::string_view unit = "");
 
 /// Whether an object must have the key.

@@ -5,6 +5,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/base/wrapped_text.h"
 
 namespace pastefit {
 
@@ -30,7 +31,7 @@ std::string text_of(const CheckedFile& checked) {
     out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
                   std::string(name_of(check.bits)).c_str(), check.false_alarm);
   out += "  " + std::string(name_of(check.verdict));
-  return out + lines_of(check.reason.empty() ? "" : ": " + check.reason) + "\n";
+  return wrapped(out + lines_of(check.reason.empty() ? "" : ": " + check.reason) + "\n");
 }
 
 ordered_json to_json(const std::vector<CheckedFile>& checked) {

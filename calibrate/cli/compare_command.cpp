@@ -74,8 +74,8 @@ void print_comparison(const std::vector<StrategySummary>& rows, const MisfitUnit
       print(" %18s %12s\n", "-", "-");
   }
   print(
-      "Medians over the seeds; confirmed: within %s on packings that the search had not seen; judged on others,"
-      " the same for all.\n",
+      "Medians over the seeds; confirmed: within %s on packings that the search\n"
+      "had not seen; judged on others, the same for all.\n",
       unit.tolerance_mm ? unit.words(1, "%g").c_str() : "the tolerances");
 }
 

@@ -2,24 +2,27 @@
 
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/freed_memory.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/wrapped_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"
 
 namespace pastefit {
 
 int report(const Faults& faults, int status) {
-  std::fprintf(stderr, "pastefit: %s\n%s\n",
-               faults.size() == 1 ? "one fault" : (std::to_string(faults.size()) + " faults").c_str(),
-               lines_of(message_of(faults)).c_str());
+  std::fprintf(stderr, "pastefit: %zu error%s\n%s\n", faults.size(), faults.size() == 1 ? "" : "s",
+               for_terminal(lines_of(message_of(faults))).c_str());
   return status;
 }
 
@@ -49,8 +52,16 @@ Faults unknown_options(const CLI::App& verb, int argc, char** argv) {
   return faults;
 }
 
+/// Help with lines that fit a terminal.
+struct WrappedHelp : CLI::Formatter {
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return wrapped(CLI::Formatter::make_help(app, std::move(name), mode));
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
+  program.formatter(std::make_shared<WrappedHelp>());
   program.set_version_flag("--version", "pastefit " + program_version() + "\n" + kernels_note());
   program.require_subcommand(1);
   program.fallthrough(false);
@@ -85,7 +96,7 @@ int run(int argc, char** argv) {
   Command chosen;
   for (const auto& verb : kVerbs) {
     auto* app = program.add_subcommand(verb.name, verb.meaning);
-    app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the answer and faults");
+    app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the answer and errors");
     app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
   }
 

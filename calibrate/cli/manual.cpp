@@ -146,7 +146,7 @@ std::string man_page_of(const CLI::App& app) {
   out +=
       ".SH EXIT STATUS\n0: done, and what was asked holds; 1: it does not, or it could not be kept; 2: the input "
       "cannot be "
-      "used,\nevery fault is named and nothing was written; 70: a bug of the program.\n";
+      "used,\nevery error is named and nothing was written; 70: a bug of the program.\n";
   return out + ".SH SEE ALSO\n" +
          (is_program ? "The README in share/doc/pastefit.\n"
                      : ".BR pastefit (1), and the README in share/doc/pastefit.\n");

@@ -196,7 +196,7 @@ Command add_new(CLI::App& verb) {
       ->take_all();
   verb.add_option("--for", sheet.target, "program that the material is for: " + names_of_targets())
       ->type_name("PROGRAM");
-  verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the fault names it")
+  verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the error names it")
       ->type_name("PLACE")
       ->take_all();
   verb.add_flag("--force", options->force, "replace the files in DIR");

@@ -161,7 +161,7 @@ void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
   for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
   if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
   const auto& run = outcome.run;
-  print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million particle-steps a second)%s\n",
+  print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million\nparticle-steps a second)%s\n",
         static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
         run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
         run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
@@ -170,11 +170,11 @@ void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
 /// What the program thinks of a step the user has set.
 void judge_step(double given_s, double advised_s) {
   if (given_s <= advised_s)
-    note("pastefit: the time step %.3g s was fine: the scene asked for %.3g s or less\n", given_s, advised_s);
+    note("pastefit: the time step %.3g s is within the advised %.3g s\n", given_s, advised_s);
   else
     note(
-        "pastefit: the time step %.3g s is not to be trusted: the scene asked for %.3g s or less; leave "
-        "--time-step out, or give at most that\n",
+        "pastefit: the time step %.3g s exceeds the advised %.3g s: the result may be wrong; leave --time-step out, or "
+        "give at most that\n",
         given_s, advised_s);
 }
 
@@ -182,7 +182,7 @@ Faults checkpoint_faults(const SimulateOptions& options, const Scene& scene) {
   if (options.checkpoint.empty()) return {};
   const auto* test = std::get_if<Test>(&scene);
   if (!test || std::holds_alternative<DropTest>(*test))
-    return {{"--checkpoint", "a few bodies have none: their run takes a moment", "leave it out"}};
+    return {{"--checkpoint", "is not available for a test of a few bodies", "leave it out"}};
   if (options.vtk_interval_s)
     return {{"--checkpoint", "does not go with --vtk: a run that goes on would lack the pictures of its beginning",
              "leave one of them out"}};

@@ -12,6 +12,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 
@@ -47,7 +48,7 @@ void note(const char* pattern, ...) {
   va_start(values, pattern);
   if (!quiet) {
     note_error(std::fflush(stdout) != 0);  // where both go to one place, in the order in which they were said
-    std::fputs(harmless(pattern, values).c_str(), stderr);
+    std::fputs(for_terminal(harmless(pattern, values)).c_str(), stderr);
   }
   va_end(values);
 }

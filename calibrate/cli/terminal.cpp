@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/wrapped_text.h"
 
 namespace pastefit {
 
@@ -34,6 +35,10 @@ std::size_t columns() {
   winsize window{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
   return known ? window.ws_col : 80;
+}
+
+std::string for_terminal(const std::string& text) {
+  return is_terminal() ? wrapped(text, columns()) : text;
 }
 
 std::string fitted(const std::vector<std::string>& parts) {

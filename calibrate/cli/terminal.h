@@ -12,6 +12,9 @@ bool is_terminal();
 /// The columns of a line on standard error: of the terminal's window, 80 where there is none.
 std::size_t columns();
 
+/// A message as it is written to standard error: on a terminal its lines are broken between words.
+std::string for_terminal(const std::string& text);
+
 /// As many of the parts, joined by commas, as fit on a line; the first one always, cut if need be.
 std::string fitted(const std::vector<std::string>& parts);
 

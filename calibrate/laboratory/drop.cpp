@@ -60,7 +60,7 @@ constexpr std::string_view drop_study =
   // A dry ball. The attraction of wet ones: as in the study of a slump test, `pastefit template study`.
   "contact": {"attraction": "none"},
 
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
   "parameters": {
     "restitution": {"free": [0.3, 1]},
     "friction": {"free": [0.02, 0.5]},

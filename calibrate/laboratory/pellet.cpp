@@ -59,7 +59,7 @@ constexpr std::string_view pellet_study =
   // Granules that stick where they touch. More laws: `pastefit template study`.
   "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
 
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
   "parameters": {
     "adhesion_pa": {"free": [800, 12000]},  // surface energy over R, the mean radius
     "friction": {"value": 0.4},

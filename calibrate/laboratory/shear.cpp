@@ -62,7 +62,7 @@ constexpr std::string_view shear_study =
   // Granules that stick where they touch. More laws: `pastefit template study`.
   "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
 
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their usual value.
+  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
   "parameters": {
     "friction": {"free": [0.1, 1]},
     "adhesion_pa": {"value": 1286},  // surface energy over R, the mean radius

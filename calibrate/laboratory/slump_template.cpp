@@ -55,22 +55,22 @@ constexpr std::string_view slump_study =
   //           {"name": "fast", "lab": "fast.json", "hold_out": true}],
 
   // normal: hertz, or jkr (grains that stick where they touch). attraction across a gap: polynomial, linear, exponential,
-  // capillary or none. A law has parameters of its own: what no chosen law has is refused.
+  // capillary or none. A parameter that the chosen laws do not use is an error.
   // film: a liquid bridge forms when the liquid shells touch; touch: when the grains do (there is no formation_ratio).
   // rolling_model: spring_dashpot, constant_torque or none.
   // friction_basis: elastic (cohesion strengthens friction) total or net (of the whole normal force).
   "contact": {"normal": "hertz", "attraction": "polynomial", "formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
 
-  // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the usual one. Fixed: a value.
+  // Free: [lower, upper] bounds, and a scale (linear or log) if it is not the default. Fixed: a value.
   // Known, but not for sure: {"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0.05}}.
-  // Parameters that are not named have their usual value. R is the mean grain radius.
+  // Parameters that are not named have their default value. R is the mean grain radius.
   "parameters": {
     "strength_pa": {"free": [10, 40000], "scale": "log"},  // attraction at touch over R^2
     // The shape of a tough bridge, of which heaps stand. Two readings do not tell the shape: free it, {"free": [0, 0.5]},
     // {"free": [-0.5, 1]} and {"free": [0, 1]}, for narrow heaps that this one does not reach.
     "rupture_force_ratio": {"value": 0.5},       // share of it left when the bridge ruptures
     "curvature": {"value": -0.5},                // decay: -1 flat at touch, 0 straight, 1 flat at rupture
-    "rupture_gap_ratio": {"free": [0.15, 1], "scale": "log"},  // gap at rupture over R; below 0.1 heaps shear off by luck
+    "rupture_gap_ratio": {"free": [0.15, 1], "scale": "log"},  // gap at rupture over R; below 0.1 many heaps shear off
     "formation_ratio": {"value": 0.3},           // gap at which a bridge forms over the one at which it ruptures
     "friction": {"free": [0.05, 0.8]},           // between grains; where the spread is not fitted: {"value": 0.15}
     "rolling_friction": {"free": [0, 1]}         // the same: {"value": 0.02}

@@ -4,6 +4,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/base/wrapped_text.h"
 #include "calibrate/report/summary.h"
 
 namespace pastefit {
@@ -90,7 +91,7 @@ std::string text_of(const Card& card) {
   std::string out = summary_of(card);
   for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
                            baseline_lines(card), rescaling_lines(card)})
-    if (!part.empty()) out += "\n" + lines_of(part);
+    if (!part.empty()) out += "\n" + wrapped(lines_of(part));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/base/wrapped_text.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/report/type_in_table.h"
 #include "calibrate/study/parameters.h"
@@ -37,7 +38,7 @@ std::string observable_lines(const std::vector<CardObservable>& observables) {
     if (observable.measured)
       out += format(" %+9.3g%s", observable.simulated - *observable.measured,
                     observable.weight > 0 ? "" : "   (not fitted)");
-    if (observable.band) out += format("   (noise explains +-%.3g)", *observable.band);
+    if (observable.band) out += format("\n    (noise explains +-%.3g)", *observable.band);
     out += "\n";
   }
   return out;
@@ -120,7 +121,7 @@ std::string verdict_on_fitted(const Card& card) {
     return "Not confirmed on fresh packings: " + largest + ", on packings that the search has seen. " +
            card.search.reason;
   if (confirmation.misfit <= 1)
-    return "It is not sure that the material meets the laboratory: " + largest + ". " + card.search.reason;
+    return "It is uncertain whether the material meets the laboratory: " + largest + ". " + card.search.reason;
   return "The material does not meet the laboratory: " + largest + ". " + card.search.reason;
 }
 
@@ -144,8 +145,8 @@ std::string summary_of(const Card& card, const std::string& findings) {
   if (card.search.failures.empty()) out += ", none failed";
   for (const auto& [reason, count] : card.search.failures) out += format(", %d failed (%s)", count, reason.c_str());
   out += ". Strategy " + one_line(card.search.strategy + ": " + card.search.status) + ".\n";
-  return lines_of(out + remark_lines(card) + hold_out_lines(card) + reservation_lines(card)) +
-         one_line(verdict_of(card)) + "\n";
+  return wrapped(lines_of(out + remark_lines(card) + hold_out_lines(card) + reservation_lines(card)) +
+                 one_line(verdict_of(card)) + "\n");
 }
 
 }  // namespace pastefit

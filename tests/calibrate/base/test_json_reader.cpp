@@ -72,9 +72,9 @@ TEST_CASE("a reader gathers every fault of an object") {
   CHECK(twin);
   REQUIRE(faults.size() == 8);
   CHECK(says(at(faults, "test.height_mm"), "is the text \"70\"; write 70, without quotes"));
-  CHECK(says(at(faults, "test.count"), "42.3; a whole number from 0 to 100"));
+  CHECK(says(at(faults, "test.count"), "42.3; must be a whole number, 0 to 100"));
   CHECK(says(at(faults, "test.mass_kg"), "is null"));
-  CHECK(says(at(faults, "test.size_mm"), "is -1; a number above 0 and at most 10"));
+  CHECK(says(at(faults, "test.size_mm"), "is -1 mm; must be above 0 and at most 10 mm"));
   CHECK(says(at(faults, "test.twin"), "true or false"));
   CHECK(says(at(faults, "test.kind"), "did you mean \"mono\"?"));
   CHECK(says(at(faults, "test.width_mm"), "is missing"));

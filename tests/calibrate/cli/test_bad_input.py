@@ -177,7 +177,7 @@ class BadInput(Desk):
     def test_faults_of_settings_name_the_setting(self):
         result = run("simulate", STUDY, "--set", "parameters.frction=1", "--set", "parameters.friction=9", "--set",
                      "nonsense", "--set", "frction=1", "--set", "grains.radus_mm=6")
-        self.fails(result, 2, "did you mean \"friction\"", "a number from 0 to 2", "path=value", "radius_mm",
+        self.fails(result, 2, "did you mean \"friction\"", "must be 0 to 2", "path=value", "radius_mm",
                    "--set frction: is neither a parameter nor")
         self.assertEqual(result.stderr.count("--set frction"), 1)
         self.fails(run("simulate", RIG, "--set", "title.x=1"), 2, "title.x")

@@ -3,13 +3,17 @@
 usage: test_help.py PROGRAM SOURCE_DIR [unittest options]
 """
 
+import fcntl
+import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
+import termios
 import unittest
 
-from desk import Desk, run
+from desk import CARD, PROGRAM, Desk, run
 
 
 def verbs():
@@ -30,6 +34,26 @@ class Help(Desk):
         for verb in verbs():
             self.assertEqual(run("help", verb).stdout, run(verb, "--help").stdout)
         self.fails(run("help", "calibrat"), 2, "calibrat", "did you mean 'calibrate'?")
+
+    def test_lines_of_help_and_of_a_card_fit_80_columns(self):
+        for arguments in (["--help"], ["show", CARD], *([verb, "--help"] for verb in verbs())):
+            for line in run(*arguments).stdout.splitlines():
+                self.assertLessEqual(len(line), 80, f"{arguments}: {line}")
+
+    def test_messages_on_a_terminal_are_broken_between_words(self):
+        ours, theirs = self.terminal()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 40, 0, 0))
+        arguments = ["simulate", CARD, "--set", "parameters.friction=7", "--seed", "1"]
+        subprocess.run([PROGRAM, *map(str, arguments)], stderr=theirs, env={**os.environ, "TERM": "xterm"}, timeout=60)
+        os.close(theirs)
+        shown = os.read(ours, 65536).decode().replace("\r", "")
+        os.close(ours)
+        plain = run(*arguments).stderr
+        self.assertEqual(shown.split(), plain.split())
+        self.assertIn("1 error\n", plain)
+        self.assertGreater(max(map(len, plain.splitlines())), 40)
+        for line in shown.splitlines():
+            self.assertTrue(len(line) <= 40 or " " not in line.strip(), line)
 
     def test_every_verb_has_a_page_with_every_option(self):
         folder = self.written()

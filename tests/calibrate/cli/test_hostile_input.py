@@ -170,7 +170,7 @@ class HostileInput(Desk):
     def test_a_deviation_without_a_size_is_bad_input(self):
         def height(**reading):
             return self.with_lab(lambda lab: lab["measurements"].update({"step1.height_mm": reading}))
-        self.fails(run("simulate", height(value=150, standard_deviation=1e-300)), 2, "a number from 1e-06 to 10000")
+        self.fails(run("simulate", height(value=150, standard_deviation=1e-300)), 2, "must be 1e-06 to 10000")
         self.fails(run("simulate", height(repeats=[150, 150.0000000001])), 2, "repeats are all the same")
 
     def test_bytes_behind_the_end_of_a_file_are_bad_input(self):

@@ -107,7 +107,7 @@ class Sheets(Desk):
 
     def test_readings_out_of_range_are_answered_in_other_units(self):
         self.refused(self.lab({"step1.spread_mm": {"value": 33, "standard_deviation": 2}}),
-                     "is 33; a number from 196 to 900 mm", "33 cm are 330 mm", "33 in are 838.2 mm")
+                     "is 33 mm; must be 196 to 900 mm", "33 cm are 330 mm", "33 in are 838.2 mm")
         result = run("simulate", self.lab({"step1.slump_mm": {"value": 7.25, "standard_deviation": 7.5}}))
         self.assertIn("7.25 in are 184.15 mm", result.stderr)
         self.assertIn("7.25 cm are 72.5 mm", result.stderr)

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "calibrate/base/wrapped_text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/report/reservations.h"
@@ -109,7 +110,8 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
   CHECK_THAT(reservations[2], Catch::Contains("strength_pa") && Catch::Contains("lower bound"));
   CHECK_THAT(verdict_of(card), Catch::Contains("meets the laboratory, with reservations"));
   const std::string summary = summary_of(card);
-  for (const std::string& one : reservations) CHECK_THAT(summary, Catch::Contains("Reservation: " + one));
+  for (const std::string& one : reservations)
+    CHECK_THAT(summary, Catch::Contains(wrapped("Reservation: " + one + ".")));
 }
 
 TEST_CASE("the readings of a single packing have no error") {
@@ -123,6 +125,6 @@ TEST_CASE("the readings of a single packing have no error") {
   CHECK_THAT(verdict_of(card), Catch::Contains("with reservations") && Catch::Contains("one packing, error unknown"));
   CHECK(reservations_on(card) == std::vector<std::string>{"one packing, error unknown"});
   card.rescaled.push_back({0.01, {{"step1.height_mm", 100, 102, 0}}});
-  CHECK_THAT(text_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("bias +2 (one packing, error unknown)"));
+  CHECK_THAT(text_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("bias +2 (one packing, error"));
   CHECK_FALSE(to_json(card).at("tests")[0].at("observables").at("step1.height_mm").contains("standard_error"));
 }

@@ -111,9 +111,9 @@ TEST_CASE("bounds in the wrong order, out of range or without logarithm are faul
   };
   CHECK(says(fault("strength_pa", R"({"free": [60000, 200]})"), "not in order"));
   CHECK(says(fault("friction", R"({"free": [0.5, 0.5]})"), "not in order"));
-  CHECK(says(fault("curvature", R"({"free": [-2, 1]})"), "from -1 to 1"));
+  CHECK(says(fault("curvature", R"({"free": [-2, 1]})"), "must be -1 to 1"));
   CHECK(says(fault("formation_ratio", R"({"free": [0, 0.3], "scale": "log"})"), "no logarithm"));
-  CHECK(says(fault("friction", R"({"value": 3})"), "from 0 to 2"));
+  CHECK(says(fault("friction", R"({"value": 3})"), "must be 0 to 2"));
   CHECK(says(fault("friction", R"({"value": 0.3, "free": [0.1, 0.9]})"), "give one of them"));
   CHECK(says(fault("friction", R"({"value": 0.3, "scale": "log"})"), "no scale"));
   CHECK(says(fault("friction", R"({"free": [0.1]})"), "a list of 2 numbers"));
@@ -300,7 +300,7 @@ TEST_CASE("what is known of a parameter beforehand is read, and must agree with 
   CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.6, "standard_deviation": 0.1}})"),
              "contradicts the bounds"));
   CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3, "standard_deviation": 0}})"),
-             "a number from 4e-07 to 400000"));
+             "must be 4e-07 to 400000"));
   CHECK(says(fault("friction", R"({"free": [0.1, 0.5], "prior": {"value": 0.3}})"), "is missing"));
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("a prior or bounds that would leave residuals without digits are refus
            "}}";
   };
   for (const char* deviation : {"1e-152", "1e-153", "5e-324", "1e-4", "1e12", "-1"})
-    refused("strength_pa", strength(deviation).c_str(), prior, "a number from 0.00460517 to 4.60517e+09");
+    refused("strength_pa", strength(deviation).c_str(), prior, "must be 0.00460517 to 4.60517e+09");
   refused("friction", R"({"free": [1e-320, 1], "scale": "log"})", "free", "at least 1e-12");
   refused("friction", R"({"free": [0.3, 0.30000000000000004]})", "free", "the same within a millionth");
   refused("youngs_modulus_pa", R"({"free": [1e6, 1.0000001e6]})", "free", "the same within a millionth");

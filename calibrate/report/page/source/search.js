@@ -14,8 +14,8 @@ const kinds = {
 
 const legendWords = {
   failure: "failed, or without a fitted reading (at the top)",
-  "ended early": "ended early: at least so much",
-  "other grains": "coarser grains, which point the way (at the top: their misfit is not of these grains)",
+  "ended early": "ended early: lower bound of the misfit",
+  "other grains": "coarser grains (drawn at the top: their misfit is not comparable)",
 };
 
 function kindsIn(history) {
@@ -53,7 +53,7 @@ function historyPlot(points, search, width) {
     y: { type: "log", label: `misfit [${search.misfit_unit ?? "tolerances"}]`, tickFormat: "~g" },
     marks: [
       search.misfit_asked ? Plot.ruleY([search.misfit_asked], { stroke: colour.laboratory, strokeDasharray: "6 4" }) : null,
-      search.misfit_asked ? Plot.text([search.misfit_asked], { y: (d) => d, text: () => "asked for", frameAnchor: "left", dx: 4, dy: -8, fill: colour.laboratory }) : null,
+      search.misfit_asked ? Plot.text([search.misfit_asked], { y: (d) => d, text: () => "allowed", frameAnchor: "left", dx: 4, dy: -8, fill: colour.laboratory }) : null,
       Plot.line(bestSoFar(points), { x: "number", y: "at", curve: "step-after", stroke: colour.simulation, strokeWidth: 1.2 }),
       ...dots(points, "number", "at"),
       Plot.dot(points, Plot.pointer({ x: "number", y: "at", r: 8, stroke: "currentColor", strokeWidth: 2, maxRadius: 40 })),
@@ -142,7 +142,7 @@ export function searchPart(content) {
   const failed = search.history.filter((point) => point.failure).length;
   const lead = `${search.history.length} simulations are kept, ${failed === 0 ? "none failed" : `${failed} failed`}.${search.reason ? ` ${search.reason}` : ""}`;
   return section("search", "The search", lead,
-    search.history.some((point) => point.misfit !== undefined) ? historyFigure(content, measured) : element("p", { class: "notice" }, "Without the study nobody knows the misfit of these simulations."),
+    search.history.some((point) => point.misfit !== undefined) ? historyFigure(content, measured) : element("p", { class: "notice" }, "Without the study the misfit of these simulations is unknown."),
     element("h3", {}, "What a parameter does to a reading"),
     scatterFigure(content, measured), element("p", { class: "note" }, "All other parameters differ from point to point; dashed: the laboratory, with its standard deviation."));
 }

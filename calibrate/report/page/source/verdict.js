@@ -23,7 +23,7 @@ function facts({ verdict, search, parameters, interval_level: level }) {
   } else if (search.misfit_asked) {
     const runs = search.history.filter((one) => one.misfit !== undefined && !one.ended_early);
     if (runs.length > 0) list.push([`${number(Math.min(...runs.map((one) => one.misfit)), 3)} ${search.misfit_unit}`,
-      `misfit of the best single run so far; asked for, as a mean over fresh packings, ${number(search.misfit_asked, 3)}`]);
+      `misfit of the best single run so far; allowed, as a mean over fresh packings: ${number(search.misfit_asked, 3)}`]);
   }
   if (search.history.length > 0) list.push([`${search.history.length}`, `simulations kept, ${duration(search.wall_s)} of computing`]);
   return element("dl", { class: "facts" }, ...list.map(([value, what]) => element("div", {}, element("dt", {}, value), element("dd", {}, what))));
