@@ -90,7 +90,7 @@ constexpr std::string_view slump_study =
     "packings": 2,               // random packings on which candidates are tried in turn
     "lag": 0,                    // candidates under way when the next is proposed; 1 saves time and costs simulations
     "confirmation_packings": 8,  // fresh packings for the best candidate
-    // Of its heaps that shear off (the top shifts by more than 0.4 of the mould's base radius), which the standards reject.
+    // Of its heaps that shear off (the top shifts by more than 0.4 of the mould's wider radius): the standards repeat the test.
     "rejected_share": 0.2,       // at most; 1: not judged
     "examination_simulations": 12,  // afterwards, of the same budget: which other materials fit as well
     // "tolerance_mm": 5,        // for every length without a tolerance of its own
