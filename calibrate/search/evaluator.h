@@ -17,6 +17,7 @@
 #include "calibrate/search/objective.h"
 #include "calibrate/search/onlooker.h"
 #include "calibrate/search/record.h"
+#include "calibrate/search/study_scoring.h"
 #include "calibrate/search/worker_pool.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
@@ -55,12 +56,6 @@ struct EvaluatorOptions {
 ///
 /// What a test starts from (`prepare`) is shared by the candidates for which it is the same (`preparation_key`).
 ///
-/// A candidate that failed in some test on some packing answers as if every measurement had been missed by `factor`
-/// times the worst miss a heap can have (`ReadingKind::worst_miss`; without one ten standard deviations; at least the
-/// measured value),
-///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
-/// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
-///
 /// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is then stored under a name
 /// of its own, so that it never stands in for one that ran to its end. It keeps no ledger of energy; where it ran to
 /// its end it has the same readings as one with a ledger and stands in for it on the same packing. A confirmation has
@@ -70,31 +65,21 @@ struct EvaluatorOptions {
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
 /// answer that may depend on the machine's load.
 ///
-/// Requirements: `study` and `store` outlive the objective; every measurement has a standard deviation
-/// and a tolerance > 0.
+/// Requirements: `study` and `store` outlive the objective; those of `StudyScoring`.
 /// Limits: a batch that exceeds the budget is answered in full; the search looks at `budget_left` before it asks.
 /// Errors: throws std::logic_error for points outside the unit cube. A full disk: `store_faults`, and a stop request.
-class SimulationObjective : public Objective {
+class SimulationObjective : public Objective, public StudyScoring {
  public:
   SimulationObjective(const Study& study, Store& store, EvaluatorOptions options);
   SimulationObjective(const SimulationObjective&) = delete;
   SimulationObjective& operator=(const SimulationObjective&) = delete;
   ~SimulationObjective() override;  ///< ends what is under way, as a stop request would
 
-  int parameters() const override;
-  int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
-  int readings() const override { return static_cast<int>(readings_.size()); }
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   void begin(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, bool may_end_early) override;
   int budget_left() const override;
   int simulations_left() const override;
-  Response response_of(std::vector<Evaluation> evaluations) const override;
-  int simulations_each() const override { return static_cast<int>(fitted_.size()); }
-  double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
-  double allowance(std::size_t reading) const override;
-  double rejected_share() const override { return rejected_share_of(study_); }
-  MisfitUnit misfit_unit() const override { return misfit_unit_of(study_); }
   std::vector<Response> earlier() const override;
   bool stop_requested() const override;
 
@@ -134,18 +119,8 @@ class SimulationObjective : public Objective {
   /// Has moments looked at, and ends the simulation that began then on a stop or at its limit.
   void watch(RunOptions& options, std::chrono::steady_clock::time_point start, const Onlooker::Watch& look,
              bool* by_user = nullptr) const;
-  Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
-  /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
-  double certain_miss(const Response& response, std::size_t reading) const;
 
   const Study& study_;
-  const std::vector<StudyReading> readings_;
-  const std::vector<std::size_t> fitted_;  // tests
-  struct Known {
-    Eigen::Index coordinate = 0;
-    UnitPrior prior;
-  };
-  std::vector<Known> known_;  // beforehand
   Store& store_;
   EvaluatorOptions options_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -34,7 +34,7 @@ class Scoring {
 
 /// The only door from the search to the simulations. Implementations evaluate in parallel and keep a record.
 /// Guarantee: the answer depends on (point, packings) only, not on threads, order or what was asked before.
-class Objective : public Scoring {
+class Objective : public virtual Scoring {
  public:
   /// Answers all points on the same packings; the answers are in the order of the points.
   /// Points outside the unit cube are a programming error (checked).

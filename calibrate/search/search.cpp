@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "calibrate/search/strategy.h"
+
 namespace pastefit {
 
 /// A strategy is straight-line code, and optimisers call it back, so that it has a thread of its own, which waits

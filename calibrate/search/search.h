@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/calibration.h"
+#include "calibrate/search/strategies.h"
 
 namespace pastefit {
 

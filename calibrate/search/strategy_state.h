@@ -7,7 +7,7 @@
 
 #include "calibrate/search/archive.h"
 #include "calibrate/search/prospects.h"
-#include "calibrate/search/strategy.h"
+#include "calibrate/search/strategies.h"
 
 namespace pastefit {
 

@@ -1,9 +1,10 @@
+#include "calibrate/search/strategies.h"
+
 #include <algorithm>
 #include <string>
 
 #include "calibrate/optimisers/ceres.h"
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/strategy.h"
 
 namespace pastefit {
 
