@@ -76,7 +76,8 @@ class ShippedFiles(Desk):
         self.each(shipped("lab") + shipped("rigs"), look)
 
     def test_starting_files(self):
-        names = re.search(r"which one: ([\w, -]+)", run("template", "--help").stdout)[1].split(", ")
+        help_text = " ".join(run("template", "--help").stdout.split())  # as lines are broken
+        names = re.search(r"which one: (\w[\w-]*(?:, \w[\w-]*)*)", help_text)[1].split(", ")
         self.assertIn("lab", names)
         for name in names:
             with self.subTest(name):

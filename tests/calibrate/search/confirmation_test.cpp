@@ -190,7 +190,7 @@ TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, m
 
 TEST_CASE("a material is confirmed for how its heaps stand, not for their mean alone", "[campaign]") {
   const auto chance = [](const UnitPoint& x) { return 1 / (1 + std::exp(-10 * (x[3] - 0.6))); };
-  int confirmed = 0, stand = 0, would_stand = 0;
+  int confirmed = 0, stand = 0, keep = 0, would_keep = 0;  // the last two: the share that is allowed
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     for (const double share : {0.2, 1.0}) {
       Synthetic slump = fake_slump(150, seed);
@@ -205,15 +205,17 @@ TEST_CASE("a material is confirmed for how its heaps stand, not for their mean a
       const Calibration found = search(slump, options);
       if (found.status != CalibrationStatus::confirmed) continue;
       if (share == 1) {
-        would_stand += chance(found.best.point) <= 0.2 ? 1 : 0;
+        would_keep += chance(found.best.point) <= 0.2 ? 1 : 0;
         continue;
       }
       ++confirmed;
       stand += chance(found.best.point) <= 0.25 ? 1 : 0;
+      keep += chance(found.best.point) <= 0.2 ? 1 : 0;
     }
   }
-  INFO(confirmed << " of 20 confirmed, " << stand << " stand; not judged: " << would_stand);
+  INFO(confirmed << " of 20 confirmed, " << stand << " stand, " << keep
+                 << " keep to the share; not judged: " << would_keep);
   CHECK(confirmed >= 18);
   CHECK(stand >= 0.85 * confirmed);
-  CHECK(would_stand < 0.8 * stand);
+  CHECK(would_keep < keep);
 }
