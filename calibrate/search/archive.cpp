@@ -144,8 +144,8 @@ Eigen::ArrayXd Archive::variance_between_packings() const {
   constexpr double most = 4;  // squares that a point counts for: what stands or shears off by luck is simulated often
   std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    if (!is_accepted(singles_[i])) continue;
-    const auto is_same = [&](const Response& one) { return is_accepted(one) && one.point == singles_[i].point; };
+    if (!is_whole(singles_[i])) continue;
+    const auto is_same = [&](const Response& one) { return is_whole(one) && one.point == singles_[i].point; };
     const auto packings = static_cast<double>(std::ranges::count_if(singles_, is_same));
     const double weight = std::min(packings - 1, most) / (packings * (packings - 1) / 2);
     for (std::size_t j = 0; j < i; ++j)

@@ -80,7 +80,7 @@ double CandidateSearch::noise() const {
   const auto& singles = state_.archive.singles();
   for (std::size_t i = 0; i < singles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!is_accepted(singles[i]) || !is_accepted(singles[j]) || singles[i].point != singles[j].point) continue;
+      if (!is_whole(singles[i]) || !is_whole(singles[j]) || singles[i].point != singles[j].point) continue;
       squares += (singles[i].residuals - singles[j].residuals).squaredNorm() / 2;
       ++freedom;
     }

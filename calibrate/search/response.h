@@ -58,11 +58,6 @@ inline bool is_whole(const Response& response) {
   return is_feasible(response) && !response.ended_early;
 }
 
-/// True if it is whole, and a laboratory would reject none of its heaps.
-inline bool is_accepted(const Response& response) {
-  return is_whole(response) && response.rejected == 0;
-}
-
 /// True unless reading k was not taken, because a simulation ended early.
 inline bool has_reading(const Response& response, Eigen::Index k) {
   return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
