@@ -234,7 +234,7 @@ std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs)
       "%d of %zu heaps sheared off (95 %% interval of the share: %.0f to %.0f %%; top shifted by more than %g mm); the "
       "standards have such a test repeated",
       sheared, runs.size(), 100 * share.lower, 100 * share.upper, limit_mm);
-  if (whole == 0) return heaps + ", and no heap is left to be read";
+  if (whole == 0) return heaps + ", so that none of these readings would be reported";
   return heaps + format(", and the readings are of the others (height after step 1 with them: %.1f mm)",
                         all_mm / (sheared + whole));
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "calibrate/laboratory/accepted.h"
 #include "core/rigs/field_checker.h"
 
 namespace pastefit {
@@ -147,12 +148,9 @@ std::optional<bool> is_rejected(const Test& test, const Observables& run) {
 }
 
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs) {
-  std::vector<std::size_t> all, good;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    all.push_back(i);
-    if (!is_rejected(test, runs[i]).value_or(false)) good.push_back(i);
-  }
-  return good.empty() ? all : good;
+  std::vector<bool> rejected;
+  for (const Observables& run : runs) rejected.push_back(is_rejected(test, run).value_or(false));
+  return accepted(rejected);
 }
 
 std::string remarks_on(const Test& test, std::span<const Observables> runs) {

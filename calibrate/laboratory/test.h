@@ -88,8 +88,7 @@ std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
 std::optional<bool> is_rejected(const Test& test, const Observables& run);
-/// The runs that a laboratory would not reject, as indices; all of them, if it would reject every one. Readings are
-/// means over these: a laboratory repeats the others and does not report them.
+/// The runs of a test that a laboratory would accept (`accepted.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/base/statistics.h"
+#include "calibrate/laboratory/accepted.h"
 #include "calibrate/optimisers/problem.h"
 #include "core/result.h"
 
@@ -63,15 +64,13 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
   return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
 }
 
-/// Those that a laboratory would not reject; all of them, if it would reject every one: a reading is never without a
-/// number.
+/// Those that a laboratory would accept (`laboratory/accepted.h`).
 inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evaluations) {
-  std::vector<const Evaluation*> all, good;
-  for (const Evaluation& one : evaluations) {
-    all.push_back(&one);
-    if (!one.rejected) good.push_back(&one);
-  }
-  return good.empty() ? all : good;
+  std::vector<bool> rejected;
+  for (const Evaluation& one : evaluations) rejected.push_back(one.rejected);
+  std::vector<const Evaluation*> out;
+  for (const std::size_t i : accepted(rejected)) out.push_back(&evaluations[i]);
+  return out;
 }
 
 /// Square of the standard error of a mean reading, from its scatter over the accepted packings:
