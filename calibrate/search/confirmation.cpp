@@ -16,7 +16,10 @@ constexpr double hardly_within = 0.1, surely_within = 0.8;
 
 Verdict verdict_on(const Response& response, double rejected_share) {
   if (!is_whole(response)) return Verdict::refuted;
-  const Verdict readings = verdict_on(response.miss, response.noise);
+  // Of a single heap that is left of many the scatter is not known.
+  const bool known = accepted(response.evaluations).size() > 1 || response.evaluations.size() == 1;
+  const Verdict of_readings = verdict_on(response.miss, response.noise);
+  const Verdict readings = known || of_readings == Verdict::refuted ? of_readings : Verdict::undecided;
   if (readings == Verdict::refuted || rejected_share >= 1) return readings;
   const double rejected = response.rejected, heaps = static_cast<double>(response.evaluations.size());
   const boost::math::beta_distribution<> share(rejected + 1, heaps - rejected + 1);

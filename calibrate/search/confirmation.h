@@ -19,6 +19,7 @@ enum class Verdict {
 /// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected: with an even prior the
 /// share p has a beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 (for c = 0.2 none of 8,
 /// 1 of 16), and is refuted with P(p <= c) < 0.1 (3 of 8).
+/// Where only one of several heaps is left, the scatter is not known: undecided, unless it is refuted.
 /// Limit: of a single packing the noise is not known and counts as none.
 Verdict verdict_on(const Response& response, double rejected_share = 1);
 

@@ -188,6 +188,14 @@ TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, m
   CHECK(verdict_on(off, 0.2) == Verdict::refuted);
 }
 
+TEST_CASE("the one heap that stands among many confirms nothing, whatever share may be rejected") {
+  Response response = heaps_with(7, 8);
+  for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejected = true;
+  CHECK(verdict_on(response, 1) == Verdict::undecided);
+  response.evaluations[0].rejected = false;
+  CHECK(verdict_on(response, 1) == Verdict::holds);
+}
+
 TEST_CASE("a material is confirmed for how its heaps stand, not for their mean alone", "[campaign]") {
   const auto chance = [](const UnitPoint& x) { return 1 / (1 + std::exp(-10 * (x[3] - 0.6))); };
   int confirmed = 0, stand = 0, keep = 0, would_keep = 0;  // the last two: the share that is allowed
