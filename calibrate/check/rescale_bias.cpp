@@ -1,5 +1,6 @@
 #include "calibrate/check/rescale_bias.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -24,26 +25,24 @@ Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vect
   return runs;
 }
 
-/// Root mean square over the fitted readings, as in the search, of their difference from the laboratory and of their
-/// standard error, each over its tolerance.
+/// Of the fitted readings the largest difference from the laboratory and the largest standard error, each over its
+/// tolerance, as in the search (`Response::miss`, `Response::noise`).
 struct Misfit {
   double difference = 0, noise = 0;
 };
 
 Misfit misfit_of(const Card& card) {
-  Misfit squares;
-  int fitted = 0;
+  Misfit largest;
   for (const auto& test : card.tests) {
     if (test.hold_out) continue;
     for (const auto& observable : test.observables) {
       if (!observable.measured || observable.weight <= 0) continue;
-      squares.difference += std::pow((observable.simulated - *observable.measured) / observable.tolerance, 2);
-      squares.noise += std::pow(standard_error(observable).value_or(0) / observable.tolerance, 2);
-      ++fitted;
+      largest.difference =
+          std::max(largest.difference, std::abs(observable.simulated - *observable.measured) / observable.tolerance);
+      largest.noise = std::max(largest.noise, standard_error(observable).value_or(0) / observable.tolerance);
     }
   }
-  if (fitted == 0) return {};
-  return {std::sqrt(squares.difference / fitted), std::sqrt(squares.noise / fitted)};
+  return largest;
 }
 
 }  // namespace

@@ -145,6 +145,10 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   low.weight = 1;
   low.tolerance = 5;
   lower.observables.push_back(low);
+  CardObservable met = low;  // the misfit is that of the worst reading, not a mean
+  met.name = "step1.height_max_mm";
+  met.measured = 60;
+  lower.observables.push_back(met);
   card.tests.push_back(lower);
   const double radius = 1.25 * card.material.grains.radius_m;
   const auto carried = rescaled(card, radius);
@@ -157,6 +161,7 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   CheckEngine engine = quick_engine("here", {});
   engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
+    outcome.observables.set("step1.height_max_mm", 60);
     outcome.observables.set("step1.height_axis_mm", 50 + 1000 * (test.grains.radius_m - 0.012));
     return outcome;
   });
