@@ -101,7 +101,7 @@ int run_calibrate(const CalibrateArguments& options) {
   if (!store.ok()) return report(store.faults());
   if (const auto faults = strangers_in(study, store.value(), file); !faults.empty()) return report(faults);
 
-  tell_of(study, store.value(), file, options.threads);
+  print_remarks(study, store.value(), file, options.threads);
   ProgressLine line(work_ahead(study), misfit_unit_of(study));
   LivePage page(options.out);
   Looks looks;

@@ -62,7 +62,7 @@ std::string readings_not_measured(const Study& study) {
 
 }  // namespace
 
-void tell_of(const Study& study, const Store& store, const std::string& file, int threads) {
+void print_remarks(const Study& study, const Store& store, const std::string& file, int threads) {
   note("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),
        study.search.budget_simulations, store.size());
   for (const auto& remark : store.remarks()) note("%s: %s.\n", file.c_str(), remark.c_str());

@@ -9,7 +9,7 @@ namespace pastefit {
 
 /// Tells a person of a study before anything of it runs: what was understood, what is known from before and what has
 /// changed since, what is odd about the readings. `file`: the store's.
-void tell_of(const Study& study, const Store& store, const std::string& file, int threads);
+void print_remarks(const Study& study, const Store& store, const std::string& file, int threads);
 
 /// A store of which nothing is of the study's tests: going on would mix two laboratories in one folder.
 Faults strangers_in(const Study& study, const Store& store, const std::string& file);

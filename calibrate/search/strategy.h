@@ -21,8 +21,7 @@ namespace pastefit {
 ///      simulations themselves, from the best screening point, on all common packings, with half of what is left of the
 ///      budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
 ///   3. Refinement: Ceres on the residuals on the common packings, if no candidate is likely to do and the noise of
-///   these
-///      packings is less than what is allowed.
+///      these packings is less than what is allowed.
 ///   4. Confirmation of the likely best candidate on fresh packings: a quarter of them first, and no more if it is
 ///      unlikely then that it will do; up to eight times as many as the options say while their noise hides whether it
 ///      meets the laboratory (`confirmation.h`). If it does not for certain, the candidate is out and the search goes

@@ -14,6 +14,8 @@ namespace pastefit {
 /// What the phases of a strategy share: all answers, the packings on which every candidate is compared, and the
 /// candidates that a confirmation has judged.
 class StrategyState {
+  std::uint64_t packings_used_ = 0;  // first: `common` uses some
+
  public:
   StrategyState(CandidateQueue& queue, const SearchOptions& asked, const SearchStart& start,
                 const std::function<void(const Progress&)>& progress)
@@ -21,11 +23,6 @@ class StrategyState {
 
   const SearchOptions& options;
   Archive archive;
-
- private:
-  std::uint64_t packings_used_ = 0;
-
- public:
   const std::vector<std::uint64_t> common;  ///< every candidate is compared on these
   std::vector<UnitPoint> refuted;           ///< by a confirmation
 
