@@ -290,11 +290,19 @@ const json* ObjectReader::find(std::string_view key, Need need) {
   return nullptr;
 }
 
-const json* ObjectReader::find_object(std::string_view key, Need need, std::string_view remedy) {
-  const json* value = find(key, need);
-  if (!value || value->is_object()) return value;
-  fault(key, "is " + text_of(*value), std::string(remedy));
-  return nullptr;
+bool ObjectReader::is_object(const json& value) {
+  return value.is_object();
+}
+
+const json& ObjectReader::nothing() {
+  static const json object = json::object();
+  return object;
+}
+
+std::string ObjectReader::remedy_of(const json& value, const std::set<std::string, std::less<>>& keys) {
+  if (keys.empty()) return "an object { ... }";
+  if (keys.size() == 1 && value.is_number()) return "write {" + in_quotes(*keys.begin()) + ": " + value.dump() + "}";
+  return "an object { ... } with " + listed(keys);
 }
 
 bool ObjectReader::check_number(std::string_view place, const json& value, const Range& range) {

@@ -102,9 +102,10 @@ class ObjectReader {
   bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Usual<T>) {
     return choice(key, target, words, Need::optional);
   }
-  /// Calls `body(ObjectReader&)` for an object of this object. `remedy` is what to write where it is none.
+  /// Calls `body(ObjectReader&)` for an object of this object. `remedy` is what to write where it is none; without one
+  /// the keys that `body` reads are named.
   template <class Body>
-  bool object(std::string_view key, Need need, Body body, std::string_view remedy = "an object { ... }");
+  bool object(std::string_view key, Need need, Body body, std::string_view remedy = "");
   /// As `object`, into `target`; null empties it, and an absent optional key leaves it as it is.
   template <class T, class Body>
   bool nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body);
@@ -113,9 +114,17 @@ class ObjectReader {
 
  private:
   const nlohmann::json* find(std::string_view key, Need need);
-  const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy);
+  /// The object at a key. In the place of another value a fault with the remedy, or with the keys that `body` reads and
+  /// `instead`, what else may stand there.
+  template <class Body>
+  const nlohmann::json* find_object(std::string_view key, Need need, std::string_view remedy, const Body& body,
+                                    std::string_view instead = "");
+  /// What to write in the place of a value that is no object with these keys.
+  static std::string remedy_of(const nlohmann::json& value, const std::set<std::string, std::less<>>& keys);
   /// Which of the words it is; a fault if none.
   std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words, Need need);
+  static bool is_object(const nlohmann::json& value);
+  static const nlohmann::json& nothing();  ///< an object without keys
   /// Whether the key is there and null.
   bool null(std::string_view key);
   bool check_number(std::string_view place, const nlohmann::json& value, const Range& range);
@@ -136,8 +145,26 @@ bool ObjectReader::choice(std::string_view key, T& target, const std::array<Name
 }
 
 template <class Body>
+const nlohmann::json* ObjectReader::find_object(std::string_view key, Need need, std::string_view remedy,
+                                                const Body& body, std::string_view instead) {
+  const nlohmann::json* value = find(key, need);
+  if (!value || is_object(*value)) return value;
+  std::string words(remedy);
+  if (words.empty()) {
+    const std::size_t before = faults_.size();
+    Faults of_missing_keys;
+    ObjectReader probe(nothing(), "", of_missing_keys);
+    body(probe);
+    faults_.resize(before);  // without what the body says of them elsewhere
+    words = remedy_of(*value, probe.known_) + std::string(instead);
+  }
+  fault(key, "is " + text_of(*value), std::move(words));
+  return nullptr;
+}
+
+template <class Body>
 bool ObjectReader::object(std::string_view key, Need need, Body body, std::string_view remedy) {
-  const nlohmann::json* value = find_object(key, need, remedy);
+  const nlohmann::json* value = find_object(key, need, remedy, body);
   if (!value) return false;
   ObjectReader reader(*value, place(key), faults_);
   body(reader);
@@ -150,7 +177,11 @@ bool ObjectReader::nullable_object(std::string_view key, std::optional<T>& targe
     target.reset();
     return true;
   }
-  const nlohmann::json* found = find_object(key, need, "an object { ... }, or null");
+  const auto probing = [&](ObjectReader& probe) {
+    T unused{};
+    body(probe, unused);
+  };
+  const nlohmann::json* found = find_object(key, need, "", probing, ", or null");
   if (!found) return false;
   if (!target) target.emplace();
   ObjectReader reader(*found, place(key), faults_);

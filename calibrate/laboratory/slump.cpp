@@ -196,7 +196,7 @@ std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readin
 
 std::vector<Experience> experience_of(const SlumpTest& test) {
   return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 400, 5000},
-          {"apparatus.mould.height_mm", mm * test.mould.height_m, 20, 600}};
+          {"apparatus.mould.height_mm", mm * test.mould.height_m, 40, 600}};
 }
 
 nlohmann::ordered_json conditions_of(const SlumpTest& test) {

@@ -40,6 +40,17 @@ void add_bounds(const Card& card, std::vector<std::string>& out) {
   }
 }
 
+void add_implausible(const Card& card, std::vector<std::string>& out) {
+  for (const PlausibleRange& range : plausible_ranges())
+    for (const Parameter& one : card.material.parameters) {
+      if (one.name != range.name || !one.free || !has_parameter(card, one.name)) continue;
+      const std::string value = one.name + " " + plain(one.value) + ", plausible " + plain(range.smallest) + " to " +
+                                plain(range.largest) + ": ";
+      if (one.value < range.smallest) out.push_back(value + std::string(range.below));
+      if (one.value > range.largest) out.push_back(value + std::string(range.above));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> reservations_on(const Card& card) {
@@ -49,6 +60,7 @@ std::vector<std::string> reservations_on(const Card& card) {
       out.push_back(heading_of(test) + remarks);
   for (const CardTest& test : card.tests) add_marginal_readings(test, out);
   add_bounds(card, out);
+  add_implausible(card, out);
   if (card.confirmation.packings.size() == 1) out.push_back("one packing, error unknown");
   return out;
 }

@@ -76,9 +76,9 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     if (values_are_good(faults, before))
       for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
         faults.push_back(std::move(fault));
+    if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, questions);
     if (values_are_good(faults, before)) {
-      ask_about_sizes(lab.test, questions);
       Doubts doubts = doubts_about(lab.test, lab.measurements);
       for (Fault& fault : doubts.faults) faults.push_back(std::move(fault));
     }

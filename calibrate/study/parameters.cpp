@@ -39,6 +39,12 @@ constexpr std::array<ParameterKind, 19> kinds{{
      "attraction of the grains over the area in which they meet"},
 }};
 
+constexpr std::array<PlausibleRange, 2> plausible{{
+    {"friction", 0.05, 1, "grains that slide like wet ice", "grains as rough as few are"},
+    {"rolling_friction", 0, 0.5, "",
+     "these grains hardly roll; it stands in for something that the model lacks, their shape for instance"},
+}};
+
 /// The place of a parameter in a list of values. A name that there is not does not compile.
 consteval std::size_t at(std::string_view name) {
   for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -50,6 +56,10 @@ consteval std::size_t at(std::string_view name) {
 
 std::span<const ParameterKind> parameter_kinds() {
   return kinds;
+}
+
+std::span<const PlausibleRange> plausible_ranges() {
+  return plausible;
 }
 
 std::vector<double> usual_values() {

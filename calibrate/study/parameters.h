@@ -33,6 +33,18 @@ struct ParameterKind {
   std::string_view meaning;  ///< one line for help and reports
 };
 
+/// Between which values a fitted parameter is what its name says, and what it stands for beyond them.
+struct PlausibleRange {
+  std::string_view name;
+  double smallest, largest;
+  std::string_view below, above;  ///< the end of a sentence about such a value; empty if the range ends there
+};
+
+/// Of the parameters of which it is known. Sliding friction: dry mineral grains have 0.4 to 0.8, wetted and coated
+/// ones less. Rolling friction is the tangent of the steepest slope on which a round grain stays (Ai, Chen, Rotter and
+/// Ooi, Powder Technol. 206 (2011) 269): 0.5 is 27 degrees.
+std::span<const PlausibleRange> plausible_ranges();
+
 /// Every known parameter, in their fixed order.
 std::span<const ParameterKind> parameter_kinds();
 

@@ -87,6 +87,7 @@ std::optional<Rig> read_apparatus(ObjectReader& document, Test& test, const std:
   std::optional<Rig> preset;
   document.object("apparatus", Need::required, [&](ObjectReader& apparatus) {
     std::string name;
+    if (folder) apparatus.known("preset");
     const bool named = folder && apparatus.has("preset");
     if (named && apparatus.text("preset", name, Need::required)) preset = read_preset(name, *folder, apparatus);
     if (preset && preset->test.index() != test.index())
@@ -105,31 +106,34 @@ void read_material(ObjectReader& document, Test& test) {
 }
 
 void read_grains(ObjectReader& document, Test& test, Need need) {
-  document.object("grains", need, [&](ObjectReader& reader) {
-    GrainSizes grains;
-    if (!reader.choice("distribution", grains.distribution, size_distributions, Need::required)) return;
-    const bool mono = grains.distribution == SizeDistribution::mono;
-    const bool uniform = grains.distribution == SizeDistribution::uniform;
-    bool good = true;
-    const auto length = [&](std::string_view key, double& target, bool has_it) {
-      if (has_it)
-        good = reader.number(key, target, grain_length, Need::required, mm) && good;
-      else
-        reader.refuse(key, "has no meaning for this distribution", "leave it out");
-    };
-    length("radius_mm", grains.radius_m, !uniform);
-    length("standard_deviation_mm", grains.standard_deviation_m, !mono && !uniform);
-    length("smallest_mm", grains.smallest_m, !mono);
-    length("largest_mm", grains.largest_m, !mono);
-    if (!good) return;
-    if (mono) grains.smallest_m = grains.largest_m = grains.radius_m;
-    if (uniform) grains.radius_m = (grains.smallest_m + grains.largest_m) / 2;
-    if (grains.smallest_m > grains.radius_m || grains.radius_m > grains.largest_m)
-      reader.fault("smallest_mm", "smallest, mean and largest radius are not in order",
-                   uniform ? "smallest_mm <= largest_mm" : "smallest_mm <= radius_mm <= largest_mm");
-    else
-      specimen_of(test).grains = grains;
-  });
+  document.object(
+      "grains", need,
+      [&](ObjectReader& reader) {
+        GrainSizes grains;
+        if (!reader.choice("distribution", grains.distribution, size_distributions, Need::required)) return;
+        const bool mono = grains.distribution == SizeDistribution::mono;
+        const bool uniform = grains.distribution == SizeDistribution::uniform;
+        bool good = true;
+        const auto length = [&](std::string_view key, double& target, bool has_it) {
+          if (has_it)
+            good = reader.number(key, target, grain_length, Need::required, mm) && good;
+          else
+            reader.refuse(key, "has no meaning for this distribution", "leave it out");
+        };
+        length("radius_mm", grains.radius_m, !uniform);
+        length("standard_deviation_mm", grains.standard_deviation_m, !mono && !uniform);
+        length("smallest_mm", grains.smallest_m, !mono);
+        length("largest_mm", grains.largest_m, !mono);
+        if (!good) return;
+        if (mono) grains.smallest_m = grains.largest_m = grains.radius_m;
+        if (uniform) grains.radius_m = (grains.smallest_m + grains.largest_m) / 2;
+        if (grains.smallest_m > grains.radius_m || grains.radius_m > grains.largest_m)
+          reader.fault("smallest_mm", "smallest, mean and largest radius are not in order",
+                       uniform ? "smallest_mm <= largest_mm" : "smallest_mm <= radius_mm <= largest_mm");
+        else
+          specimen_of(test).grains = grains;
+      },
+      R"(e.g. {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10})");
 }
 
 bool values_are_good(const Faults& faults, std::size_t first) {

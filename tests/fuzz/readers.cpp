@@ -18,6 +18,7 @@
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/rig.h"
+#include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/verify/case.h"
 
@@ -117,14 +118,46 @@ void row(const fs::path& file) {
   try_to([&] { parameters_to_json(parameters_from_json(part("parameter_values"))); });
 }
 
-constexpr std::array<Reader, 7> kReaders{
+/// What a person types into `pastefit new`, as JSON; files that are made of it can be read.
+void sheet(const fs::path& file) {
+  Faults faults;
+  const auto typed = read_json(file, faults);
+  if (!typed || !typed->is_object()) return;
+  Sheet sheet;
+  for (const auto& [key, value] : typed->items()) {
+    if (!value.is_string()) continue;
+    const auto text = value.get<std::string>();
+    if (key == "mould")
+      sheet.mould = text;
+    else if (key == "density")
+      sheet.density = text;
+    else if (key == "for")
+      sheet.target = text;
+    else if (key == "title")
+      sheet.title = text;
+    else if (key == "confirm")
+      sheet.confirmed.push_back(text);
+    else
+      sheet.readings.emplace_back(key, text);
+  }
+  const auto made = starting_files(sheet, file.parent_path());
+  judge(made);
+  if (!made.ok()) return;
+  std::ofstream(file.parent_path() / "lab.json") << made.value().lab;
+  std::ofstream(file.parent_path() / "study.json") << made.value().study;
+  if (const auto read = read_study(file.parent_path() / "study.json"); !read.ok())
+    throw std::logic_error("a study that was made is refused: " + message_of(read.faults()));
+}
+
+constexpr std::array<Reader, 8> kReaders{
     {{"lab", [](std::string_view content) { judge(read_lab(file_of(content))); }},
      {"rig", [](std::string_view content) { judge(read_rig(file_of(content))); }},
      {"study", [](std::string_view content) { study(file_of(content)); }},
      {"card", [](std::string_view content) { card(file_of(content)); }},
      {"physics_case", [](std::string_view content) { judge(read_case(file_of(content))); }},
      {"impact", [](std::string_view content) { impact(file_of(content)); }},
-     {"store", [](std::string_view content) { row(file_of(content)); }}}};
+     {"store", [](std::string_view content) { row(file_of(content)); }},
+     {"sheet", [](std::string_view content) { sheet(file_of(content)); }}}};
 
 }  // namespace
 

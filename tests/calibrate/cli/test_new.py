@@ -87,6 +87,10 @@ class New(Desk):
         self.fails(run("new", self.out, "--mould", "abrams", "--density", "145.2", "--slump", "180"), 2,
                    "145.2 lb/ft3 are 2325.88 kg/m3")
         self.fails(run("new", self.out, "--mould", "abrams", "--density", "2350 mm", "--slump", "180"), 2, "is in mm")
+        # A cone of 30 cm that is taken for one of 30 mm.
+        self.fails(run("new", self.out, "--mould", "20/10/30", "--density", "2350", "--slump", "180"), 2,
+                   "apparatus.mould.height_mm: is 30 mm, far from", "30 cm are 300 mm", "step1.slump_mm")
+        self.fails(run("new", self.out, "--mould", "8/4/12", "--density", "2350", "--slump", "7"), 2, "12 in are 304.8 mm")
         self.assertFalse(self.out.exists())
         self.files(*ABRAMS)
         before = (self.out / "lab.json").read_text()

@@ -114,6 +114,25 @@ TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal readi
     CHECK_THAT(summary, Catch::Contains(wrapped("Reservation: " + one + ".")));
 }
 
+TEST_CASE("a fitted friction that no grains have is a reservation that says what it stands for") {
+  Card card = without_reservations();
+  const auto set = [&](std::string_view name, double value, bool free) {
+    Parameter& one = *std::ranges::find(card.material.parameters, name, &Parameter::name);
+    one.value = value;
+    one.free = free;
+    one.lower = 0.001;
+    one.upper = 1.5;
+  };
+  set("rolling_friction", 0.9, true);
+  REQUIRE(reservations_on(card).size() == 1);
+  CHECK(reservations_on(card)[0].starts_with("rolling_friction 0.9, plausible 0 to 0.5: these grains hardly roll"));
+  set("friction", 0.02, true);
+  CHECK(reservations_on(card).size() == 2);
+  set("friction", 0.02, false);  // a value that the study's author chose
+  set("rolling_friction", 0.5, true);
+  CHECK(reservations_on(card).empty());
+}
+
 TEST_CASE("the readings of a single packing have no error") {
   Card card = without_reservations();
   card.confirmation.packings = {1};

@@ -293,6 +293,20 @@ TEST_CASE("every fault of a file is named at once") {
   CHECK(says(at(faults, "measurements.step1.hight_mm"), "did you mean \"step1.height_mm\"?"));
 }
 
+TEST_CASE("a value in the place of an object is answered with what to write") {
+  json document = lab();
+  document["material"] = 2300;
+  document["apparatus"] = "abrams";
+  document["grains"] = 8;
+  document["provenance"] = nullptr;
+  const Faults faults = faults_of(document);
+  CHECK(faults.size() == 4);
+  CHECK(says(at(faults, "material"), R"(write {"bulk_density_kg_m3": 2300})"));
+  CHECK(says(at(faults, "apparatus"), R"("preset")"));
+  CHECK(says(at(faults, "grains"), R"("smallest_mm": 6)"));
+  CHECK(says(at(faults, "provenance"), R"("source")"));
+}
+
 TEST_CASE("a file of another kind is one fault, not a list of unknown keys") {
   json document = lab();
   document["format"] = "pastefit-study-1";
