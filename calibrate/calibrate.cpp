@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
-#include "calibrate/inference/words.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/memory.h"
 #include "calibrate/search/residual_size.h"
 #include "calibrate/study/parameters.h"
@@ -64,7 +64,7 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
   evaluator.core_budget_s = options.core_budget_s;
   evaluator.stop = options.stop;
   evaluator.observer = callbacks.evaluated;
-  evaluator.onlooker = callbacks.onlooker;
+  evaluator.run_observer = callbacks.run_observer;
   evaluator.engine = options.engine;
   return evaluator;
 }
@@ -86,7 +86,7 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   EvaluatorOptions evaluator = evaluator_of(study, options, callbacks);
   SimulationObjective objective(study, store, evaluator);
   evaluator.observer = {};
-  evaluator.onlooker = nullptr;
+  evaluator.run_observer = nullptr;
   const Study coarse_study = with_coarse_grains(study);
   SimulationObjective coarse(coarse_study, store, evaluator);
 
@@ -102,7 +102,7 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   const bool any = found.best.point.size() > 0 && !found.best.failed;
   if (any) {
     if (callbacks.progress)
-      callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.miss, ""});
+      callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.normalised_error, ""});
     predict_hold_outs(study, found, objective);
     // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
     const bool stopped = options.stop && *options.stop;

@@ -30,7 +30,7 @@ struct CalibrateOptions {
 struct CalibrateCallbacks {
   std::function<void(const Progress&)> progress;           ///< of the search
   std::function<void(const EvaluationCounts&)> evaluated;  ///< after each simulation, never two calls at a time
-  Onlooker* onlooker = nullptr;                            ///< of the simulations that are not only tried out
+  RunObserver* run_observer = nullptr;                     ///< of the simulations that are not only tried out
 };
 
 /// What a calibration brought.

@@ -33,14 +33,14 @@ std::string text_of(const Range& range, std::string_view unit = "");
 /// Whether an object must have the key.
 enum class Need { required, optional };
 
-/// In the place of `Need`: an optional key that is left out where its value is the usual one, which the variable has
+/// In the place of `Need`: an optional key that is left out where its value is the default one, which the variable has
 /// before it is read.
 template <class T>
-struct Usual {
+struct Default {
   T value;
 };
 template <class T>
-Usual(T) -> Usual<T>;
+Default(T) -> Default<T>;
 
 /// A word of a file and the value it stands for.
 template <class T>
@@ -78,7 +78,7 @@ class ObjectReader {
 
   /// target = number in the file / `per_si`, e.g. 1000 for millimetres into metres. `range` is in the key's unit.
   bool number(std::string_view key, double& target, const Range& range, Need need, double per_si = 1);
-  bool number(std::string_view key, double& target, const Range& range, Usual<double>) {
+  bool number(std::string_view key, double& target, const Range& range, Default<double>) {
     return number(key, target, range, Need::optional);
   }
   /// Null and an absent optional key empty the target.
@@ -99,7 +99,7 @@ class ObjectReader {
   template <class T, std::size_t N>
   bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need);
   template <class T, std::size_t N>
-  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Usual<T>) {
+  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Default<T>) {
     return choice(key, target, words, Need::optional);
   }
   /// Calls `body(ObjectReader&)` for an object of this object. `remedy` is what to write where it is none; without one

@@ -16,8 +16,8 @@ class ObjectWriter {
   explicit ObjectWriter(nlohmann::json& object) : object_(object) { object_ = nlohmann::json::object(); }
 
   void number(const char* key, double value, const Range&, Need) { object_[key] = value; }
-  void number(const char* key, double value, const Range& range, Usual<double> usual) {
-    if (value != usual.value) number(key, value, range, Need::optional);
+  void number(const char* key, double value, const Range& range, Default<double> by_default) {
+    if (value != by_default.value) number(key, value, range, Need::optional);
   }
   void nullable_number(const char* key, const std::optional<double>& value, const Range&, Need) {
     object_[key] = value ? nlohmann::json(*value) : nlohmann::json();
@@ -33,8 +33,8 @@ class ObjectWriter {
       if (word.value == value) object_[key] = word.name;
   }
   template <class T, std::size_t N>
-  void choice(const char* key, T value, const std::array<Named<T>, N>& words, Usual<T> usual) {
-    if (value != usual.value) choice(key, value, words, Need::optional);
+  void choice(const char* key, T value, const std::array<Named<T>, N>& words, Default<T> by_default) {
+    if (value != by_default.value) choice(key, value, words, Need::optional);
   }
   template <class Body>
   void object(const char* key, Need, Body body) {

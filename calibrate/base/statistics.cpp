@@ -53,7 +53,7 @@ double band_of(const Sample& first, const Sample& second, double false_alarm) {
   return std::max(band, rounding(first, second));
 }
 
-double usual_variance(std::vector<WeighedSquare> squares) {
+double typical_variance(std::vector<WeighedSquare> squares) {
   constexpr double median_of_normal = 0.4549364231195724;
   std::ranges::sort(squares, {}, &WeighedSquare::square);
   double below = 0;

@@ -33,7 +33,7 @@ struct WeighedSquare {
 
 /// Variance of normal variables of mean 0 that a few of another kind are mixed with: the weighted median of their
 /// squares over that of a chi-square variable of one degree of freedom. Requirement: one at least, weights > 0.
-double usual_variance(std::vector<WeighedSquare> squares);
+double typical_variance(std::vector<WeighedSquare> squares);
 
 /// Ends of an interval for a probability.
 struct ProbabilityInterval {

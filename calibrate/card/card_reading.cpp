@@ -141,7 +141,7 @@ void read_parameters(ObjectReader& material, std::vector<Parameter>& parameters)
   for (const auto& kind : parameter_kinds()) {
     Parameter parameter;
     parameter.name = kind.name;
-    parameter.value = kind.usual;
+    parameter.value = kind.default_value;
     parameter.scale = kind.scale;
     parameters.push_back(parameter);
   }

@@ -26,7 +26,7 @@ Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vect
 }
 
 /// Of the fitted readings the largest difference from the laboratory and the largest standard error, each over its
-/// tolerance, as in the search (`Response::miss`, `Response::noise`).
+/// tolerance, as in the search (`Response::normalised_error`, `Response::noise`).
 struct Misfit {
   double difference = 0, noise = 0;
 };

@@ -104,7 +104,7 @@ int run_calibrate(const CalibrateArguments& options) {
   print_remarks(study, store.value(), file, options.threads);
   ProgressLine line(work_ahead(study), misfit_unit_of(study));
   LivePage page(options.out);
-  Looks looks;
+  RunRecordings looks;
   const auto show = [&](const Progress& progress) {
     line.show(progress);
     if (progress.phase != "examination") page.show(study, store.value());

@@ -8,7 +8,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
-#include "calibrate/inference/words.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/summary.h"
@@ -38,13 +38,13 @@ std::vector<std::string> calibration_files(const Study& study) {
   return with_store(std::move(files));
 }
 
-int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& stop, Looks& seen) const {
+int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const {
   return result.card ? deliver_card(*result.card, result.inference, stop, seen) : say_why_not(result);
 }
 
 int Delivery::deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
-                           Looks& seen) const {
-  const auto summary = summary_of(card, inference ? words_of(*inference) : "");
+                           RunRecordings& seen) const {
+  const auto summary = summary_of(card, inference ? describe(*inference) : "");
   auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
   if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
   print("%s", json ? json_text(to_json(card)).c_str() : summary.c_str());

@@ -24,11 +24,11 @@ struct Delivery {
   bool json = false;  ///< print the card instead of the summary
 
   /// The program's exit status: only a confirmed material is what was asked for.
-  int deliver(const CalibrationResult& result, const std::atomic<bool>& stop, Looks& seen) const;
+  int deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const;
 
  private:
   int deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
-                   Looks& seen) const;
+                   RunRecordings& seen) const;
   int say_why_not(const CalibrationResult& result) const;
 };
 

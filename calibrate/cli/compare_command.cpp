@@ -56,10 +56,10 @@ std::string trials_csv(const std::vector<StrategyTrial>& trials, const MisfitUni
 std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
   std::string out = std::string("strategy,seed,simulations,misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
-    for (std::size_t i = 0; i < trial.miss.size(); ++i)
-      if (trial.miss[i] >= 0 && (i == 0 || trial.miss[i] != trial.miss[i - 1]))
+    for (std::size_t i = 0; i < trial.normalised_error.size(); ++i)
+      if (trial.normalised_error[i] >= 0 && (i == 0 || trial.normalised_error[i] != trial.normalised_error[i - 1]))
         out += format("%s,%llu,%zu,%.4g\n", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed), i + 1,
-                      unit.of(trial.miss[i]));
+                      unit.of(trial.normalised_error[i]));
   return out;
 }
 

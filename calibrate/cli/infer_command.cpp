@@ -9,8 +9,8 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
-#include "calibrate/inference/words.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/search/record.h"
 #include "calibrate/store/program.h"
@@ -81,10 +81,10 @@ int infer_again(const InferOptions& options) {
 
   InferenceOptions inference_options;
   inference_options.seed = card.search.seed;
-  Inference inference = pastefit::infer(evidence_of(study.value(), record), recommended, inference_options);
+  Inference inference = pastefit::infer(training_data_of(study.value(), record), recommended, inference_options);
   inference.recommended_because = reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
   card.inference = card_inference(inference);
-  std::string findings = words_of(inference);
+  std::string findings = describe(inference);
   if (simulated_by != program_identity()) {
     findings += "Simulated by " + simulated_by + "; inferred by " + program_identity() + ", without simulating.\n";
     card.inference.method += ", by " + program_identity();

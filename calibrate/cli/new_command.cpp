@@ -32,14 +32,14 @@ struct NewOptions {
 
 /// What a person answers to a question on the terminal, asked again until `faults_of` finds nothing. Nothing at the end
 /// of the input.
-std::optional<std::string> answer_to(const std::string& question, const std::string& usual,
+std::optional<std::string> answer_to(const std::string& question, const std::string& suggestion,
                                      const std::function<Faults(const std::string&)>& faults_of) {
   while (true) {
-    print("%s%s: ", question.c_str(), usual.empty() ? "" : (" [" + usual + "]").c_str());
+    print("%s%s: ", question.c_str(), suggestion.empty() ? "" : (" [" + suggestion + "]").c_str());
     std::fflush(stdout);
     std::string answer;
     if (!std::getline(std::cin, answer)) return std::nullopt;
-    if (answer.empty()) answer = usual;
+    if (answer.empty()) answer = suggestion;
     const Faults faults = faults_of(answer);
     if (faults.empty()) return answer;
     for (const Fault& fault : faults) print("  %s; %s\n", fault.what.c_str(), fault.remedy.c_str());
@@ -71,10 +71,10 @@ bool ask_readings(Sheet& sheet, bool plate) {
 
 /// Asks for what the options do not say. False at the end of the input.
 bool ask_sheet(Sheet& sheet, const fs::path& folder) {
-  const auto ask = [](std::string& target, const std::string& question, const std::string& usual,
+  const auto ask = [](std::string& target, const std::string& question, const std::string& suggestion,
                       const auto& faults_of) {
     if (!target.empty()) return true;
-    const auto answer = answer_to(question, usual, faults_of);
+    const auto answer = answer_to(question, suggestion, faults_of);
     if (answer) target = *answer;
     return answer.has_value();
   };

@@ -17,7 +17,7 @@ inline const std::string kPage = "report.html";
 struct LookOptions {
   int threads = 0;
   bool simulate = true;  ///< what was neither seen nor kept
-  Looks* seen = nullptr;
+  RunRecordings* seen = nullptr;
 };
 
 /// Shows the card's tests on the packings that confirmed it, the first sixteen at most: as they were seen, or as the

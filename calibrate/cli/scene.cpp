@@ -172,7 +172,7 @@ std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, F
 std::vector<std::string> notes_of(const Lab& lab) {
   std::vector<std::string> notes = lab.notes;
   if (!lab.note.empty()) notes.insert(notes.begin(), lab.note);
-  for (std::string& note : doubts_about(lab.test, lab.measurements).notes) notes.push_back(std::move(note));
+  for (std::string& note : check_readings(lab.test, lab.measurements).notes) notes.push_back(std::move(note));
   return notes;
 }
 
@@ -247,12 +247,12 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
     const auto lab = read_with(document, settings, file, faults,
                                [&](const json& content) { return lab_from_json(content, file.parent_path()); });
     if (lab.ok())
-      return FoundScene{with_parameters(lab.value().test, usual_values(), settings, faults), notes_of(lab.value())};
+      return FoundScene{with_parameters(lab.value().test, default_values(), settings, faults), notes_of(lab.value())};
     return std::nullopt;
   }
   if (format == "pastefit-rig-1") {
     const auto rig = read_with(document, settings, file, faults, rig_from_json);
-    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, usual_values(), settings, faults), {}};
+    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, default_values(), settings, faults), {}};
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),

@@ -5,7 +5,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/understood.h"
-#include "calibrate/inference/words.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
@@ -46,7 +46,7 @@ std::string notes_on_readings(const Study& study) {
   for (const StudyTest& test : study.tests) {
     if (!test.lab.note.empty()) out += test.lab_file + ": " + test.lab.note + ".\n";
     for (const std::string& note : test.lab.notes) out += test.lab_file + ": " + note + ".\n";
-    for (const std::string& note : doubts_about(test.lab.test, test.lab.measurements).notes)
+    for (const std::string& note : check_readings(test.lab.test, test.lab.measurements).notes)
       out += test.lab_file + ": " + note + ".\n";
   }
   return out;

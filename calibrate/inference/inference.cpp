@@ -41,7 +41,7 @@ double deviation_before(const Parameter& parameter) {
   return std::sqrt(std::max(square / sum - mean * mean / sum / sum, 1e-12));
 }
 
-Eigen::VectorXd deviations_before(const Evidence& evidence) {
+Eigen::VectorXd deviations_before(const TrainingData& evidence) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(evidence.parameters.size()));
   for (std::size_t j = 0; j < evidence.parameters.size(); ++j)
     out[static_cast<Eigen::Index>(j)] = deviation_before(evidence.parameters[j]);
@@ -128,7 +128,7 @@ double width_of(const Parameter& parameter, double step) {
 
 std::vector<Combination> combinations_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                          const UnitPoint& at) {
-  const Evidence& evidence = model.evidence();
+  const TrainingData& evidence = model.training_data();
   const Eigen::VectorXd before = deviations_before(evidence);
   // The symmetric root: each row stays the one of its reading, as far as the readings are told apart.
   const Eigen::MatrixXd in_deviations =
@@ -184,7 +184,7 @@ void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& po
 /// The half of the points that misses the laboratory least.
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points) {
   std::vector<std::pair<double, std::size_t>> by_miss;
-  for (std::size_t i = 0; i < points.size(); ++i) by_miss.emplace_back(model.miss(points[i]), i);
+  for (std::size_t i = 0; i < points.size(); ++i) by_miss.emplace_back(model.normalised_error(points[i]), i);
   std::ranges::sort(by_miss);
   std::vector<UnitPoint> half;
   for (std::size_t i = 0; i < (points.size() + 1) / 2; ++i) half.push_back(points[by_miss[i].second]);
@@ -196,14 +196,14 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                           const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
                                           int count) {
-  const Evidence& evidence = model.evidence();
+  const TrainingData& evidence = model.training_data();
   const auto error = [&](std::size_t k, const UnitPoint& point) {
     const ReadingEvidence& reading = evidence.readings[k];
     return std::abs(model.predict(k, point).mean - *reading.measured) / reading.deviation;
   };
-  const double as_well = std::max(1.0, model.miss(recommended));  // priors included
+  const double as_well = std::max(1.0, model.normalised_error(recommended));  // priors included
   const auto fits = [&](const UnitPoint& point) {
-    return model.miss(point) <= as_well && std::ranges::all_of(fitted, [&](std::size_t k) {
+    return model.normalised_error(point) <= as_well && std::ranges::all_of(fitted, [&](std::size_t k) {
              return error(k, point) <= std::max(1.0, error(k, recommended));
            });
   };
@@ -223,7 +223,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
       member.values.push_back(value_between(evidence.parameters[static_cast<std::size_t>(j)], point[j]));
     for (const std::size_t k : fitted) member.readings.push_back(model.predict(k, point).mean);
     member.simulated = std::ranges::find(evidence.points, point) != evidence.points.end();
-    member.miss = model.miss(point);
+    member.normalised_error = model.normalised_error(point);
     family.push_back(std::move(member));
   }
   return family;
@@ -231,7 +231,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
 
 std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const InferenceOptions& options) {
   return posterior_sample([&](const UnitPoint& point) { return model.log_posterior(point); },
-                          static_cast<int>(model.evidence().parameters.size()), options.sample, options.seed);
+                          static_cast<int>(model.training_data().parameters.size()), options.sample, options.seed);
 }
 
 struct Moments {
@@ -260,7 +260,7 @@ bool measurable(const std::string& name) {
 
 /// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.
 bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recommended) {
-  const ReadingEvidence& evidence = model.evidence().readings[reading];
+  const ReadingEvidence& evidence = model.training_data().readings[reading];
   if (!evidence.measured) return true;
   const auto prediction = model.predict(reading, recommended);
   return std::abs(prediction.mean - *evidence.measured) <=
@@ -271,22 +271,22 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
 /// standard deviation, to first order in the sample: 1 - cov(x, m)^2/(var x
 /// (var m + error)), m the mean reading of a member.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
-                        const Moments& moments, std::size_t lead, int repeats, double usual_deviation) {
-  const ReadingEvidence& evidence = model.evidence().readings[reading];
+                        const Moments& moments, std::size_t lead, int repeats, double typical_deviation) {
+  const ReadingEvidence& evidence = model.training_data().readings[reading];
   MeasurementGain gain;
   gain.reading = evidence.name;
   gain.measurements = repeats;
-  gain.deviation = evidence.measured ? evidence.deviation : usual_deviation;
+  gain.deviation = evidence.measured ? evidence.deviation : typical_deviation;
   const auto count = static_cast<double>(sample.size());
   Eigen::VectorXd means(static_cast<Eigen::Index>(sample.size()));
-  double doubt = 0;
+  double predictive_variance = 0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const auto prediction = model.predict(reading, sample[i]);
     means[static_cast<Eigen::Index>(i)] = prediction.mean;
-    doubt += prediction.variance / count;
+    predictive_variance += prediction.variance / count;
   }
   const Eigen::VectorXd deviations = means.array() - means.mean();
-  const double error = gain.deviation * gain.deviation / repeats + doubt;
+  const double error = gain.deviation * gain.deviation / repeats + predictive_variance;
   const double variance = deviations.squaredNorm() / (count - 1);
   for (Eigen::Index j = 0; j < moments.mean.size(); ++j) {
     double covariance = 0;
@@ -297,13 +297,13 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
     if (static_cast<std::size_t>(j) == lead) gain.lead_narrowing = left;
     if (left >= gain.narrowing) continue;
     gain.narrowing = left;
-    gain.parameter = model.evidence().parameters[static_cast<std::size_t>(j)].name;
+    gain.parameter = model.training_data().parameters[static_cast<std::size_t>(j)].name;
   }
   return gain;
 }
 
 /// Slopes at one point promise too much where the valley bends; the sample's own width along the combination counts.
-void heed_sample(Combination& combination, const Evidence& evidence, const Moments& moments) {
+void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments) {
   const auto size = static_cast<Eigen::Index>(combination.direction.size());
   const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(combination.direction.data(), size);
   const Eigen::VectorXd before = deviations_before(evidence);
@@ -318,7 +318,7 @@ void heed_sample(Combination& combination, const Evidence& evidence, const Momen
 
 }  // namespace
 
-std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const UnitPoint& recommended, int count,
+std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options) {
   const ResponseModel model(evidence);
   std::vector<UnitPoint> chosen{recommended};
@@ -327,7 +327,7 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
   return chosen;
 }
 
-Inference infer(const Evidence& evidence, const UnitPoint& recommended, const InferenceOptions& options) {
+Inference infer(const TrainingData& evidence, const UnitPoint& recommended, const InferenceOptions& options) {
   const ResponseModel model(evidence);
   const std::vector<std::size_t>& fitted = model.fitted();
   if (fitted.empty()) throw std::logic_error("infer: no reading is fitted");
@@ -337,11 +337,11 @@ Inference infer(const Evidence& evidence, const UnitPoint& recommended, const In
 
   Inference out;
   out.simulations = static_cast<int>(evidence.points.size() + evidence.failed.size());
-  double usual_deviation = std::numeric_limits<double>::infinity();
+  double typical_deviation = std::numeric_limits<double>::infinity();
   for (const std::size_t k : fitted) {
     out.fitted.push_back(evidence.readings[k].name);
     out.noise.push_back(model.noise(k, recommended));
-    usual_deviation = std::min(usual_deviation, evidence.readings[k].deviation);
+    typical_deviation = std::min(typical_deviation, evidence.readings[k].deviation);
   }
   out.combinations = combinations_of(model, fitted, recommended);
 
@@ -389,7 +389,7 @@ Inference infer(const Evidence& evidence, const UnitPoint& recommended, const In
   for (std::size_t k = 0; k < evidence.readings.size(); ++k)
     if (measurable(evidence.readings[k].name) && met(model, k, recommended))
       out.gains.push_back(
-          gain_of(model, k, sample, moments, out.combinations.front().lead, options.repeats, usual_deviation));
+          gain_of(model, k, sample, moments, out.combinations.front().lead, options.repeats, typical_deviation));
   std::ranges::stable_sort(out.gains, {}, &MeasurementGain::narrowing);
   return out;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/inference/evidence.h"
+#include "calibrate/inference/training_data.h"
 
 namespace pastefit {
 
@@ -49,7 +49,7 @@ struct EquivalentMaterial {
   std::vector<double> values;    ///< of the free parameters
   std::vector<double> readings;  ///< predicted, in the order of `Inference::fitted`
   bool simulated = false;        ///< else predicted from its neighbours
-  double miss = 0;               ///< root of the sum of squares, each in standard deviations of one measurement
+  double normalised_error = 0;   ///< root of the sum of squares, each in standard deviations of one measurement
 };
 
 /// What further measurements would bring.
@@ -88,7 +88,7 @@ struct InferenceOptions {
 
 /// Candidates whose simulation would tell most: drawn from those that may meet the laboratory, as far from each other
 /// and from `recommended` as can be. Shape: `count` points, fewer if the evidence leaves no choice.
-std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const UnitPoint& recommended, int count,
+std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options = {});
 
 /// What the evidence says about the parameters of a study, without further
@@ -97,6 +97,6 @@ std::vector<UnitPoint> candidates_to_examine(const Evidence& evidence, const Uni
 /// one. Limits: the law itself is taken as right, and so is its grain size;
 /// what both are off is in none of the intervals. Requirements: some simulation
 /// ended well, `recommended` lies in the unit cube, some reading is fitted.
-Inference infer(const Evidence& evidence, const UnitPoint& recommended, const InferenceOptions& options = {});
+Inference infer(const TrainingData& evidence, const UnitPoint& recommended, const InferenceOptions& options = {});
 
 }  // namespace pastefit

@@ -103,8 +103,8 @@ class Population {
     Eigen::MatrixXd covariance = 1e-10 * Eigen::MatrixXd::Identity(dimension, dimension);
     for (const UnitPoint& member : members_)
       covariance += (member - mean) * (member - mean).transpose() / static_cast<double>(members_.size());
-    const double usual = 2.38 / std::sqrt(static_cast<double>(dimension));  // Roberts, Gelman & Gilks 1997
-    const Eigen::MatrixXd spread = usual * Eigen::MatrixXd(covariance.llt().matrixL());
+    const double scale = 2.38 / std::sqrt(static_cast<double>(dimension));  // Roberts, Gelman & Gilks 1997
+    const Eigen::MatrixXd spread = scale * Eigen::MatrixXd(covariance.llt().matrixL());
     for (int step = 0; step < walk_steps; ++step) {
       const double width = step % 2 == 0 ? 1 : 0.3;  // a bent valley is left by wide steps
       for (std::size_t i = 0; i < members_.size(); ++i) {

@@ -16,7 +16,7 @@ constexpr double least_survival = 1e-3;  // a model of failures is too rough to 
 constexpr double doubted_heaps = 3;      // worth of no correlation, beside what the heaps show
 
 /// Sum of squares, each in standard deviations of the prior.
-double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
+double distance_from_priors(const TrainingData& evidence, const UnitPoint& point) {
   double squares = 0;
   for (std::size_t j = 0; j < evidence.parameters.size(); ++j) {
     if (!evidence.parameters[j].prior) continue;
@@ -28,7 +28,7 @@ double distance_from_priors(const Evidence& evidence, const UnitPoint& point) {
 
 }  // namespace
 
-ResponseModel::ResponseModel(Evidence evidence) : evidence_(std::move(evidence)) {
+ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(evidence)) {
   if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
   const auto [places, sites] = sites_of(evidence_.points);
   for (std::size_t k = 0; k < evidence_.readings.size(); ++k) {
@@ -147,7 +147,7 @@ std::vector<ReadingModel::Prediction> ResponseModel::predictions(const UnitPoint
 
 Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
   const auto known = predictions(point);
-  return errors_of_laboratory(known) + doubt(known);
+  return errors_of_laboratory(known) + predictive_variance(known);
 }
 
 Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const {
@@ -170,7 +170,7 @@ Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingMod
   return out;
 }
 
-Eigen::MatrixXd ResponseModel::doubt(const std::vector<ReadingModel::Prediction>& predictions) const {
+Eigen::MatrixXd ResponseModel::predictive_variance(const std::vector<ReadingModel::Prediction>& predictions) const {
   const auto count = static_cast<Eigen::Index>(fitted_.size());
   Eigen::MatrixXd out(count, count);
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
@@ -186,7 +186,7 @@ Eigen::MatrixXd ResponseModel::doubt(const std::vector<ReadingModel::Prediction>
   return out;
 }
 
-double ResponseModel::miss(const UnitPoint& point) const {
+double ResponseModel::normalised_error(const UnitPoint& point) const {
   double squares = 0;
   for (const std::size_t k : fitted_) {
     const ReadingEvidence& reading = evidence_.readings[k];
@@ -205,7 +205,7 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
   for (std::size_t k = 0; k < known.size(); ++k)
     differences[static_cast<Eigen::Index>(k)] = known[k].mean - *evidence_.readings[fitted_[k]].measured;
   const Eigen::MatrixXd laboratory = errors_of_laboratory(known);
-  const Eigen::LLT<Eigen::MatrixXd> of_laboratory(laboratory), of_both(laboratory + doubt(known));
+  const Eigen::LLT<Eigen::MatrixXd> of_laboratory(laboratory), of_both(laboratory + predictive_variance(known));
   const auto half_log_determinant = [](const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
     return Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
   };

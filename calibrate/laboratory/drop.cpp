@@ -127,7 +127,7 @@ nlohmann::json to_json(const DropTest& test) {
   return document;
 }
 
-DropTest usual_test(const DropTest&) {
+DropTest default_test(const DropTest&) {
   DropTest test;
   test.plate_tilt_rad = 0.5;
   return test;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
-#include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/drop_test/drop_test.h"
 
 namespace pastefit {
@@ -31,7 +31,7 @@ void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&);
 
 nlohmann::json to_json(const DropTest& test);
-DropTest usual_test(const DropTest&);
+DropTest default_test(const DropTest&);
 void read_test(ObjectReader& reader, DropTest& test);
 
 Templates templates_of(const DropTest& test);

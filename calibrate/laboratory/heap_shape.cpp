@@ -33,12 +33,12 @@ struct Heap {
   const Measurement& width;
 };
 
-double psi_of(const SlumpTest& test, const Heap& heap) {
+double share_of_cone_width(const SlumpTest& test, const Heap& heap) {
   return heap.width.value / cone_width_mm(test, heap.height.value);
 }
 
-double deviation_of_psi(const SlumpTest& test, const Heap& heap) {
-  return psi_of(test, heap) *
+double deviation_of_share(const SlumpTest& test, const Heap& heap) {
+  return share_of_cone_width(test, heap) *
          std::hypot(error_of(heap.width) / heap.width.value, 0.5 * error_of(heap.height) / heap.height.value);
 }
 
@@ -51,7 +51,8 @@ double nearest_cone_mm(const SlumpTest& test, const Heap& heap) {
     return (at_mm - height.value) / std::pow(error_of(height), 2) >
            (cone_mm - width.value) * cone_mm / (2 * at_mm) / std::pow(error_of(width), 2);
   };
-  double low = height.value / std::pow(psi_of(test, heap), 2), high = height.value;  // there one reading is met
+  double low = height.value / std::pow(share_of_cone_width(test, heap), 2),
+         high = height.value;  // there one reading is met
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
     (rises(middle) ? high : low) = middle;
@@ -69,10 +70,10 @@ double narrowest_mm(const SlumpTest& test, double height_mm) {
 std::string slips_of(const SlumpTest& test, const Heap& heap) {
   constexpr double widest = 1.15;  // over a cone: skirts
   const double mould_mm = 1e3 * test.mould.height_m, other_mm = mould_mm - heap.height.value;
-  const double psi = psi_of(test, heap);
-  const auto is_heap = [](double share) { return share >= pancake && share <= widest; };
+  const double share = share_of_cone_width(test, heap);
+  const auto is_heap = [](double one) { return one >= pancake && one <= widest; };
   std::string out;
-  if (is_heap(2 * psi))
+  if (is_heap(2 * share))
     out += format("; if %.4g mm is a radius, the width is %.4g mm", heap.width.value, 2 * heap.width.value);
   if (other_mm > 0 && is_heap(heap.width.value / cone_width_mm(test, other_mm)))
     out += format("; if %.4g mm is a slump, the height is %.4g mm", heap.height.value, other_mm);
@@ -80,22 +81,22 @@ std::string slips_of(const SlumpTest& test, const Heap& heap) {
 }
 
 std::string in_words(const SlumpTest& test, const Heap& heap) {
-  const double psi = psi_of(test, heap), deviation = deviation_of_psi(test, heap);
+  const double share = share_of_cone_width(test, heap), deviation = deviation_of_share(test, heap);
   const std::string size = format("%.4g mm high and %.4g mm wide (%.2f +- %.2f of a cone's width)", heap.height.value,
-                                  heap.width.value, psi, deviation);
-  if (psi > 1 + explained * deviation) {
+                                  heap.width.value, share, deviation);
+  if (share > 1 + explained * deviation) {
     const double height_mm = nearest_cone_mm(test, heap);
     return "no convex heap of this volume is " + size +
            ": check the readings, or the heap has a peak on a skirt; a cone, the nearest that can be, is " +
            format("%.4g mm high and %.4g mm wide", height_mm, cone_width_mm(test, height_mm));
   }
-  if (psi < pancake)
+  if (share < pancake)
     return "check the readings: no heap of this volume is " + size +
            format("; the narrowest, a flat cylinder, is %.4g mm wide", narrowest_mm(test, heap.height.value)) +
            slips_of(test, heap);
-  if (psi > 1) return "a heap of this volume " + size + " is wider than a cone, by no more than the readings' noise";
+  if (share > 1) return "a heap of this volume " + size + " is wider than a cone, by no more than the readings' noise";
   return "a heap of this volume " + size + " is " +
-         (psi < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
+         (share < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
 }
 
 Fault missing_volume(const SlumpTest& test, const Heap& heap) {
@@ -127,22 +128,22 @@ std::string small_slump(const SlumpTest& test, const Measurement& height) {
 
 }  // namespace
 
-Doubts doubts_about(const SlumpTest& test, std::span<const Measurement> measurements) {
-  Doubts doubts;
+ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> measurements) {
+  ReadingCheck check;
   for (const std::string step : {"step1.", "step2."}) {
     const Measurement* height =
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
     const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
     if (height)
-      if (std::string note = small_slump(test, *height); !note.empty()) doubts.notes.push_back(std::move(note));
+      if (std::string note = small_slump(test, *height); !note.empty()) check.notes.push_back(std::move(note));
     if (!height || !width || height->value <= 0) continue;
     const Heap heap{*height, *width};
-    if (psi_of(test, heap) < pancake - sure * deviation_of_psi(test, heap))
-      doubts.faults.push_back(missing_volume(test, heap));
+    if (share_of_cone_width(test, heap) < pancake - sure * deviation_of_share(test, heap))
+      check.faults.push_back(missing_volume(test, heap));
     else
-      doubts.notes.push_back((step == "step2." ? "after the drop, " : "") + in_words(test, heap));
+      check.notes.push_back((step == "step2." ? "after the drop, " : "") + in_words(test, heap));
   }
-  return doubts;
+  return check;
 }
 
 }  // namespace pastefit

@@ -16,7 +16,7 @@ struct Measurement {
 };
 
 /// What a kind of test has to say of its readings, taken together.
-struct Doubts {
+struct ReadingCheck {
   std::vector<std::string> notes;  ///< what a person should know of them: a sentence each, without a full stop
   Faults faults;                   ///< readings that contradict each other, or the apparatus, beyond all noise
 };

@@ -16,13 +16,13 @@ inline constexpr std::array<Named<SizeDistribution>, 3> size_distributions{
 
 /// Laws bring their words with them.
 template <class... Laws>
-constexpr auto words_of(TypeList<Laws...>) {
+constexpr auto describe(TypeList<Laws...>) {
   return std::array{Named<std::remove_const_t<decltype(Laws::choice)>>{Laws::word, Laws::choice}...};
 }
 
-inline constexpr auto normal_laws = words_of(NormalLaws{});
-inline constexpr auto bridge_shapes = words_of(Attractions{});
-inline constexpr auto rolling_models = words_of(RollingLaws{});
+inline constexpr auto normal_laws = describe(NormalLaws{});
+inline constexpr auto bridge_shapes = describe(Attractions{});
+inline constexpr auto rolling_models = describe(RollingLaws{});
 
 inline constexpr std::array<Named<BridgeFormation>, 2> bridge_formations{
     {{"film", BridgeFormation::film}, {"touch", BridgeFormation::touch}}};

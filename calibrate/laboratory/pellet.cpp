@@ -137,7 +137,7 @@ nlohmann::json to_json(const PelletCrush& test) {
   return document;
 }
 
-PelletCrush usual_test(const PelletCrush&) {
+PelletCrush default_test(const PelletCrush&) {
   return {};
 }
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/granule_test.h"
-#include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/pellet_crush/pellet_crush.h"
 
 namespace pastefit {
@@ -29,7 +29,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 double moved_time_s(const PelletCrush& test);
 
 nlohmann::json to_json(const PelletCrush& test);
-PelletCrush usual_test(const PelletCrush&);
+PelletCrush default_test(const PelletCrush&);
 void read_test(ObjectReader& reader, PelletCrush& test);
 
 Templates templates_of(const PelletCrush& test);

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/granule_test.h"
-#include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/shear_cell/shear_cell.h"
 
 namespace pastefit {
@@ -29,7 +29,7 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
 double moved_time_s(const ShearCell& test);
 
 nlohmann::json to_json(const ShearCell& test);
-ShearCell usual_test(const ShearCell&);
+ShearCell default_test(const ShearCell&);
 void read_test(ObjectReader& reader, ShearCell& test);
 
 Templates templates_of(const ShearCell& test);

@@ -139,7 +139,7 @@ nlohmann::json to_json(const SlumpTest& test) {
   return document;
 }
 
-SlumpTest usual_test(const SlumpTest&) {
+SlumpTest default_test(const SlumpTest&) {
   SlumpTest test;
   test.drop.emplace();
   return test;
@@ -173,7 +173,7 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& mome
   return NamedOutline{first ? "step1" : "step2", outline(on_table(moment.world->particles), test.grains.radius_m)};
 }
 
-double usual_tolerance(const SlumpTest& test, const Measurement& measured) {
+double default_tolerance(const SlumpTest& test, const Measurement& measured) {
   if (measured.observable == "step1.lateral_shift_mm") return mm * kShearedShift * wider_radius_m(test.mould);
   const bool length = measured.observable.ends_with("_mm");
   return length ? std::max(measured.standard_deviation, 0.5 * mm * test.grains.radius_m) : measured.standard_deviation;

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
-#include "calibrate/laboratory/usual_answers.h"
 #include "core/rigs/slump/packing.h"
 #include "core/rigs/slump/slump_readings.h"
 #include "core/rigs/slump/slump_test.h"
@@ -47,8 +47,8 @@ double moved_time_s(const SlumpTest& test);
 
 /// Complete and in SI, the unit in each key.
 nlohmann::json to_json(const SlumpTest& test);
-/// A test that has every part, with usual values.
-SlumpTest usual_test(const SlumpTest&);
+/// A test that has every part, with default values.
+SlumpTest default_test(const SlumpTest&);
 /// Reads what `to_json` writes; every key must be there. Faults of form only.
 void read_test(ObjectReader& reader, SlumpTest& test);
 
@@ -73,7 +73,7 @@ std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun>
 
 /// One standard deviation of the laboratory, but half a grain's radius at least: heaps of grains have no finer surface.
 /// Of the shift of the top where a heap has sheared off.
-double usual_tolerance(const SlumpTest& test, const Measurement& measured);
+double default_tolerance(const SlumpTest& test, const Measurement& measured);
 
 /// Friction shapes the width of a heap; its height alone cannot tell friction from strength.
 std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> readings,

@@ -42,9 +42,9 @@ void describe_contact(Fields& fields, Model& contact) {
   fields.number("rolling_friction", contact.rolling_friction, any_number, required);
   fields.choice("rolling", contact.rolling, rolling_models, required);
   fields.choice("friction_basis", contact.friction_basis, friction_bases, required);
-  fields.choice("normal", contact.normal, normal_laws, Usual{NormalLaw::hertz});
-  fields.number("surface_energy_j_m2", contact.surface_energy_j_m2, any_number, Usual{0.0});
-  fields.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, any_number, Usual{0.0});
+  fields.choice("normal", contact.normal, normal_laws, Default{NormalLaw::hertz});
+  fields.number("surface_energy_j_m2", contact.surface_energy_j_m2, any_number, Default{0.0});
+  fields.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, any_number, Default{0.0});
   fields.nullable_number("cohesion_n", contact.cohesion_n, any_number, required);
   fields.object("bridge", required, [&](auto& inner) { describe_bridge(inner, contact.bridge); });
 }

@@ -18,11 +18,11 @@ constexpr bool are_laboratory_tests(const std::variant<Kinds...>*) {
 }
 static_assert(are_laboratory_tests(static_cast<const Test*>(nullptr)), "a kind of test lacks something");
 
-/// Calls `look(Kind{})` for every kind until one returns true.
-template <class Look>
-void each_kind(const Look& look) {
+/// Calls `visit(Kind{})` for every kind until one returns true.
+template <class Visitor>
+void each_kind(const Visitor& visit) {
   const auto all = [&]<std::size_t... row>(std::index_sequence<row...>) {
-    (void)(look(std::variant_alternative_t<row, Test>{}) || ...);
+    (void)(visit(std::variant_alternative_t<row, Test>{}) || ...);
   };
   all(std::make_index_sequence<std::variant_size_v<Test>>{});
 }
@@ -157,12 +157,12 @@ std::string remarks_on(const Test& test, std::span<const Observables> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }
 
-Doubts doubts_about(const Test& test, std::span<const Measurement> measurements) {
-  return std::visit([&](const auto& one) { return doubts_about(one, measurements); }, test);
+ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements) {
+  return std::visit([&](const auto& one) { return check_readings(one, measurements); }, test);
 }
 
-double usual_tolerance(const Test& test, const Measurement& measured) {
-  return std::visit([&](const auto& one) { return usual_tolerance(one, measured); }, test);
+double default_tolerance(const Test& test, const Measurement& measured) {
+  return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }
 
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
@@ -260,7 +260,7 @@ std::optional<std::string> template_text(std::string_view wanted) {
 std::vector<ReadingKind> all_reading_kinds() {
   std::vector<ReadingKind> all;
   each_kind([&](const auto& kind) {
-    const auto own = reading_kinds(usual_test(kind));
+    const auto own = reading_kinds(default_test(kind));
     all.insert(all.end(), own.begin(), own.end());
     return false;
   });
@@ -290,12 +290,12 @@ Result<Test> test_from_json(const json& document) {
   return *test;
 }
 
-json differing_part(const json& value, const json& usual) {
-  if (!value.is_object() || !usual.is_object()) return value;
+json differing_part(const json& value, const json& by_default) {
+  if (!value.is_object() || !by_default.is_object()) return value;
   json part = json::object();
   for (const auto& [key, member] : value.items()) {
-    const auto known = usual.find(key);
-    if (known == usual.end())
+    const auto known = by_default.find(key);
+    if (known == by_default.end())
       part[key] = member;
     else if (member != *known)
       part[key] = differing_part(member, *known);
@@ -304,8 +304,8 @@ json differing_part(const json& value, const json& usual) {
 }
 
 json identity_of(const Test& test) {
-  const auto usual = std::visit([](const auto& one) { return to_json(usual_test(one)); }, test);
-  return {kind_of(test), differing_part(std::visit([](const auto& one) { return to_json(one); }, test), usual)};
+  const auto by_default = std::visit([](const auto& one) { return to_json(default_test(one)); }, test);
+  return {kind_of(test), differing_part(std::visit([](const auto& one) { return to_json(one); }, test), by_default)};
 }
 
 }  // namespace pastefit

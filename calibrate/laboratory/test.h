@@ -21,7 +21,7 @@ namespace pastefit {
 
 /// A laboratory test of any kind. To add a kind: a folder in core/rigs with the apparatus as a value that begins with a
 /// `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what each
-/// does, calibrate/laboratory/usual_answers.h what a kind need not say), and its row in this list.
+/// does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
 using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
 template <class T>
@@ -43,7 +43,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   {read_outline(reader, reading, test)};
   {places_in_files(given).size()};
   { to_json(given) } -> std::same_as<nlohmann::json>;
-  { usual_test(given) } -> std::same_as<T>;
+  { default_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
   { templates_of(given) } -> std::same_as<Templates>;
   { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
@@ -57,10 +57,10 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { conditions_in_words(given) } -> std::same_as<std::string>;
   { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
-  { doubts_about(given, measurements) } -> std::same_as<Doubts>;
+  { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
   { unseen_by(given, names, names) } -> std::same_as<std::string>;
   { experience_of(given) } -> std::same_as<std::vector<Experience>>;
-  { usual_tolerance(given, Measurement{}) } -> std::same_as<double>;
+  { default_tolerance(given, Measurement{}) } -> std::same_as<double>;
 };
 
 Specimen& specimen_of(Test& test);
@@ -91,11 +91,11 @@ std::optional<bool> is_rejected(const Test& test, const Observables& run);
 /// The runs of a test that a laboratory would accept (`accepted.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
-Doubts doubts_about(const Test& test, std::span<const Measurement> measurements);
+ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);
-double usual_tolerance(const Test& test, const Measurement& measured);
+double default_tolerance(const Test& test, const Measurement& measured);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);
@@ -106,7 +106,7 @@ Faults validate_in_file_words(const Test& test);
 /// The words of all kinds, in the order of `Test`.
 std::vector<std::string_view> kinds_of_tests();
 
-/// A test of this kind with usual values; nothing if there is no such kind.
+/// A test of this kind with default values; nothing if there is no such kind.
 std::optional<Test> test_of_kind(std::string_view kind);
 
 /// The fault of a word that no kind has.
@@ -118,7 +118,7 @@ std::vector<std::string> template_names();
 /// A commented starting file, fit to be read as it is. Nothing if there is none of that name.
 std::optional<std::string> template_text(std::string_view name);
 
-/// The readings of all kinds of tests, with the values of usual ones.
+/// The readings of all kinds of tests, with the default values.
 std::vector<ReadingKind> all_reading_kinds();
 
 /// The test as JSON, complete and in SI, the unit in each key: the canonical form for cards and stored evaluations.
@@ -130,12 +130,12 @@ nlohmann::json to_json(const Test& test);
 /// Errors: every fault of form, or else every fault that `validate` finds; places are paths in the JSON.
 Result<Test> test_from_json(const nlohmann::json& document);
 
-/// The part of a JSON value that differs from the usual one: of an object its members that do, each likewise; whole
-/// lists and numbers. Two values with the same part of the same usual value are the same.
-nlohmann::json differing_part(const nlohmann::json& value, const nlohmann::json& usual);
+/// The part of a JSON value that differs from the default one: of an object its members that do, each likewise; whole
+/// lists and numbers. Two values with the same part of the same default value are the same.
+nlohmann::json differing_part(const nlohmann::json& value, const nlohmann::json& by_default);
 
-/// What tells the test from others: its kind, and the part of its JSON that differs from that of a usual one. A field
-/// that is added with its usual value gives it no other name.
+/// What tells the test from others: its kind, and the part of its JSON that differs from that of the default. A field
+/// that is added with its default value gives it no other name.
 nlohmann::json identity_of(const Test& test);
 
 }  // namespace pastefit

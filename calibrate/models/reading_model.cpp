@@ -12,12 +12,12 @@
 namespace pastefit {
 namespace {
 
-// What is usual is known to a factor of two. With a longer usual length, a smaller signal or less noise few candidates
-// are taken for many, and readings are stated closer than they are (tests/twins).
-constexpr double usual_length = 0.5;
+// What is typical is known to a factor of two. With a longer typical length, a smaller signal or less noise few
+// candidates are taken for many, and readings are stated closer than they are (tests/twins).
+constexpr double typical_length = 0.5;
 // In variances of all answers, as the trend's.
 constexpr LogRange signal_range{1e-3, 10}, noise_variance_range{1e-6, 2};
-constexpr double usual_signal = 1, usual_noise = 0.02;
+constexpr double typical_signal = 1, typical_noise = 0.02;
 constexpr double most_slope = 2.5;  // of the logarithm of the noise variance, over one standard deviation
 constexpr double constant_variance = 9, slope_variance = 2;
 constexpr int most_rounds = 30;  // of expectation propagation
@@ -33,16 +33,16 @@ double log_normal_share(double z) {
 
 }  // namespace
 
-/// A bound becomes the normal observation that gives what the rest says of the mean reading (mean, doubt) the moments
-/// that it has under Phi((bound - mean)/noise).
-void ReadingModel::Row::match(double mean, double doubt) {
-  const double total = doubt + noise * noise;
+/// A bound becomes the normal observation that gives what the rest says of the mean reading (mean, predictive_variance)
+/// the moments that it has under Phi((bound - mean)/noise).
+void ReadingModel::Row::match(double mean, double predictive_variance) {
+  const double total = predictive_variance + noise * noise;
   const double z = std::clamp((answers.mean - mean) / std::sqrt(total), -30.0, 30.0);
   const double hazard = std::exp(log_normal_density(z) - log_normal_share(z));
   const double slope = -hazard / std::sqrt(total);
   const double bend = std::max(hazard * (z + hazard) / total, least_bend);
   observed = mean + slope / bend;
-  variance = std::max(1 / bend - doubt, least_bend);
+  variance = std::max(1 / bend - predictive_variance, least_bend);
   log_weight = log_normal_share(z) + 0.5 * (std::log(2 * std::numbers::pi / bend) + slope * slope / bend);
 }
 
@@ -69,12 +69,12 @@ ReadingModel::Settings ReadingModel::settings_at(const UnitPoint& point, bool wi
 }
 
 double ReadingModel::deviance() const {
-  const auto off = [](double value, double usual) {
-    return 0.5 * std::pow(std::log(value / usual) / std::numbers::ln2, 2);
+  const auto off = [](double value, double by_default) {
+    return 0.5 * std::pow(std::log(value / by_default) / std::numbers::ln2, 2);
   };
-  double prior = off(settings_.signal_variance, usual_signal) + off(std::exp(settings_.noise_level), usual_noise) +
+  double prior = off(settings_.signal_variance, typical_signal) + off(std::exp(settings_.noise_level), typical_noise) +
                  0.5 * (std::pow(settings_.noise_slope, 2) + std::pow(settings_.noise_bend, 2));
-  for (const double length : settings_.lengths) prior += off(length, usual_length);
+  for (const double length : settings_.lengths) prior += off(length, typical_length);
   double answers = 0;
   for (const Row& row : rows_) answers += row.answers.weight;
   return std::exp(2 * (prior - log_evidence_) / answers);
@@ -188,11 +188,14 @@ double ReadingModel::propagate(const Eigen::MatrixXd& prior, const Eigen::LLT<Ei
     if (!row.is_bound) continue;
     const Row before = row;
     const double mean = prior.col(i).dot(weights_);
-    const double doubt = std::max(prior(i, i) - prior.col(i).dot(cholesky.solve(prior.col(i))), least_bend);
-    const double rest = std::max(1 / doubt - 1 / row.variance, least_bend);  // precision, without this bound
-    row.match((mean / doubt - row.observed / row.variance) / rest, 1 / rest);
-    change = std::max({change, std::abs(1 / row.variance - 1 / before.variance) * doubt,
-                       std::abs(row.observed / row.variance - before.observed / before.variance) * std::sqrt(doubt)});
+    const double predictive_variance =
+        std::max(prior(i, i) - prior.col(i).dot(cholesky.solve(prior.col(i))), least_bend);
+    const double rest =
+        std::max(1 / predictive_variance - 1 / row.variance, least_bend);  // precision, without this bound
+    row.match((mean / predictive_variance - row.observed / row.variance) / rest, 1 / rest);
+    change = std::max(
+        {change, std::abs(1 / row.variance - 1 / before.variance) * predictive_variance,
+         std::abs(row.observed / row.variance - before.observed / before.variance) * std::sqrt(predictive_variance)});
   }
   return change;
 }

@@ -21,7 +21,8 @@ namespace pastefit {
 /// expectation propagation replaces it by the normal observation of the same effect. Lengths, variance of f and g
 /// maximise the evidence times broad priors that favour a smooth f and even noise. Answers of one site are pooled,
 /// which changes nothing but the time it takes. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning
-/// (2006), sections 2.2, 2.7, 3.6, 5.4.1. Limit: the doubt of lengths and variances themselves is not counted.
+/// (2006), sections 2.2, 2.7, 3.6, 5.4.1. Limit: the predictive_variance of lengths and variances themselves is not
+/// counted.
 class ReadingModel {
  public:
   /// What one simulation answered.
@@ -47,7 +48,7 @@ class ReadingModel {
     double observed = 0, variance = 1e9;  // the same as one normal observation
     double log_weight = 0;                // of that one, so that it has the bound's evidence
 
-    void match(double mean, double doubt);
+    void match(double mean, double predictive_variance);
   };
 
   /// Requirements: sites are points of the unit cube, each once; there is an answer.

@@ -34,7 +34,7 @@ void infer_from(const Store& store, const std::optional<Inference>& known, Findi
         "None of the stored simulations is one of the card's tests run to its end: nothing is inferred from them.");
     return;
   }
-  findings.evidence = evidence_of(*findings.study, record);
+  findings.evidence = training_data_of(*findings.study, record);
   if (card.search.status == "out_of_reach") {
     findings.missing.push_back(
         "The laboratory was out of reach, and readings that no material meets say nothing of the parameters.");

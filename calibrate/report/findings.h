@@ -20,7 +20,7 @@ struct Findings {
   bool under_way = false;                     ///< the calibration goes on: the page looks again by itself
   std::vector<StoredEvaluation> evaluations;  ///< in the order of arrival
   std::string program;                        ///< that made the evaluations; empty if it is not known
-  std::optional<Evidence> evidence;           ///< what the evaluations say of the study
+  std::optional<TrainingData> evidence;       ///< what the evaluations say of the study
   std::optional<Inference> inference;         ///< and what follows for its parameters
   std::vector<TestView> views;                ///< one for each test of the card; none if they were not simulated
   std::vector<std::string> missing;           ///< what is not there, or not whole: a sentence each

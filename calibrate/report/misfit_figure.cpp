@@ -31,10 +31,10 @@ Axes axes_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
   Axes axes;
   double least = unit.of(1), most = 2 * unit.of(1);
   for (const StrategySummary& row : rows) {
-    axes.simulations = std::max(axes.simulations, static_cast<double>(row.miss.size()));
-    for (const double miss : row.miss) {
-      if (miss <= 0) continue;
-      const double misfit = unit.of(miss);
+    axes.simulations = std::max(axes.simulations, static_cast<double>(row.normalised_error.size()));
+    for (const double difference : row.normalised_error) {
+      if (difference <= 0) continue;
+      const double misfit = unit.of(difference);
       least = std::min(least, misfit);
       most = std::max(most, misfit);
     }
@@ -71,8 +71,8 @@ std::string course(const Axes& axes, const MisfitUnit& unit, const StrategySumma
                    double stroke) {
   std::string points;
   double before = -1;
-  for (std::size_t i = 0; i < row.miss.size(); ++i) {
-    const double misfit = unit.of(row.miss[i]);
+  for (std::size_t i = 0; i < row.normalised_error.size(); ++i) {
+    const double misfit = unit.of(row.normalised_error[i]);
     if (misfit < 0) continue;
     const double x = axes.x(static_cast<double>(i + 1));
     if (before >= 0 && before != misfit) points += format("%.1f,%.1f ", x, axes.y(before));

@@ -38,7 +38,7 @@ std::string page_of(const Findings& findings, const std::string& command) {
   out += "<script type=\"application/json\" id=\"content\">" + json_in_html(page_content(findings, command)) +
          "</script>\n";
   for (std::size_t i = 0; i < findings.views.size(); ++i)
-    if (const CodedFilm& film = findings.views[i].film; !film.empty())
+    if (const CodedRecording& film = findings.views[i].film; !film.empty())
       out += "<script type=\"text/plain\" id=\"film-" + std::to_string(i) + "\">" + film.grains + "</script>\n";
   out += page.substr(place + kPlace.size());
   return out;

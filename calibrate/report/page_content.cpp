@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/rounded.h"
-#include "calibrate/inference/words.h"
+#include "calibrate/inference/description.h"
 #include "calibrate/report/law_curves.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/report/search_history.h"
@@ -214,7 +214,7 @@ ordered_json inference_of(const Inference& inference) {
     out["family"].push_back({{"values", std::move(values)},
                              {"readings", std::move(readings)},
                              {"simulated", one.simulated},
-                             {"miss", rounded(one.miss, 3)}});
+                             {"miss", rounded(one.normalised_error, 3)}});
   }
   return out;
 }

@@ -59,7 +59,8 @@ ordered_json values_told(const Findings& findings, const StoredEvaluation& evalu
   auto out = ordered_json::object();
   const auto kinds = parameter_kinds();
   for (std::size_t i = 0; i < kinds.size() && i < evaluation.values.size(); ++i) {
-    const bool told = findings.study ? findings.study->parameters[i].free : evaluation.values[i] != kinds[i].usual;
+    const bool told =
+        findings.study ? findings.study->parameters[i].free : evaluation.values[i] != kinds[i].default_value;
     if (told) out[std::string(kinds[i].name)] = rounded(evaluation.values[i]);
   }
   return out;
@@ -133,7 +134,7 @@ ordered_json search_history(const Findings& findings) {
 
 ordered_json misfit_map(const Findings& findings) {
   if (!findings.inference || !findings.evidence || findings.evidence->parameters.size() < 2) return {};
-  const Evidence& evidence = *findings.evidence;
+  const TrainingData& evidence = *findings.evidence;
   const ResponseModel model(evidence);
   const auto [x, y] = directions_that_matter(*findings.inference);
   const Parameter &along = evidence.parameters[x], &up = evidence.parameters[y];
@@ -146,7 +147,7 @@ ordered_json misfit_map(const Findings& findings) {
     for (const double column : columns) {
       point[static_cast<Eigen::Index>(x)] = column;
       point[static_cast<Eigen::Index>(y)] = row;
-      miss.push_back(rounded(model.miss(point), 3));
+      miss.push_back(rounded(model.normalised_error(point), 3));
     }
   auto& equivalent = out["equivalent"] = ordered_json::array();
   for (const EquivalentMaterial& one : findings.inference->family)

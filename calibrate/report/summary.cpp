@@ -75,7 +75,7 @@ std::string remark_lines(const Card& card) {
     std::vector<Measurement> measurements;
     for (const auto& one : test.observables)
       if (one.measured) measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
-    for (const std::string& note : doubts_about(test.test, measurements).notes) say("Laboratory: " + note);
+    for (const std::string& note : check_readings(test.test, measurements).notes) say("Laboratory: " + note);
   }
   return out;
 }

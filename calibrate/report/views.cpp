@@ -11,12 +11,12 @@ namespace pastefit {
 
 namespace {
 
-Look look_at(const Test& test, bool filmed, const std::function<bool()>& goes_on) {
-  Look look;
+SeenSimulation look_at(const Test& test, bool filmed, const std::function<bool()>& goes_on) {
+  SeenSimulation look;
   look.seen.packing = specimen_of(test).packing_seed;
   if (filmed) look.film.emplace();
   RunOptions options;
-  options.watch_interval_s = FilmRecorder::kInterval;
+  options.watch_interval_s = RunRecorder::kInterval;
   options.watch = [&](const Moment& moment) {
     look.see(test, moment);
     return goes_on();
@@ -28,8 +28,8 @@ Look look_at(const Test& test, bool filmed, const std::function<bool()>& goes_on
 }  // namespace
 
 TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, int threads,
-                 const std::function<bool()>& goes_on, Looks* seen) {
-  std::vector<Look> looks(packings.size());
+                 const std::function<bool()>& goes_on, RunRecordings* seen) {
+  std::vector<SeenSimulation> looks(packings.size());
   TestView view;
   view.program = program_identity();
   {
@@ -46,7 +46,7 @@ TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, 
     }
     for (auto& one : done) one.get();
   }
-  for (Look& look : looks) {
+  for (SeenSimulation& look : looks) {
     if (!look.ended || (look.failure && look.failure->reason == FailureReason::stopped && !goes_on()))
       ++view.lacking;
     else if (look.failure)

@@ -5,15 +5,15 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/report/film_code.h"
-#include "calibrate/report/looks.h"
+#include "calibrate/report/recording_code.h"
+#include "calibrate/report/run_recordings.h"
 
 namespace pastefit {
 
 /// A test of a card, looked at while it is simulated with the card's material.
 struct TestView {
   std::string program;        ///< that simulated it
-  CodedFilm film;             ///< of the first packing
+  CodedRecording film;        ///< of the first packing
   std::vector<SeenRun> runs;  ///< those that did not fail, in the order of their packings
   std::vector<std::string> failures;
   std::size_t lacking = 0;  ///< packings that were not looked at to their end
@@ -25,6 +25,6 @@ struct TestView {
 /// ended is lacking.
 /// `threads` 0: one for each processor.
 TestView view_of(const CardTest& test, std::span<const std::uint64_t> packings, int threads,
-                 const std::function<bool()>& goes_on, Looks* seen = nullptr);
+                 const std::function<bool()>& goes_on, RunRecordings* seen = nullptr);
 
 }  // namespace pastefit

@@ -37,7 +37,7 @@ std::size_t CandidateQueue::ask(const UnitPoint& point, std::uint64_t packing, F
   for (const bool early : {may_end_early, true})
     if (const auto known = numbers_.find({place, packing, fidelity, early}); known != numbers_.end()) {
       const Asked& asked = asked_[known->second];
-      if (early == may_end_early || (asked.seen && !asked.answer.ended_early)) return known->second;
+      if (early == may_end_early || (asked.seen && !asked.answer.censored)) return known->second;
     }
   const std::size_t number = asked_.size();
   numbers_[{place, packing, fidelity, may_end_early}] = number;

@@ -19,7 +19,7 @@ namespace pastefit {
 /// With which grains a candidate is simulated.
 enum class Fidelity {
   fine,   ///< the study's
-  coarse  ///< `coarse_rung.h`
+  coarse  ///< `low_fidelity.h`
 };
 
 /// What a search asks for: one point on one packing, in every test that is fitted.

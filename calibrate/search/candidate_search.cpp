@@ -12,24 +12,24 @@
 namespace pastefit {
 
 bool CandidateSearch::look_for_candidate() {
-  state_.archive.enter("search");
+  state_.history.enter("search");
   switch (find_strategy(state_.options.strategy)->kind) {
     case StrategyKind::surrogate:
       propose_and_try();
       break;
     case StrategyKind::ceres:
-      descend(*trust_region_of(state_.options.strategy), state_.archive.best_point(state_.common), share_of_budget());
+      descend(*trust_region_of(state_.options.strategy), state_.history.best_point(state_.common), share_of_budget());
       break;
     case StrategyKind::nlopt:
       minimise_misfit();
       break;
   }
-  return state_.prospects().best().size() > 0;
+  return state_.ranking().best().size() > 0;
 }
 
 /// Half of what is left, in points on all common packings.
 int CandidateSearch::share_of_budget() const {
-  return std::max(1, state_.archive.budget_left() / static_cast<int>(2 * state_.common.size()));
+  return std::max(1, state_.history.budget_left() / static_cast<int>(2 * state_.common.size()));
 }
 
 void CandidateSearch::minimise_misfit() {
@@ -38,37 +38,37 @@ void CandidateSearch::minimise_misfit() {
   nlopt.evaluations = share_of_budget();
   nlopt.step_tolerance = same_point;
   nlopt.seed = state_.options.seed;
-  (void)minimise(simulated_problem(state_.archive, state_.common, state_.optimisers_goal()),
-                 state_.archive.best_point(state_.common), nlopt);
+  (void)minimise(simulated_problem(state_.history, state_.common, state_.optimisers_goal()),
+                 state_.history.best_point(state_.common), nlopt);
 }
 
 /// Proposes, and takes the answers in the order of the proposals, until a candidate is likely to do. Proposal k knows
-/// the answers up to k - 1 - lag, of the others only that they were asked: what is ready first does not matter.
+/// the answers up to k - 1 - max_pending, of the others only that they were asked: what is ready first does not matter.
 void CandidateSearch::propose_and_try() {
-  Proposals proposals(state_.archive, with_coarse_, state_.options);
+  Proposals proposals(state_.history, with_coarse_, state_.options);
   while (true) {
-    const Prospects known = state_.prospects();
+    const CandidateRanking known = state_.ranking();
     const bool enough = StrategyState::goal_is_met(known);
-    while (!enough && state_.may_go_on() && std::ssize(state_.archive.under_way()) <= state_.options.lag) {
+    while (!enough && state_.may_go_on() && std::ssize(state_.history.under_way()) <= state_.options.max_pending) {
       const std::optional<UnitPoint> proposal = proposals.next(known);
       if (!proposal) break;
-      state_.archive.begin(*proposal, packing_for(*proposal));
+      state_.history.begin(*proposal, packing_for(*proposal));
     }
-    if (state_.archive.under_way().empty()) return;
-    const Response response = state_.archive.next_answer();
+    if (state_.history.under_way().empty()) return;
+    const Response response = state_.history.next_answer();
     // What it misses at least does not rule it out: its other readings decide.
-    if (is_feasible(response) && response.ended_early && response.misfit < known.misfit_of_best() && state_.may_go_on())
-      (void)state_.archive.evaluate({&response.point, 1}, response.packings);
+    if (is_feasible(response) && response.censored && response.misfit < known.misfit_of_best() && state_.may_go_on())
+      (void)state_.history.evaluate({&response.point, 1}, response.packings);
   }
 }
 
 /// One of the common packings in turn; a fresh one for a point that has been simulated on all of them.
 std::vector<std::uint64_t> CandidateSearch::packing_for(const UnitPoint& point) {
-  const std::size_t turn = state_.archive.history().size() + state_.archive.under_way().size();
+  const std::size_t turn = state_.history.responses().size() + state_.history.under_way().size();
   for (std::size_t k = 0; k < state_.common.size(); ++k) {
     const std::uint64_t packing = state_.common[(turn + k) % state_.common.size()];
     const auto known = [&](const Response& one) { return one.point == point && one.packings.front() == packing; };
-    if (std::ranges::none_of(state_.archive.singles(), known)) return {packing};
+    if (std::ranges::none_of(state_.history.singles(), known)) return {packing};
   }
   return state_.fresh_packings(1);
 }
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> CandidateSearch::packing_for(const UnitPoint& point) 
 double CandidateSearch::noise() const {
   double squares = 0;
   int freedom = 0;
-  const auto& singles = state_.archive.singles();
+  const auto& singles = state_.history.singles();
   for (std::size_t i = 0; i < singles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!is_whole(singles[i]) || !is_whole(singles[j]) || singles[i].point != singles[j].point) continue;
@@ -93,7 +93,7 @@ double CandidateSearch::noise() const {
 double CandidateSearch::probe_length() const {
   const double infinity = std::numeric_limits<double>::infinity();
   Eigen::ArrayXd least = Eigen::ArrayXd::Constant(state_.scoring().residuals(), infinity), most = -least;
-  for (const Response& single : state_.archive.evidence()) {
+  for (const Response& single : state_.history.training_data()) {
     if (!is_feasible(single)) continue;
     least = least.min(single.residuals.array());
     most = most.max(single.residuals.array());
@@ -103,10 +103,10 @@ double CandidateSearch::probe_length() const {
 }
 
 void CandidateSearch::refine() {
-  if (!state_.may_go_on() || noise() > state_.archive.allowed_misfit()) return;
-  const Prospects known = state_.prospects();
+  if (!state_.may_go_on() || noise() > state_.history.allowed_misfit()) return;
+  const CandidateRanking known = state_.ranking();
   if (StrategyState::goal_is_met(known)) return;
-  state_.archive.enter("refinement");
+  state_.history.enter("refinement");
   descend(TrustRegion::levenberg_marquardt, known.best(), CeresOptions{}.evaluations);
 }
 
@@ -117,7 +117,7 @@ void CandidateSearch::descend(TrustRegion trust_region, const UnitPoint& start, 
   ceres.difference_step = probe_length();
   ceres.step_tolerance = same_point;
   ceres.noise = noise();
-  (void)minimise(simulated_problem(state_.archive, state_.common, state_.optimisers_goal()), start, ceres);
+  (void)minimise(simulated_problem(state_.history, state_.common, state_.optimisers_goal()), start, ceres);
 }
 
 }  // namespace pastefit

@@ -20,8 +20,8 @@ std::string doubt_about(const Calibration& result, const MisfitUnit& unit, doubl
                   told.rejected) +
            format("a share of %g is not certain", rejected_share) + spent + " Allow more simulations.";
   const std::string tolerance = tolerance_in_words(unit);
-  std::string words = "The best candidate misses the laboratory by " + unit.words(told.miss);
-  if (told.miss > 1) return words + ", more than " + tolerance + spent;
+  std::string words = "The best candidate misses the laboratory by " + unit.words(told.normalised_error);
+  if (told.normalised_error > 1) return words + ", more than " + tolerance + spent;
   if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
   return words + " +- " + unit.words(told.noise) + ": its packings scatter too much to be sure of " + tolerance +
          spent + " Allow more simulations.";
@@ -36,8 +36,8 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
   if (ending.confirmed) {
     result.status = CalibrationStatus::confirmed;
-    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.miss) + " on " +
-                    std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
+    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.normalised_error) +
+                    " on " + std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
                     tolerance_in_words(unit) + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;
@@ -47,7 +47,7 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
                     spent;
   } else if (ending.out_of_reach && !ending.searched) {
     result.status = CalibrationStatus::out_of_reach;
-    result.reason = words_of(*ending.out_of_reach, readings, parameters) +
+    result.reason = describe(*ending.out_of_reach, readings, parameters) +
                     " The search was not begun; the material that comes nearest is given" + spent;
   } else if (!ending.any_feasible) {
     result.status = CalibrationStatus::failed;
@@ -71,7 +71,7 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
       }
       result.reason += ".";
     }
-    if (ending.some_ended_early) result.reason += " Simulations that ended early count as what was certain of them.";
+    if (ending.some_censored) result.reason += " Simulations that ended early count as what was certain of them.";
   }
 }
 

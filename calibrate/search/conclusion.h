@@ -17,8 +17,8 @@ struct Ending {
   bool with_coarse = false;   ///< coarse grains were simulated too
   bool searched = true;       ///< else the screening was enough
   std::optional<OutOfReach> out_of_reach = std::nullopt;
-  double rejected_share = 1;      ///< of a candidate's heaps, at most; 1: not judged
-  bool some_ended_early = false;  ///< of the simulations
+  double rejected_share = 1;   ///< of a candidate's heaps, at most; 1: not judged
+  bool some_censored = false;  ///< of the simulations
 };
 
 /// Gives a calibration its status and the reason for it, in sentences for a person. Requirements: everything else in

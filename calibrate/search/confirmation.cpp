@@ -18,7 +18,7 @@ Verdict verdict_on(const Response& response, double rejected_share) {
   if (!is_whole(response)) return Verdict::refuted;
   // Of a single heap that is left of many the scatter is not known.
   const bool known = accepted(response.evaluations).size() > 1 || response.evaluations.size() == 1;
-  const Verdict of_readings = verdict_on(response.miss, response.noise);
+  const Verdict of_readings = verdict_on(response.normalised_error, response.noise);
   const Verdict readings = known || of_readings == Verdict::refuted ? of_readings : Verdict::undecided;
   if (readings == Verdict::refuted || rejected_share >= 1) return readings;
   const double rejected = response.rejected, heaps = static_cast<double>(response.evaluations.size());
@@ -28,9 +28,9 @@ Verdict verdict_on(const Response& response, double rejected_share) {
   return within < surely_within ? Verdict::undecided : readings;
 }
 
-Verdict verdict_on(double miss, double noise) {
-  if (std::hypot(1, noise) < miss) return Verdict::refuted;
-  return std::max(miss, noise) <= 1 ? Verdict::holds : Verdict::undecided;
+Verdict verdict_on(double normalised_error, double noise) {
+  if (std::hypot(1, noise) < normalised_error) return Verdict::refuted;
+  return std::max(normalised_error, noise) <= 1 ? Verdict::holds : Verdict::undecided;
 }
 
 double packings_to_decide(const Response& response) {

@@ -12,7 +12,8 @@ enum class Verdict {
 };
 
 /// Judges a candidate by its answer on packings it was not chosen on. By what it misses the laboratory, m
-/// tolerances (`Response::miss`), and the part s of it that the noise of the packings makes by itself (`noise`):
+/// tolerances (`Response::normalised_error`), and the part s of it that the noise of the packings makes by itself
+/// (`noise`):
 ///     holds      m <= 1 and s <= 1
 ///     refuted    sqrt(m^2 - s^2) > 1; the mean of m^2 over fillings is that of a mean without noise, plus s^2
 ///     undecided  otherwise
@@ -24,7 +25,7 @@ enum class Verdict {
 Verdict verdict_on(const Response& response, double rejected_share = 1);
 
 /// The same by the numbers.
-Verdict verdict_on(double miss, double noise);
+Verdict verdict_on(double normalised_error, double noise);
 
 /// Packings of which the mean is likely to be known well enough to be judged, by the scatter of those that there are.
 double packings_to_decide(const Response& response);

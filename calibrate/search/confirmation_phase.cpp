@@ -14,57 +14,57 @@ constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so 
 }  // namespace
 
 bool ConfirmationPhase::confirm(bool whatever_it_does) {
-  state_.archive.enter("confirmation");
-  state_.archive.hold_back(0);
-  const UnitPoint candidate = state_.prospects().best();
+  state_.history.enter("confirmation");
+  state_.history.hold_back(0);
+  const UnitPoint candidate = state_.ranking().best();
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
   std::vector<std::uint64_t> fresh = state_.fresh_packings(static_cast<int>((all + 3) / 4));
-  Response confirmation = state_.archive.evaluate({&candidate, 1}, fresh).at(0);
+  Response confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
   Verdict verdict = Verdict::undecided;
-  if (!whatever_it_does && state_.prospects().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
-  while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !state_.archive.stop_requested()) {
+  if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
+  while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !state_.history.stop_requested()) {
     const std::size_t more = fresh.size() < all ? all - fresh.size() : fresh.size();
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
-    confirmation = state_.archive.evaluate({&candidate, 1}, fresh).at(0);
+    confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
     verdict = verdict_on(confirmation, state_.scoring().rejected_share());
     if (packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
   }
-  if (state_.archive.stop_requested()) return false;
+  if (state_.history.stop_requested()) return false;
   ++rounds_;
   confirmed_ = verdict == Verdict::holds;
   if (!confirmed_) state_.refuted.push_back(candidate);
   report(confirmation);
-  state_.archive.hold_back(state_.options.confirmation_packings);
+  state_.history.hold_back(state_.options.confirmation_packings);
   return confirmed_;
 }
 
 void ConfirmationPhase::report(const Response& confirmation) {
   std::vector<std::uint64_t> tried;  // before it was judged
-  for (const Response& one : state_.archive.singles())
+  for (const Response& one : state_.history.singles())
     if (one.point == confirmation.point && is_whole(one) &&
         std::ranges::count(confirmation.packings, one.packings.front()) == 0)
       tried.push_back(one.packings.front());
   std::vector<std::uint64_t> joined = tried;
   std::ranges::copy(confirmation.packings, std::back_inserter(joined));
-  const Response evidence = state_.archive.recall(confirmation.point, joined);
+  const Response evidence = state_.history.recall(confirmation.point, joined);
   const bool first = confirmation_.point.size() == 0 || confirmation_.point == confirmation.point;
   if (!confirmed_ && !first && !is_better(evidence, best_)) return;
   best_ = evidence;
-  search_ = state_.archive.recall(confirmation.point, tried);
+  search_ = state_.history.recall(confirmation.point, tried);
   confirmation_ = confirmation;
 }
 
 void ConfirmationPhase::finish() {
-  state_.archive.hold_back(0);
+  state_.history.hold_back(0);
   std::vector<std::uint64_t> fresh = confirmation_.packings;
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
-  if (fresh.empty() || fresh.size() >= all || !state_.affordable(all - fresh.size()) || state_.archive.stop_requested())
+  if (fresh.empty() || fresh.size() >= all || !state_.affordable(all - fresh.size()) || state_.history.stop_requested())
     return;
   const UnitPoint candidate = confirmation_.point;
   std::ranges::copy(state_.fresh_packings(static_cast<int>(all - fresh.size())), std::back_inserter(fresh));
-  const Response confirmation = state_.archive.evaluate({&candidate, 1}, fresh).at(0);
-  if (state_.archive.stop_requested()) return;
+  const Response confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
+  if (state_.history.stop_requested()) return;
   confirmed_ = verdict_on(confirmation, state_.scoring().rejected_share()) == Verdict::holds;
   report(confirmation);
 }

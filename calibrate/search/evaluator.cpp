@@ -106,8 +106,8 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
         evaluation.values = values;
         evaluation.packing = seed;
         evaluation.failure = stopped("The calibration was ended before this simulation; go on with --resume.");
-        if (!tried && options_.onlooker)
-          task.look = options_.onlooker->begin(test_with(study_.tests[test].lab.test, values, seed));
+        if (!tried && options_.run_observer)
+          task.look = options_.run_observer->begin(test_with(study_.tests[test].lab.test, values, seed));
         task.done = pool_.submit([this, &task] { run(task); });
       }
     }
@@ -166,8 +166,9 @@ std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoin
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && !response.ended_early && (counts_.best_miss < 0 || response.miss < counts_.best_miss))
-      counts_.best_miss = response.miss;
+    if (!response.failed && !response.censored &&
+        (counts_.best_miss < 0 || response.normalised_error < counts_.best_miss))
+      counts_.best_miss = response.normalised_error;
   if (options_.observer) options_.observer(counts_);
   return responses;
 }
@@ -210,7 +211,7 @@ void SimulationObjective::run(Task& task) {
   };
   if (!outcome.failure) outcome = options_.engine.run(test, options);
   if (by_user) return;
-  if (task.look) options_.onlooker->end(test, outcome);
+  if (task.look) options_.run_observer->end(test, outcome);
 
   auto& evaluation = task.evaluation;
   if (outcome.failure && outcome.failure->reason == FailureReason::stopped)
@@ -244,9 +245,9 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
   if (options_.observer) options_.observer(counts_);
 }
 
-void SimulationObjective::watch(RunOptions& options, Clock::time_point start, const Onlooker::Watch& look,
+void SimulationObjective::watch(RunOptions& options, Clock::time_point start, const RunObserver::Watch& look,
                                 bool* by_user) const {
-  options.watch_interval_s = look ? options_.onlooker->interval_s() : kWatchInterval;
+  options.watch_interval_s = look ? options_.run_observer->interval_s() : kWatchInterval;
   options.pulse = [this, start, by_user](const Moment&) {
     const bool stopped = (by_user && *by_user) || stop_requested();
     if (by_user) *by_user = stopped;
@@ -259,7 +260,7 @@ void SimulationObjective::watch(RunOptions& options, Clock::time_point start, co
 }
 
 std::shared_ptr<const Packing> SimulationObjective::packing(std::size_t index, const Test& test,
-                                                            const Onlooker::Watch& look) {
+                                                            const RunObserver::Watch& look) {
   std::promise<std::shared_ptr<const Packing>> promise;
   std::shared_future<std::shared_ptr<const Packing>> future;
   bool ours = false;

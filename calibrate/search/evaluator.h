@@ -15,8 +15,8 @@
 
 #include "calibrate/laboratory/engine.h"
 #include "calibrate/search/objective.h"
-#include "calibrate/search/onlooker.h"
 #include "calibrate/search/record.h"
+#include "calibrate/search/run_observer.h"
 #include "calibrate/search/study_scoring.h"
 #include "calibrate/search/worker_pool.h"
 #include "calibrate/store/store.h"
@@ -43,7 +43,7 @@ struct EvaluatorOptions {
   double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
-  Onlooker* onlooker = nullptr;                           ///< of the simulations that are not only tried out
+  RunObserver* run_observer = nullptr;                    ///< of the simulations that are not only tried out
   Engine engine;
   /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation
   /// fills its own mould. Other than the default it belongs into the identity of the store.
@@ -96,7 +96,7 @@ class SimulationObjective : public Objective, public StudyScoring {
     std::size_t index = 0;         // of the test in the study
     bool tried = false;            // only tried out
     std::optional<Cutoff> cutoff;  // if it is
-    Onlooker::Watch look;          // none unless somebody looks on
+    RunObserver::Watch look;       // none unless somebody looks on
     StoredEvaluation evaluation;
     bool finished = false;          // not cut off by a stop
     std::shared_future<void> done;  // none if it is known from the store
@@ -115,9 +115,9 @@ class SimulationObjective : public Objective, public StudyScoring {
   void run(Task& task);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
   /// What all candidates with this preparation of the study's test share; `look` sees it if it is made now.
-  std::shared_ptr<const Packing> packing(std::size_t index, const Test& test, const Onlooker::Watch& look);
+  std::shared_ptr<const Packing> packing(std::size_t index, const Test& test, const RunObserver::Watch& look);
   /// Has moments looked at, and ends the simulation that began then on a stop or at its limit.
-  void watch(RunOptions& options, std::chrono::steady_clock::time_point start, const Onlooker::Watch& look,
+  void watch(RunOptions& options, std::chrono::steady_clock::time_point start, const RunObserver::Watch& look,
              bool* by_user = nullptr) const;
 
   const Study& study_;

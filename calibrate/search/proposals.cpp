@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "core/random.h"
 
 namespace pastefit {
@@ -15,30 +15,31 @@ constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, 
 
 }  // namespace
 
-std::optional<UnitPoint> Proposals::next(const Prospects& prospects) {
-  Surrogate model = prospects.surrogate();
+std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
+  Surrogate model = ranking.surrogate();
   fantasise_answers(model);
-  double least = prospects.least_misfit();
-  for (const Archive::Asked& asked : archive_.under_way()) least = std::min(least, model.outlook(asked.point).mean());
-  const Improvement best = most_promising(model, least, prospects.least());
-  if (best.expected < worthwhile * archive_.allowed_misfit()) return std::nullopt;
+  double least = ranking.least_misfit();
+  for (const EvaluationHistory::Asked& asked : history_.under_way())
+    least = std::min(least, model.misfit_posterior(asked.point).mean());
+  const Improvement best = maximise_expected_improvement(model, least, ranking.least());
+  if (best.expected < worthwhile * history_.allowed_misfit()) return std::nullopt;
   const UnitPoint proposal = tried_with_coarse_grains(best.point);
   const auto is_same = [&](const auto& asked) {
     return (asked.point - proposal).template lpNorm<Eigen::Infinity>() < same_point;
   };
-  if (std::ranges::any_of(archive_.under_way(), is_same)) return std::nullopt;
-  const auto known = std::ranges::find_if(archive_.singles(), is_same);
-  return known == archive_.singles().end() ? proposal : known->point;
+  if (std::ranges::any_of(history_.under_way(), is_same)) return std::nullopt;
+  const auto known = std::ranges::find_if(history_.singles(), is_same);
+  return known == history_.singles().end() ? proposal : known->point;
 }
 
 UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
-  for (int tries = 0; with_coarse_ && tries < coarse_tries && !archive_.stop_requested(); ++tries) {
-    const std::size_t known = archive_.coarse_singles().size();
-    archive_.evaluate_coarse({&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
-    if (archive_.coarse_singles().size() == known) break;
-    Surrogate model(archive_.evidence(), archive_.allowances(), archive_.scoring().rejected_share());
+  for (int tries = 0; with_coarse_ && tries < coarse_tries && !history_.stop_requested(); ++tries) {
+    const std::size_t known = history_.coarse_singles().size();
+    history_.evaluate_coarse({&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
+    if (history_.coarse_singles().size() == known) break;
+    Surrogate model(history_.training_data(), history_.allowances(), history_.scoring().rejected_share());
     fantasise_answers(model);
-    const auto misfit = [&](const UnitPoint& point) { return model.outlook(point).mean(); };
+    const auto misfit = [&](const UnitPoint& point) { return model.misfit_posterior(point).mean(); };
     const UnitPoint better = least_point(misfit, proposal);
     if (misfit(proposal) <= misfit(better) + model.noise() / options_.packings) break;
     if (tries + 1 < coarse_tries) proposal = better;
@@ -49,9 +50,9 @@ UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
 /// Draws the answers of the candidates under way.
 void Proposals::fantasise_answers(Surrogate& model) const {
   const RandomStream random(options_.seed, "answers of candidates under way");
-  std::uint64_t candidate = archive_.history().size();  // its place in the history to come
-  for (const Archive::Asked& asked : archive_.under_way()) {
-    Eigen::VectorXd deviates(archive_.residuals());
+  std::uint64_t candidate = history_.responses().size();  // its place in the history to come
+  for (const EvaluationHistory::Asked& asked : history_.under_way()) {
+    Eigen::VectorXd deviates(history_.residuals());
     for (Eigen::Index k = 0; k < deviates.size(); ++k)
       deviates[k] =
           random.normal(candidate * static_cast<std::uint64_t>(deviates.size()) + static_cast<std::uint64_t>(k));

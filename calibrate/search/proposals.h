@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "calibrate/search/prospects.h"
+#include "calibrate/search/candidate_ranking.h"
 
 namespace pastefit {
 
@@ -11,8 +11,8 @@ namespace pastefit {
 inline constexpr double same_point = 0.01;
 
 /// What the default strategy tries next: the point that is expected to improve most on the least expected misfit so far
-/// (`most_promising`), so that promise is weighed against doubt. One that is a known point is that point again, on
-/// another packing.
+/// (`maximise_expected_improvement`), so that promise is weighed against doubt. One that is a known point is that point
+/// again, on another packing.
 ///
 /// Of a candidate under way only the point is known. It counts in the surrogate with an answer drawn from what is known
 /// of its mean, always the same draw for the same candidate, so that the next proposal is made for a case that may well
@@ -25,17 +25,17 @@ inline constexpr double same_point = 0.01;
 /// Requirement: what the constructor is given outlives the object.
 class Proposals {
  public:
-  Proposals(Archive& archive, bool with_coarse, const SearchOptions& options)
-      : archive_(archive), with_coarse_(with_coarse), options_(options) {}
+  Proposals(EvaluationHistory& history, bool with_coarse, const SearchOptions& options)
+      : history_(history), with_coarse_(with_coarse), options_(options) {}
 
   /// None if nothing promises more than a fiftieth of the misfit that is allowed, or before the next answer.
-  std::optional<UnitPoint> next(const Prospects& prospects);
+  std::optional<UnitPoint> next(const CandidateRanking& ranking);
 
  private:
   UnitPoint tried_with_coarse_grains(UnitPoint proposal);
   void fantasise_answers(Surrogate& model) const;
 
-  Archive& archive_;
+  EvaluationHistory& history_;
   bool with_coarse_;
   const SearchOptions& options_;
 };

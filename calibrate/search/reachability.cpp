@@ -9,7 +9,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 
 namespace pastefit {
 
@@ -36,7 +36,7 @@ class Nearing {
       if (is_fine(single) && (!low || value_of(single) < value_of(*low))) low = &single;
       if (is_fine(single) && (!high || value_of(single) > value_of(*high))) high = &single;
       above += single.residuals[reading_] > 0 ? 1 : -1;
-      all_bounds_ = all_bounds_ && single.ended_early && single.residuals[reading_] < 0;
+      all_bounds_ = all_bounds_ && single.censored && single.residuals[reading_] < 0;
     }
     all_bounds_ = all_bounds_ && low && value_of(*high) == value_of(*low);
     one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
@@ -110,15 +110,15 @@ struct Allowance {
   double noise = 0;       ///< its variance
 };
 
-/// The miss that the model gives a candidate.
+/// The normalised error that the model gives a candidate.
 double miss_at(const GaussianProcess& model, const UnitPoint& point, const Allowance& allowance) {
   const auto prediction = model.predict(point);
   return prediction.mean - allowance.deviations * std::sqrt(prediction.variance + allowance.noise);
 }
 
-/// The candidate of least miss. `scale`: a miss that counts as large.
+/// The candidate of least normalised error. `scale`: one that counts as large.
 UnitPoint nearest_by(const GaussianProcess& model, const Allowance& allowance, double scale, const UnitPoint& start) {
-  // Positive, in the order of the miss.
+  // Positive, in the order of the error.
   return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, allowance) / scale); }, start);
 }
 
@@ -136,10 +136,10 @@ std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const Uni
   return bounds;
 }
 
-std::vector<UnitPoint> ended_early(std::span<const Response> singles, std::uint64_t packing) {
+std::vector<UnitPoint> censored(std::span<const Response> singles, std::uint64_t packing) {
   std::vector<UnitPoint> points;
   for (const Response& single : singles)
-    if (single.ended_early && single.packings.front() == packing) points.push_back(single.point);
+    if (single.censored && single.packings.front() == packing) points.push_back(single.point);
   return points;
 }
 
@@ -165,18 +165,19 @@ UnitPoint hopeful_of(const Nearing& approach, const GaussianProcess& model, cons
   return nearest_by(model, allowance, approach.least(), approach.middle());
 }
 
-double whole_tolerance(const Archive& archive, std::size_t reading) {
-  return archive.tolerance(reading) * std::sqrt(archive.readings());
+double whole_tolerance(const EvaluationHistory& history, std::size_t reading) {
+  return history.tolerance(reading) * std::sqrt(history.readings());
 }
 
-std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const ReachOptions& options, int& probes) {
-  while (!archive.stop_requested()) {
-    const Nearing approach(archive.singles(), reading, whole_tolerance(archive, reading));
+std::optional<OutOfReach> probe(EvaluationHistory& history, std::size_t reading, const ReachOptions& options,
+                                int& probes) {
+  while (!history.stop_requested()) {
+    const Nearing approach(history.singles(), reading, whole_tolerance(history, reading));
     if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
     // How far they would have gone is what matters here.
-    if (const auto ended = ended_early(archive.singles(), options.packing); !ended.empty()) {
-      if (archive.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
-      archive.evaluate(ended, {&options.packing, 1});
+    if (const auto ended = censored(history.singles(), options.packing); !ended.empty()) {
+      if (history.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
+      history.evaluate(ended, {&options.packing, 1});
       continue;
     }
     if (!approach.suspect()) return std::nullopt;
@@ -184,11 +185,11 @@ std::optional<OutOfReach> probe(Archive& archive, std::size_t reading, const Rea
     const Allowance allowance{approach.deviations(), model.noise_variance()};
     const UnitPoint hopeful = hopeful_of(approach, model, allowance);
     if (auto found = claim(approach, model, allowance, hopeful)) return found;
-    if (probes < 1 || archive.budget_left() < 1) return std::nullopt;
+    if (probes < 1 || history.budget_left() < 1) return std::nullopt;
     --probes;
-    const std::size_t before = archive.singles().size();
-    archive.evaluate({&hopeful, 1}, {&options.packing, 1});
-    if (archive.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
+    const std::size_t before = history.singles().size();
+    history.evaluate({&hopeful, 1}, {&options.packing, 1});
+    if (history.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
   }
   return std::nullopt;
 }
@@ -199,20 +200,20 @@ std::string name_at(std::span<const std::string> names, std::size_t index, const
 
 }  // namespace
 
-std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options) {
+std::optional<OutOfReach> find_out_of_reach(EvaluationHistory& history, const ReachOptions& options) {
   int probes = options.probes;
-  for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k)
-    if (auto found = probe(archive, k, options, probes)) {
+  for (std::size_t k = 0; history.any_feasible() && k < static_cast<std::size_t>(history.readings()); ++k)
+    if (auto found = probe(history, k, options, probes)) {
       found->reading = k;
       return found;
     }
   return std::nullopt;
 }
 
-std::optional<OutOfReach> known_out_of_reach(const Archive& archive, ReachOf what) {
-  const std::vector<Response> evidence = archive.evidence();
-  for (std::size_t k = 0; archive.any_feasible() && k < static_cast<std::size_t>(archive.readings()); ++k) {
-    const Nearing approach(evidence, k, whole_tolerance(archive, k));
+std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what) {
+  const std::vector<Response> evidence = history.training_data();
+  for (std::size_t k = 0; history.any_feasible() && k < static_cast<std::size_t>(history.readings()); ++k) {
+    const Nearing approach(evidence, k, whole_tolerance(history, k));
     if (!approach.suspect()) continue;
     const GaussianProcess model = approach.model();
     const double noise = what == ReachOf::simulations ? model.noise_variance() : 0;
@@ -232,7 +233,7 @@ bool contradicts(const Response& single, const OutOfReach& found) {
   return found.above ? read <= found.at_best : read >= found.at_best;
 }
 
-std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
+std::string describe(const OutOfReach& found, std::span<const std::string> readings,
                      std::span<const std::string> parameters) {
   std::string out =
       name_at(readings, found.reading, "reading ") + " is out of reach: the model stays " +
@@ -248,12 +249,12 @@ std::string words_of(const OutOfReach& found, std::span<const std::string> readi
   return out + ".";
 }
 
-std::string words_of_withdrawal(const OutOfReach& found, std::span<const std::string> readings) {
+std::string describe_withdrawal(const OutOfReach& found, std::span<const std::string> readings) {
   return name_at(readings, found.reading, "reading ") +
          " is not out of reach for certain: a simulation came nearer than expected, and the search goes on.";
 }
 
-std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings) {
+std::string describe_screening(std::span<const Response> singles, std::span<const std::string> readings) {
   std::string out;
   const auto count = singles.empty() ? 0 : static_cast<std::size_t>(singles.front().observables.size());
   const std::vector<Reach> reach = reach_of(singles, std::vector<double>(count, 0.0));
@@ -263,7 +264,7 @@ std::string words_of_screening(std::span<const Response> singles, std::span<cons
     const Reach& one = reach[k];
     const bool or_less = std::ranges::any_of(singles, [&](const Response& single) {
       const auto i = static_cast<Eigen::Index>(k);
-      return single.ended_early && single.residuals[i] < 0 && single.observables[i] == one.lowest;
+      return single.censored && single.residuals[i] < 0 && single.observables[i] == one.lowest;
     });
     out += (out.empty() ? "" : " ") + name_at(readings, k, "reading ") +
            format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);

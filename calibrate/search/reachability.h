@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/archive.h"
+#include "calibrate/search/evaluation_history.h"
 
 namespace pastefit {
 
@@ -38,32 +38,32 @@ struct ReachOptions {
 /// together, and more than three where few simulations tell them (Student's t). The candidate that may get farthest is
 /// simulated, and so on (a lower confidence bound; Cox & John 1992), until the reading is met (it is within reach),
 /// nothing is left that might meet it (it is out of reach, which is the answer), or the probes are spent (nothing is
-/// said). Probes stay in the archive and serve the search.
+/// said). Probes stay in the history and serve the search.
 ///
 /// A simulation that failed says nothing of the reading, and the model knows nothing of where such ones lie. So there
 /// is no claim unless more candidates finished than did not, and all of those nearest to where the bound lies did.
 /// Simulations that ended early are run whole before anything is judged by them, or if all have ended so:
 /// how far they would have gone is the question. Limit: a narrow region of the cube that answers unlike all the rest
 /// can be overlooked; `contradicts` says when one is found after all.
-std::optional<OutOfReach> find_out_of_reach(Archive& archive, const ReachOptions& options);
+std::optional<OutOfReach> find_out_of_reach(EvaluationHistory& history, const ReachOptions& options);
 
 /// What may come near: single simulations, whose noise helps them, or a candidate's mean over packings.
 enum class ReachOf { simulations, means };
 
 /// The same by what is known; simulates nothing. One that ended early counts as one that did not finish.
-std::optional<OutOfReach> known_out_of_reach(const Archive& archive, ReachOf what);
+std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what);
 
 /// True if the simulation reads what was said to be out of reach, or more.
 bool contradicts(const Response& single, const OutOfReach& found);
 
 /// The answer in words. Names may be missing: "reading 1", "parameter 2".
-std::string words_of(const OutOfReach& found, std::span<const std::string> readings,
+std::string describe(const OutOfReach& found, std::span<const std::string> readings,
                      std::span<const std::string> parameters);
 
 /// That the answer is withdrawn, because of what was simulated since.
-std::string words_of_withdrawal(const OutOfReach& found, std::span<const std::string> readings);
+std::string describe_withdrawal(const OutOfReach& found, std::span<const std::string> readings);
 
 /// What the simulations so far did with the fitted readings, where nothing is out of reach for certain.
-std::string words_of_screening(std::span<const Response> singles, std::span<const std::string> readings);
+std::string describe_screening(std::span<const Response> singles, std::span<const std::string> readings);
 
 }  // namespace pastefit

@@ -169,7 +169,7 @@ std::vector<StoredEvaluation> record_of(const Study& study, const Store& store, 
   for (const Response& response : history) {
     const std::vector<double> values = values_at(study, coordinates(response.point));
     for (const Evaluation& one : response.evaluations) {
-      auto found = find_in(study, tests, store, values, one.packing, std::numeric_limits<int>::max(), one.ended_early);
+      auto found = find_in(study, tests, store, values, one.packing, std::numeric_limits<int>::max(), one.censored);
       if (!found || !known.insert(found->key).second) continue;
       found->point.assign(response.point.begin(), response.point.end());
       record.push_back(std::move(*found));

@@ -43,16 +43,16 @@ Faults validate_residuals(const Study& study) {
   }
   for (const StudyReading& reading : readings_of(study)) {
     const auto& [test, name, measurement, weight, tolerance] = reading;
-    const double miss = worst_factor * worst_miss(study, test, measurement);
+    const double difference = worst_factor * worst_miss(study, test, measurement);
     const auto refuse = [&, &place = reading.name](bool good, const char* what, double value) {
       if (!good)
         faults.push_back({place, std::string(what) + " " + shown(value) + " makes residuals that are not finite",
                           "a number above 0, of the size of the reading"});
     };
     const double deviation = measurement.standard_deviation;
-    refuse(is_positive(deviation) && has_finite_square(std::sqrt(weight) * miss / deviation), "standard deviation",
-           deviation);
-    refuse(is_positive(tolerance) && has_finite_square(miss / tolerance), "tolerance", tolerance);
+    refuse(is_positive(deviation) && has_finite_square(std::sqrt(weight) * difference / deviation),
+           "standard deviation", deviation);
+    refuse(is_positive(tolerance) && has_finite_square(difference / tolerance), "tolerance", tolerance);
   }
   return faults;
 }

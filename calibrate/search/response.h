@@ -20,9 +20,9 @@ struct Evaluation {
   std::uint64_t packing = 0;
   std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
-  bool ended_early = false;  ///< see `Objective::try_out`
-  bool rejected = false;     ///< a laboratory would repeat it: the heap sheared off
-  int simulations = 1;       ///< that were spent on it; 0: it was known, or cut off by a stop
+  bool censored = false;  ///< see `Objective::try_out`
+  bool rejected = false;  ///< a laboratory would repeat it: the heap sheared off
+  int simulations = 1;    ///< that were spent on it; 0: it was known, or cut off by a stop
 };
 
 /// What a candidate answers on a set of packings: the mean over those that a laboratory would accept (`accepted`),
@@ -37,15 +37,15 @@ struct Response {
   Eigen::VectorXd residuals;
   double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
   /// Largest difference of a fitted reading from the laboratory over its tolerance: what is judged; 1 is asked for.
-  double miss = 0;
-  /// What the noise of the packings makes of `miss` by itself: largest standard error of a fitted reading over its
-  /// tolerance. 0: a single packing, or a failure.
+  double normalised_error = 0;
+  /// What the noise of the packings makes of `normalised_error` by itself: largest standard error of a fitted reading
+  /// over its tolerance. 0: a single packing, or a failure.
   double noise = 0;
   bool failed = false;  ///< some packing ended in a failure
   int rejected = 0;     ///< packings on which a laboratory would repeat the test
   /// Some packing ended early: readings may be missing, with a residual of 0, or be a bound. The misfit is a lower
   /// bound of that of the whole test, and not one that makes a candidate the best.
-  bool ended_early = false;
+  bool censored = false;
 };
 
 /// True if there is a response, it did not fail, and its numbers are finite.
@@ -56,12 +56,12 @@ inline bool is_feasible(const Response& response) {
 
 /// True if it is feasible and has all its readings.
 inline bool is_whole(const Response& response) {
-  return is_feasible(response) && !response.ended_early;
+  return is_feasible(response) && !response.censored;
 }
 
 /// True unless reading k was not taken, because a simulation ended early.
 inline bool has_reading(const Response& response, Eigen::Index k) {
-  return !response.ended_early || k >= response.observables.size() || !std::isnan(response.observables[k]);
+  return !response.censored || k >= response.observables.size() || !std::isnan(response.observables[k]);
 }
 
 /// Those that a laboratory would accept (`laboratory/accepted.h`).

@@ -3,31 +3,31 @@
 #include <algorithm>
 #include <span>
 
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/space_filling.h"
 
 namespace pastefit {
 
 void screen(StrategyState& state) {
-  state.archive.enter("screening");
+  state.history.enter("screening");
   const std::span<const std::uint64_t> first(state.common.data(), 1);
-  const int known = static_cast<int>(state.archive.singles().size());
+  const int known = static_cast<int>(state.history.singles().size());
   int asked = 0;
-  while ((!state.archive.any_feasible() || known + asked < state.options.screening) &&
-         !state.archive.stop_requested()) {
-    const int missing = state.options.screening - (state.archive.any_feasible() ? known + asked : 0);
-    const int count = std::min(missing, state.archive.budget_left());
+  while ((!state.history.any_feasible() || known + asked < state.options.screening) &&
+         !state.history.stop_requested()) {
+    const int missing = state.options.screening - (state.history.any_feasible() ? known + asked : 0);
+    const int count = std::min(missing, state.history.budget_left());
     if (count < 1 || asked > state.options.budget_simulations / state.scoring().simulations_each() / 2) return;
     const auto points = screening_points(state.scoring().parameters(), asked + count, state.options.seed);
-    state.archive.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
+    state.history.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
     asked += count;
   }
 }
 
 void screen_coarsely(StrategyState& state) {
-  state.archive.enter("screening");
+  state.history.enter("screening");
   const auto points = screening_points(state.scoring().parameters(), state.options.screening, state.options.seed);
-  state.archive.evaluate_coarse(points, packings_of_coarse(state.options.seed, 1));
+  state.history.evaluate_coarse(points, packings_of_coarse(state.options.seed, 1));
 }
 
 }  // namespace pastefit

@@ -21,14 +21,13 @@ namespace pastefit {
 ///     }
 ///     search.result();
 ///
-/// What it suggests depends on the answers in the order of asking, up to `SearchOptions::lag` candidates under way in
-/// the phase of proposals, never on who was ready first: the same card for any number of workers. Its state is the
-/// answers it was told (`results`); a search that starts with them takes the same way without asking for them again.
-/// The phases of the default strategy, and the others: `strategy.h`.
-/// Requirements: `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it.
-/// One caller at a time. `progress` is called from a thread of the search's own.
-/// Errors: std::logic_error if a requirement is broken, or for an answer to what was not suggested; std::system_error
-/// if the system starts no thread for it.
+/// What it suggests depends on the answers in the order of asking, up to `SearchOptions::max_pending` candidates under
+/// way in the phase of proposals, never on who was ready first: the same card for any number of workers. Its state is
+/// the answers it was told (`results`); a search that starts with them takes the same way without asking for them
+/// again. The phases of the default strategy, and the others: `strategy.h`. Requirements: `validate(options,
+/// scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it. One caller at a time. `progress`
+/// is called from a thread of the search's own. Errors: std::logic_error if a requirement is broken, or for an answer
+/// to what was not suggested; std::system_error if the system starts no thread for it.
 class Search {
  public:
   Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,

@@ -12,7 +12,7 @@
 namespace pastefit {
 
 /// The misfit, and the residuals, of candidates on these packings as a problem for an optimiser.
-/// `simulations`: whatever answers like an `Objective`. `goal`: a feasible miss at or below it is good enough; 0: none
+/// `simulations`: whatever answers like an `Objective`. `goal`: a feasible error at or below it is good enough; 0: none
 /// is. Requirements: packings are given; `simulations` and `packings` outlive the problem. Refuses when a stop is
 /// requested, and what the budget does not allow.
 template <class Simulations>
@@ -25,7 +25,7 @@ Problem simulated_problem(Simulations& simulations, std::span<const std::uint64_
     std::vector<Answer> answers;
     for (const Response& response : simulations.evaluate(points, packings))
       answers.push_back({response.point, response.misfit, response.residuals, !is_feasible(response),
-                         goal > 0 && response.miss <= goal});
+                         goal > 0 && response.normalised_error <= goal});
     return answers;
   };
   problem.refuses = [&simulations, packings](int points) -> std::optional<Problem::Refusal> {

@@ -46,7 +46,7 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
   }
   demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
   demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");
-  demand(options.lag >= 0, "search.lag", std::to_string(options.lag), "0 or more");
+  demand(options.max_pending >= 0, "search.max_pending", std::to_string(options.max_pending), "0 or more");
   demand(options.confirmation_packings >= 1, "search.confirmation_packings",
          std::to_string(options.confirmation_packings), "at least 1");
   const double tolerance_mm = options.tolerance_mm.value_or(1);

@@ -18,10 +18,10 @@ std::vector<std::uint64_t> StrategyState::fresh_packings(int count) {
   return packings;
 }
 
-bool StrategyState::goal_is_met(const Prospects& prospects) {
-  if (prospects.best().size() == 0) return false;
-  return prospects.chance_of(prospects.best(), goal_share) >= likely_enough ||
-         prospects.chance_of(prospects.best(), 1) >= likely_to_hold;
+bool StrategyState::goal_is_met(const CandidateRanking& ranking) {
+  if (ranking.best().size() == 0) return false;
+  return ranking.chance_of(ranking.best(), goal_share) >= likely_enough ||
+         ranking.chance_of(ranking.best(), 1) >= likely_to_hold;
 }
 
 double StrategyState::optimisers_goal() const {

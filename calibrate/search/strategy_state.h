@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/archive.h"
-#include "calibrate/search/prospects.h"
+#include "calibrate/search/candidate_ranking.h"
+#include "calibrate/search/evaluation_history.h"
 #include "calibrate/search/strategies.h"
 
 namespace pastefit {
@@ -19,25 +19,25 @@ class StrategyState {
  public:
   StrategyState(CandidateQueue& queue, const SearchOptions& asked, const SearchStart& start,
                 const std::function<void(const Progress&)>& progress)
-      : options(asked), archive(queue, start.earlier, asked, progress), common(fresh_packings(asked.packings)) {}
+      : options(asked), history(queue, start.earlier, asked, progress), common(fresh_packings(asked.packings)) {}
 
   const SearchOptions& options;
-  Archive archive;
+  EvaluationHistory history;
   const std::vector<std::uint64_t> common;  ///< every candidate is compared on these
   std::vector<UnitPoint> refuted;           ///< by a confirmation
 
-  const Scoring& scoring() const { return archive.scoring(); }
+  const Scoring& scoring() const { return history.scoring(); }
 
   /// Packing seeds that no simulation of this search has used.
   std::vector<std::uint64_t> fresh_packings(int count);
-  bool affordable(std::size_t packings) const { return archive.budget_left() >= static_cast<int>(packings); }
-  bool may_go_on() const { return !archive.stop_requested() && affordable(common.size()); }
+  bool affordable(std::size_t packings) const { return history.budget_left() >= static_cast<int>(packings); }
+  bool may_go_on() const { return !history.stop_requested() && affordable(common.size()); }
 
   /// The candidates in the light of all answers. Requirement: some evidence is feasible.
-  Prospects prospects() const { return {archive, refuted}; }
+  CandidateRanking ranking() const { return {history, refuted}; }
   /// True if the best candidate is more likely than not to do.
-  static bool goal_is_met(const Prospects& prospects);
-  /// The miss at which an optimiser may end by itself; none where what is known beforehand has a say.
+  static bool goal_is_met(const CandidateRanking& ranking);
+  /// The normalised error at which an optimiser may end by itself; none where what is known beforehand has a say.
   double optimisers_goal() const;
 };
 

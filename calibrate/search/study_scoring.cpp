@@ -40,12 +40,12 @@ Evaluation StudyScoring::evaluation_of(const UnitPoint& point, const StoredEvalu
   out.point = point;
   out.packing = stored.packing;
   out.failure = stored.failure;
-  out.ended_early = !out.failure && stored.run.ended_early;
+  out.censored = !out.failure && stored.run.ended_early;
   out.rejected = is_rejected(study_, fitted_, stored);
   if (!out.failure)
     for (const auto& reading : readings_)
-      out.observables.push_back(out.ended_early ? stored.observables.find(reading.name).value_or(std::nan(""))
-                                                : stored.observables.find(reading.name).value());
+      out.observables.push_back(out.censored ? stored.observables.find(reading.name).value_or(std::nan(""))
+                                             : stored.observables.find(reading.name).value());
   return out;
 }
 
@@ -56,13 +56,12 @@ double StudyScoring::allowance(std::size_t reading) const {
 
 double StudyScoring::certain_miss(const Response& response, std::size_t reading) const {
   const StudyReading& fitted = readings_[reading];
-  const double miss = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
-  if (std::isnan(miss)) return 0;
+  const double difference = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
+  if (std::isnan(difference)) return 0;
   const auto is_bound = [&](const Evaluation& one) {
-    return one.ended_early &&
-           is_upper_bound(study_, fitted.test, fitted.measurement.observable, one.observables[reading]);
+    return one.censored && is_upper_bound(study_, fitted.test, fitted.measurement.observable, one.observables[reading]);
   };
-  return std::ranges::any_of(response.evaluations, is_bound) ? std::min(miss, 0.0) : miss;
+  return std::ranges::any_of(response.evaluations, is_bound) ? std::min(difference, 0.0) : difference;
 }
 
 Response StudyScoring::response_of(std::vector<Evaluation> evaluations) const {
@@ -79,7 +78,7 @@ Response StudyScoring::response_of(std::vector<Evaluation> evaluations) const {
       failure_factor += 1 / (1 + (std::isfinite(time) ? std::max(0.0, time) : 0.0)) / packings;
       continue;
     }
-    out.ended_early = out.ended_early || evaluation.ended_early;
+    out.censored = out.censored || evaluation.censored;
     out.rejected += evaluation.rejected ? 1 : 0;
   }
   const auto judged = accepted(evaluations);
@@ -97,12 +96,12 @@ Response StudyScoring::response_of(std::vector<Evaluation> evaluations) const {
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
     if (out.failed) out.observables[i] = measurement.value + failure_factor * worst_miss(study_, test, measurement);
-    double miss = out.observables[i] - measurement.value;
-    if (out.ended_early && !out.failed) miss = certain_miss(out, static_cast<std::size_t>(i));
-    out.residuals[i] = std::sqrt(weight) * miss / measurement.standard_deviation;
+    double difference = out.observables[i] - measurement.value;
+    if (out.censored && !out.failed) difference = certain_miss(out, static_cast<std::size_t>(i));
+    out.residuals[i] = std::sqrt(weight) * difference / measurement.standard_deviation;
     if (weight == 0) continue;
     const double error = std::sqrt(squared_standard_error(out, static_cast<std::size_t>(i)));
-    out.miss = std::max(out.miss, std::abs(miss) / tolerance);
+    out.normalised_error = std::max(out.normalised_error, std::abs(difference) / tolerance);
     out.noise = std::max(out.noise, error / tolerance);
   }
   out.misfit = 0.5 * out.residuals.squaredNorm();

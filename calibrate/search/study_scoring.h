@@ -15,8 +15,8 @@ namespace pastefit {
 /// How a study judges its simulations: against the readings of all tests that are fitted, and what is known beforehand.
 ///
 /// A candidate that failed in some test on some packing answers as if every measurement had been missed by `factor`
-/// times the worst miss a heap can have (`ReadingKind::worst_miss`; without one ten standard deviations; at least the
-/// measured value),
+/// times the largest error a heap can have (`ReadingKind::worst_miss`; without one ten standard deviations; at least
+/// the measured value),
 ///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
 /// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
 ///

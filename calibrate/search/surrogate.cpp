@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/response.h"
 
 namespace pastefit {
@@ -58,7 +58,7 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
       values.push_back(response->residuals[k]);
     }
     models_.emplace_back();
-    scatters_.emplace_back();
+    replicate_variances_.emplace_back();
     if (!points.empty()) learn(points, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)), tolerance);
   }
   if (failed.sum() > 0) failures_.emplace(all, failed);
@@ -81,27 +81,27 @@ void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen
 /// Where packings scatter, a simulation says less of the mean: the residual is learnt again with that.
 void Surrogate::learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance) {
   std::optional<GaussianProcess>& model = models_.back();
-  std::optional<Scatter>& scatter = scatters_.back();
+  std::optional<ReplicateVariance>& variance = replicate_variances_.back();
   model.emplace(points, values);
   if (tolerance <= 0) return;
   compress_if_likelier(points, values, far_off * tolerance);
   Eigen::VectorXd precisions(values.size());
-  const auto look_at_scatter = [&] {
-    Eigen::VectorXd surprises = values;
+  const auto learn_replicate_variance = [&] {
+    Eigen::VectorXd deviations = values;
     for (std::size_t i = 0; i < points.size(); ++i)
-      surprises[static_cast<Eigen::Index>(i)] -= model->predict(points[i]).mean;
-    scatter.emplace(points, surprises, packings_of_a_mean * std::pow(harmless_share * tolerance, 2));
+      deviations[static_cast<Eigen::Index>(i)] -= model->predict(points[i]).mean;
+    variance.emplace(points, deviations, packings_of_a_mean * std::pow(harmless_share * tolerance, 2));
     for (std::size_t i = 0; i < points.size(); ++i)
-      precisions[static_cast<Eigen::Index>(i)] = scatter->precision(points[i]);
+      precisions[static_cast<Eigen::Index>(i)] = variance->precision(points[i]);
   };
-  look_at_scatter();
+  learn_replicate_variance();
   if (precisions.minCoeff() == 1) return;
   model.emplace(points, values, precisions);
-  look_at_scatter();
+  learn_replicate_variance();
 }
 
-double Surrogate::luck(std::size_t residual, const UnitPoint& point) const {
-  return scatters_[residual] ? scatters_[residual]->excess(point) / packings_of_a_mean : 0;
+double Surrogate::variance_of_mean(std::size_t residual, const UnitPoint& point) const {
+  return replicate_variances_[residual] ? replicate_variances_[residual]->excess(point) / packings_of_a_mean : 0;
 }
 
 Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
@@ -111,14 +111,14 @@ Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
   return expected;
 }
 
-Surrogate::Outlook Surrogate::outlook(const UnitPoint& point) const {
+Surrogate::MisfitPosterior Surrogate::misfit_posterior(const UnitPoint& point) const {
   const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
   double certain = rejected_misfit_ * std::pow(rejecting(point), 2), mean = odd + failing(point) * worst_, variance = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
     if (!models_[k]) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
     const double square = residual.mean * residual.mean;
-    certain += 0.5 * luck(k, point);
+    certain += 0.5 * variance_of_mean(k, point);
     mean += 0.5 * (square + residual.variance);
     variance += residual.variance * (0.5 * residual.variance + square);
   }
@@ -133,7 +133,7 @@ void Surrogate::learn_rejections(std::span<const Response> seen, const Eigen::Ve
   std::vector<bool> labels;
   for (const Response& one : seen)
     for (const Evaluation& evaluation : one.evaluations) {
-      if (evaluation.failure || evaluation.ended_early || evaluation.packing >= coarse_packings) continue;
+      if (evaluation.failure || evaluation.censored || evaluation.packing >= coarse_packings) continue;
       points.push_back(one.point);
       labels.push_back(evaluation.rejected);
     }
@@ -164,7 +164,7 @@ double Surrogate::within(const Eigen::VectorXd& bounds, const UnitPoint& point) 
   return probability;
 }
 
-double Surrogate::Outlook::improvement(double bound) const {
+double Surrogate::MisfitPosterior::improvement(double bound) const {
   bound -= certain_;
   if (bound <= 0) return 0;
   if (variance_ <= 0) return std::max(0.0, bound - mean_);
@@ -191,14 +191,14 @@ double Surrogate::noise() const {
   return 0.5 * variance;
 }
 
-Improvement most_promising(const Surrogate& surrogate, double misfit, const UnitPoint& start) {
+Improvement maximise_expected_improvement(const Surrogate& surrogate, double misfit, const UnitPoint& start) {
   constexpr double slope = 1e-4;  // leads out of where no improvement is in sight
   const auto expected_least = [&](const UnitPoint& point) {
-    const Surrogate::Outlook outlook = surrogate.outlook(point);
-    return misfit - outlook.improvement(misfit) + slope * outlook.mean();
+    const Surrogate::MisfitPosterior misfit_posterior = surrogate.misfit_posterior(point);
+    return misfit - misfit_posterior.improvement(misfit) + slope * misfit_posterior.mean();
   };
   const UnitPoint point = least_point(expected_least, start);
-  return {point, surrogate.outlook(point).improvement(misfit)};
+  return {point, surrogate.misfit_posterior(point).improvement(misfit)};
 }
 
 }  // namespace pastefit

@@ -6,16 +6,16 @@
 
 #include "calibrate/models/classifier.h"
 #include "calibrate/models/gaussian_process.h"
-#include "calibrate/models/scatter.h"
+#include "calibrate/models/replicate_variance.h"
 #include "calibrate/search/objective.h"
 
 namespace pastefit {
 
 /// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
-/// mean of its outlook plus the largest misfit seen times the likely share of failures, so that its minimum lies where
-/// something is known, little fails, and packings agree. It never fails. Each residual is learnt from the simulations
-/// that took its reading and that a laboratory would not reject; from all, where it would reject every one. A residual
-/// that none took is expected to be met.
+/// mean of its misfit_posterior plus the largest misfit seen times the likely share of failures, so that its minimum
+/// lies where something is known, little fails, and packings agree. It never fails. Each residual is learnt from the
+/// simulations that took its reading and that a laboratory would not reject; from all, where it would reject every one.
+/// A residual that none took is expected to be met.
 class Surrogate {
  public:
   /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
@@ -31,11 +31,12 @@ class Surrogate {
   /// What the residuals of a point are expected to be, in their own unit or compressed.
   Eigen::VectorXd expected_residuals(const UnitPoint& point) const;
 
-  /// What the misfit of a point may be, less the usual noise of the packings: a part that is certain, and half the sum
-  /// of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
-  class Outlook {
+  /// What the misfit of a point may be, less the typical noise of the packings: a part that is certain, and half the
+  /// sum of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
+  class MisfitPosterior {
    public:
-    Outlook(double certain, double mean, double variance) : certain_(certain), mean_(mean), variance_(variance) {}
+    MisfitPosterior(double certain, double mean, double variance)
+        : certain_(certain), mean_(mean), variance_(variance) {}
     double mean() const { return certain_ + mean_; }
     /// Mean of what lies below this bound: max(0, bound - misfit).
     double improvement(double bound) const;
@@ -43,9 +44,9 @@ class Surrogate {
    private:
     double certain_, mean_, variance_;
   };
-  /// Certain is what a mean over some packings is off by where they scatter. Its mean includes failures and what a
+  /// Certain is what a mean over some packings is off by where they variance. Its mean includes failures and what a
   /// point far from the middle of the bounds has to make up for (a weak prior).
-  Outlook outlook(const UnitPoint& point) const;
+  MisfitPosterior misfit_posterior(const UnitPoint& point) const;
 
   /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
   /// of 0 do not count. Shape: one for each residual.
@@ -67,13 +68,13 @@ class Surrogate {
   void compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far);
   void learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance);
   /// Variance of the mean of some packings beyond what does no harm.
-  double luck(std::size_t residual, const UnitPoint& point) const;
+  double variance_of_mean(std::size_t residual, const UnitPoint& point) const;
   /// Likely share of failures.
   double failing(const UnitPoint& point) const;
 
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
-  std::vector<std::optional<Scatter>> scatters_;        // likewise; none too where it does not matter
+  std::vector<std::optional<ReplicateVariance>> replicate_variances_;  // likewise; none too where it does not matter
   std::optional<GaussianProcess> failures_;
   std::optional<Classifier> rejections_;  // none: nothing was rejected, or it does not matter
   double rejected_misfit_ = 0;            // of a share of 1
@@ -85,6 +86,6 @@ struct Improvement {
   UnitPoint point;
   double expected = 0;
 };
-Improvement most_promising(const Surrogate& surrogate, double misfit, const UnitPoint& start);
+Improvement maximise_expected_improvement(const Surrogate& surrogate, double misfit, const UnitPoint& start);
 
 }  // namespace pastefit

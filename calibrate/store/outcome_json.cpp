@@ -32,12 +32,12 @@ json parameters_to_json(std::span<const double> values) {
   const auto kinds = parameter_kinds();
   json out = json::object();
   for (std::size_t i = 0; i < kinds.size(); ++i)
-    if (values[i] != kinds[i].usual) out[std::string(kinds[i].name)] = values[i];
+    if (values[i] != kinds[i].default_value) out[std::string(kinds[i].name)] = values[i];
   return out;
 }
 
 std::vector<double> parameters_from_json(const json& in) {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   const auto kinds = parameter_kinds();
   for (const auto& [name, value] : in.items()) {
     const auto kind = std::ranges::find(kinds, name, &ParameterKind::name);

@@ -16,7 +16,7 @@ namespace pastefit {
 nlohmann::ordered_json number_to_json(double value);
 double number_from_json(const nlohmann::json& in);
 
-/// The parameters that do not have their usual value, {"friction": 0.15, ...}, and all of them from it. Shape: one
+/// The parameters that do not have their default value, {"friction": 0.15, ...}, and all of them from it. Shape: one
 /// value for each of `parameter_kinds()`.
 nlohmann::json parameters_to_json(std::span<const double> values);
 std::vector<double> parameters_from_json(const nlohmann::json& in);

@@ -35,11 +35,11 @@ struct StoredEvaluation {
 };
 
 /// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of all that the test (its packing seed
-/// included) has different from the usual one, as 16 hexadecimal digits: what is added to tests and has its usual value
-/// here, a parameter or an optional field, leaves the name as it was. Two evaluations with the same key are
-/// (up to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured
-/// (but for an outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation
-/// outlives a change of these.
+/// included) has different from the default one, as 16 hexadecimal digits: what is added to tests and has its default
+/// value here, a parameter or an optional field, leaves the name as it was. Two evaluations with the same key are (up
+/// to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured (but for an
+/// outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation outlives a change
+/// of these.
 std::string evaluation_key(std::string_view program, const Test& test);
 
 /// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.
@@ -48,7 +48,7 @@ std::string evaluation_key(std::string_view program, const Test& test);
 ///
 /// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
 /// failure, run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, the
-/// parameters by name, those only that do not have their usual value; the checksum is of all before it. Table
+/// parameters by name, those only that do not have their default value; the checksum is of all before it. Table
 /// `set_aside`: rows that were found not to agree with theirs. Table `identity`: the program, and how many evaluations
 /// were ever written. Table `inputs`: epoch, content, checksum; one row for each change of the study or its laboratory
 /// files.

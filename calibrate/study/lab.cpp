@@ -71,7 +71,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     preset = read_apparatus(reader, lab.test, folder);
     read_material(reader, lab.test);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
-    lab.test = with_usual_contact(lab.test);
+    lab.test = with_default_contact(lab.test);
     // A test with a faulty section would only be judged by values nobody gave.
     if (values_are_good(faults, before))
       for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
@@ -79,8 +79,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, questions);
     if (values_are_good(faults, before)) {
-      Doubts doubts = doubts_about(lab.test, lab.measurements);
-      for (Fault& fault : doubts.faults) faults.push_back(std::move(fault));
+      ReadingCheck check = check_readings(lab.test, lab.measurements);
+      for (Fault& fault : check.faults) faults.push_back(std::move(fault));
     }
     lab.notes = questions.notes();
   }

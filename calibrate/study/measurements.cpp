@@ -189,8 +189,9 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Q
     bool strange = refuse_strange(reader, test, kinds);
     strange = refuse_times(reader, kinds) || strange;
     if (any || strange) return;
-    const auto usual = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
-    document.fault("measurements", "holds no reading", "give at least one, e.g. " + in_quotes(std::string(usual->key)));
+    const auto by_default = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
+    document.fault("measurements", "holds no reading",
+                   "give at least one, e.g. " + in_quotes(std::string(by_default->key)));
   });
   return measurements;
 }

@@ -62,9 +62,9 @@ std::span<const PlausibleRange> plausible_ranges() {
   return plausible;
 }
 
-std::vector<double> usual_values() {
+std::vector<double> default_values() {
   std::vector<double> values;
-  for (const ParameterKind& kind : kinds) values.push_back(kind.usual);
+  for (const ParameterKind& kind : kinds) values.push_back(kind.default_value);
   return values;
 }
 
@@ -225,11 +225,11 @@ Test with_contact_of(Test test, std::span<const double> values) {
   return test;
 }
 
-Test with_usual_contact(Test test) {
+Test with_default_contact(Test test) {
   ContactModel& contact = specimen_of(test).contact;
   contact.normal = NormalLaw::hertz;
   contact.bridge.shape = BridgeShape::polynomial;
-  return with_contact_of(std::move(test), usual_values());
+  return with_contact_of(std::move(test), default_values());
 }
 
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed) {

@@ -28,7 +28,7 @@ namespace pastefit {
 struct ParameterKind {
   std::string_view name;
   double smallest, largest;  ///< admissible range
-  double usual;              ///< value when the study does not name it
+  double default_value;      ///< value when the study does not name it
   Scale scale;               ///< natural spacing
   std::string_view meaning;  ///< one line for help and reports
 };
@@ -48,7 +48,7 @@ std::span<const PlausibleRange> plausible_ranges();
 /// Every known parameter, in their fixed order.
 std::span<const ParameterKind> parameter_kinds();
 
-/// Whether the laws of this contact have the parameter. The others keep their usual value, which acts on nothing.
+/// Whether the laws of this contact have the parameter. The others keep their default value, which acts on nothing.
 bool has_parameter(const ContactModel& laws, std::string_view name);
 
 /// Whether the parameter acts in the test: false of one of a surface that its apparatus has not, as a shear cell has no
@@ -80,17 +80,17 @@ UnitPrior unit_prior(const Parameter& parameter);
 /// Values of all parameters at a point of the unit cube over the free ones. Shapes: free_count -> parameters.size().
 std::vector<double> values_at(const Study& study, std::span<const double> unit_point);
 
-/// The usual value of every parameter, in their fixed order.
-std::vector<double> usual_values();
+/// The default value of every parameter, in their fixed order.
+std::vector<double> default_values();
 
 /// The test with these parameter values in the contact laws that it names (normal, attraction and its formation,
 /// rolling): their numbers in SI, with R the mean radius of its grains, and each surface's own. Shape: one value for
 /// each of `parameter_kinds()`.
 Test with_contact_of(Test test, std::span<const double> values);
 
-/// The test with the laws of a study that chooses none, Hertz and a polynomial bridge, and usual values of their
+/// The test with the laws of a study that chooses none, Hertz and a polynomial bridge, and default values of their
 /// parameters. Formation, rolling and the basis of friction stay.
-Test with_usual_contact(Test test);
+Test with_default_contact(Test test);
 
 /// The test with these parameter values, and this packing.
 Test test_with(Test test, std::span<const double> values, std::uint64_t packing_seed);

@@ -155,7 +155,7 @@ Result<Rig> rig_from_json(const json& document) {
     read_apparatus(reader, rig.test, std::nullopt);
     read_material(reader, rig.test);
     read_grains(reader, rig.test, Need::required);
-    rig.test = with_usual_contact(rig.test);
+    rig.test = with_default_contact(rig.test);
     if (faults.size() == before)
       for (Fault& fault : validate_in_file_words(rig.test)) faults.push_back(std::move(fault));
   }

@@ -10,11 +10,12 @@
 
 namespace pastefit {
 
-/// A rig file of data/rigs: an apparatus with a usual material and usual grains; a laboratory file without readings.
+/// A rig file of data/rigs: an apparatus with a default material and default grains; a laboratory file without
+/// readings.
 struct Rig {
   std::string title;
   Provenance provenance;
-  Test test;                   ///< contact parameters have their usual values
+  Test test;                   ///< contact parameters have their default values
   std::filesystem::path file;  ///< empty if it was read from no file
   std::string content;         ///< of the file, without comments and white space; part of the hash of whoever uses it
 };
@@ -37,7 +38,7 @@ std::vector<std::filesystem::path> rig_folders(const std::filesystem::path& fold
 
 void read_provenance(ObjectReader& document, Provenance& provenance);
 
-/// Which test it is, "test": a slump test if it does not say. `test` then has usual values.
+/// Which test it is, "test": a slump test if it does not say. `test` then has default values.
 void read_kind(ObjectReader& document, Test& test);
 
 /// The object "apparatus". With a folder (where the file lies) it may name a preset; own keys then only differ from it.

@@ -39,7 +39,7 @@ std::span<const ShortReading> short_readings();
 /// end is that of all. Error: what is no number, a comma without a space, a unit of something else.
 Result<std::vector<double>> written_readings(const std::string& where, const std::string& text, std::string_view unit);
 
-/// The apparatus that the sheet names, with its usual grains. `folder` is where the laboratory file will lie.
+/// The apparatus that the sheet names, with its default grains. `folder` is where the laboratory file will lie.
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder);
 
 /// Both files. Grains and deviations come from the mould, the free parameters from what the readings tell of, the laws

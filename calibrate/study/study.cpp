@@ -85,7 +85,7 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   if (!check_bounds(reader, bounds, parameter.scale)) return;
   parameter.lower = bounds[0];
   parameter.upper = bounds[1];
-  parameter.value = kind.usual;
+  parameter.value = kind.default_value;
   reader.object("prior", Need::optional, [&](ObjectReader& known) { read_prior(known, parameter, range); });
 }
 
@@ -112,7 +112,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
                                        const std::vector<StudyTest>& tests) {
   std::vector<Parameter> parameters;
   for (const ParameterKind& kind : parameter_kinds())
-    parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+    parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
   document.object("parameters", Need::required, [&](ObjectReader& reader) {
     bool any_free = false;
     reader.former("offset_ratio",
@@ -142,7 +142,8 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
     reader.integer("screening", search.screening, 0, most, Need::optional);
     reader.integer("budget_simulations", search.budget_simulations, 1, most, Need::optional);
     reader.integer("packings", search.packings, 1, 1000, Need::optional);
-    reader.integer("lag", search.lag, 0, 1000, Need::optional);
+    reader.former("lag", "max_pending");
+    reader.integer("max_pending", search.max_pending, 0, 1000, Need::optional);
     reader.integer("confirmation_packings", search.confirmation_packings, 1, 1000, Need::optional);
     reader.number("rejected_share", search.rejected_share, {0, 1}, Need::optional);
     reader.integer("examination_simulations", search.examination_simulations, 0, most, Need::optional);

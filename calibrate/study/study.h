@@ -65,12 +65,12 @@ struct SearchOptions {
   int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< simulations in all, confirmation included
   int packings = 2;                  ///< random packings on which candidates are tried in turn
-  int lag = 0;                       ///< candidates that may be under way when the next one is proposed
+  int max_pending = 0;               ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   double rejected_share = 0.2;       ///< of heaps that a laboratory would reject, at most; 1: not judged
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
-  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/coarse_rung.h`)
+  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/low_fidelity.h`)
   bool end_early = true;      ///< candidates need not run to their end (`calibrate/search/early_end.h`)
   std::uint64_t seed = 1;
 };

@@ -17,7 +17,7 @@ double tolerance_of(const Study& study, std::size_t test, std::size_t measuremen
   const Measurement& read = one.lab.measurements.at(measurement);
   if (const auto& own = one.targets.at(measurement).tolerance) return *own;
   if (is_length(read.observable) && study.search.tolerance_mm) return *study.search.tolerance_mm;
-  return usual_tolerance(one.lab.test, read);
+  return default_tolerance(one.lab.test, read);
 }
 
 std::string MisfitUnit::words(double misfit, const char* pattern) const {

@@ -14,7 +14,7 @@ struct Study;
 bool is_length(std::string_view observable);
 
 /// How far off a reading may be for the material to do, in the reading's unit: what the study's "tolerances" say of it;
-/// else its "tolerance_mm" for a length, and what is usual in the test for anything else (`usual_tolerance`).
+/// else its "tolerance_mm" for a length, and the default of the test for anything else (`default_tolerance`).
 /// Requirements: `test` and `measurement` are indices in `study.tests` and its `lab.measurements`.
 double tolerance_of(const Study& study, std::size_t test, std::size_t measurement);
 

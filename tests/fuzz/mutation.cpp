@@ -102,7 +102,7 @@ void change(std::string& text, const std::vector<std::string>& texts, const std:
 
 }  // namespace
 
-std::vector<std::string> words_of(const std::vector<std::string>& texts) {
+std::vector<std::string> describe(const std::vector<std::string>& texts) {
   std::set<std::string> words;
   for (const std::string& text : texts)
     for (const Token& token : tokens_of(text))

@@ -8,7 +8,7 @@
 namespace pastefit::fuzz {
 
 /// The strings of a JSON text, quotation marks included, each once and sorted: the words that its reader knows.
-std::vector<std::string> words_of(const std::vector<std::string>& texts);
+std::vector<std::string> describe(const std::vector<std::string>& texts);
 
 /// `text` with one to six faults drawn from `random`, as a broken disk, a slip of the hand or somebody who means harm
 /// would make them: a number or a word that becomes another (also none at all, or one beyond every bound), a part that

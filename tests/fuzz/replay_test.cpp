@@ -18,7 +18,7 @@ TEST_CASE("Whatever a file holds, it is read or refused with faults", "[fuzz]") 
     std::vector<std::string> texts;
     for (const auto& file : corpus_of(reader)) texts.push_back(test::content(file));
     REQUIRE_FALSE(texts.empty());
-    const auto words = words_of(texts);
+    const auto words = describe(texts);
     const auto attack = [&](const std::string& text) {
       const auto start = std::chrono::steady_clock::now();
       try {

@@ -11,7 +11,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/inference/words.h"
+#include "calibrate/inference/description.h"
 #include "core/random.h"
 #include "tests/calibrate/slump.h"
 
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   const CalibrationResult& result = calibrated.value();
   if (!result.card) return 1;
   const Faults faults = write_atomically(
-      folder + "/card.json", to_json(*result.card).dump(2) + (result.inference ? words_of(*result.inference) : ""));
+      folder + "/card.json", to_json(*result.card).dump(2) + (result.inference ? describe(*result.inference) : ""));
   if (!faults.empty()) return fail(faults);
   std::printf("known %zu simulated %d\n", known, result.counts.simulated);
   return 0;

@@ -54,9 +54,9 @@ constexpr std::array<Range, 7> kDrawn{{{"rupture_force_ratio", 0, 0.5},
                                        {"rolling_friction", 0, 1},
                                        {"table_friction", 0.1, 1}}};
 
-/// All parameters: the usual ones, those drawn, and those of the grid.
+/// All parameters: the default ones, those drawn, and those of the grid.
 std::vector<double> values_of(double strength, const Shares& shares, const RandomStream& drawn) {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   const auto set = [&](std::string_view name, double value) {
     std::size_t at = 0;
     while (parameter_kinds()[at].name != name) ++at;

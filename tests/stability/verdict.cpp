@@ -33,7 +33,7 @@ std::string number(double value) {
   return text;
 }
 
-/// Looks at the grains while the test runs: what the engine should have noticed itself.
+/// RunRecordings at the grains while the test runs: what the engine should have noticed itself.
 class Witness {
  public:
   explicit Witness(const StressCase& stress) : stress_(stress) {}

@@ -26,8 +26,8 @@ double ruler_of(const std::string& reading, const TwinRecipe& recipe) {
 /// The best determined combination of the truth, as a value of its lead: the one at which the recommended material
 /// would read what the truth reads.
 double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recommended, std::size_t lead) {
-  const ResponseModel model(evidence_of(twin.study, store.all()));
-  const auto& readings = model.evidence().readings;
+  const ResponseModel model(training_data_of(twin.study, store.all()));
+  const auto& readings = model.training_data().readings;
   double least = std::numeric_limits<double>::infinity(), at = 0;
   constexpr int cells = 1000;
   for (int i = 0; i <= cells; ++i) {
@@ -44,7 +44,7 @@ double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recom
     least = squares;
     at = point[static_cast<Eigen::Index>(lead)];
   }
-  return value_between(model.evidence().parameters[lead], at);
+  return value_between(model.training_data().parameters[lead], at);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/processor_time.h"
-#include "calibrate/search/coarse_rung.h"
 #include "calibrate/search/evaluator.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"
 #include "core/world/world.h"
@@ -102,7 +102,7 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   cost.simulation_s = cost.core_s / std::max(1, calibration.simulations);
   cost.status = calibration.status;
   if (calibration.confirmation.point.size() > 0)
-    cost.confirmed_mm = calibration.confirmation.miss * study.search.tolerance_mm.value_or(1);
+    cost.confirmed_mm = calibration.confirmation.normalised_error * study.search.tolerance_mm.value_or(1);
   engine.tell(cost);
   return cost;
 }

@@ -22,13 +22,13 @@ Card card() {
   out.title = "Mix 20";
   auto& parameters = out.material.parameters;
   for (const auto& kind : parameter_kinds())
-    parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+    parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
   parameters[0].free = true;
   parameters[0].value = 3000.0 / 7;
   parameters[0].lower = 200;
   parameters[0].upper = 60000;
   auto& test = out.tests.emplace_back();
-  test.test = with_contact_of(with_usual_contact(test.test), values_of(out.material));
+  test.test = with_contact_of(with_default_contact(test.test), values_of(out.material));
   std::get<SlumpTest>(test.test).drop = DropPlate{};
   out.material.bulk_density_kg_m3 = specimen_of(test.test).bulk_density_kg_m3;
   out.material.grain_density_kg_m3 = 2238 / 0.6;
@@ -91,7 +91,7 @@ TEST_CASE("a card keeps of how many packings a reading is where a laboratory wou
   CHECK_THAT(verdict_of(material), Catch::Contains("(mean of 3 of 4 packings)"));
 }
 
-TEST_CASE("a parameter that a card does not name has its usual value") {
+TEST_CASE("a parameter that a card does not name has its default value") {
   auto document = text_and_back(to_json(card()));
   for (const auto* name : {"curvature", "mould_cohesion_factor"}) document["material"]["parameters"].erase(name);
   const auto read = card_from_json(document);

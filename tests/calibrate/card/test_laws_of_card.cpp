@@ -18,13 +18,13 @@ Card card_with(NormalLaw normal, BridgeShape attraction, RollingModel rolling = 
   Card card;
   card.title = "of other laws";
   for (const ParameterKind& kind : parameter_kinds())
-    card.material.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+    card.material.parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
   CardTest& test = card.tests.emplace_back();
   ContactModel& contact = specimen_of(test.test).contact;
   contact.normal = normal;
   contact.bridge.shape = attraction;
   contact.rolling = rolling;
-  test.test = with_contact_of(test.test, usual_values());
+  test.test = with_contact_of(test.test, default_values());
   const Specimen& specimen = specimen_of(test.test);
   card.material.bulk_density_kg_m3 = specimen.bulk_density_kg_m3;
   card.material.grains = specimen.grains;

@@ -18,7 +18,7 @@ namespace {
 Card coarse_card() {
   Card card;
   card.title = "Coarse paste";
-  auto values = usual_values();
+  auto values = default_values();
   const auto set = [&](std::string_view name, double value) {
     const auto kinds = parameter_kinds();
     values[std::ranges::find(kinds, name, &ParameterKind::name) - kinds.begin()] = value;
@@ -36,7 +36,7 @@ Card coarse_card() {
   slump.contact.friction_basis = FrictionBasis::total;
   slump.drop = DropPlate{};
   slump.lift_velocity_m_s = 0.2;
-  card.tests.emplace_back().test = with_contact_of(with_usual_contact(slump), values);
+  card.tests.emplace_back().test = with_contact_of(with_default_contact(slump), values);
   const Specimen& specimen = specimen_of(card.tests[0].test);
   card.material.bulk_density_kg_m3 = specimen.bulk_density_kg_m3;
   card.material.grains = specimen.grains;

@@ -15,7 +15,7 @@ inline constexpr GrainPair kPair{kRadius, kRadius, kRadius};
 inline SlumpTest slump_of_paste() {
   SlumpTest out;
   out.grains.radius_m = kRadius;
-  return std::get<SlumpTest>(with_contact_of(with_usual_contact(out), usual_values()));
+  return std::get<SlumpTest>(with_contact_of(with_default_contact(out), default_values()));
 }
 
 /// A mould with three grains in it: exporters do not care how it was filled.

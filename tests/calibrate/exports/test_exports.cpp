@@ -160,7 +160,7 @@ TEST_CASE("an attraction of every law is written by every exporter, and its curv
   for (const auto& [word, shape] : bridge_shapes) {
     SlumpTest material = slump_of_paste();
     material.contact.bridge.shape = shape;
-    material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+    material = std::get<SlumpTest>(with_contact_of(material, default_values()));
     for (const auto& exporter : exporters()) {
       INFO(exporter.name << ", " << word);
       const auto written = exporter.write(scene(material));
@@ -253,7 +253,7 @@ TEST_CASE("the deck with LAMMPS's DMT says that its friction is of the net force
   SlumpTest material = slump_of_paste();
   material.contact.bridge.shape = BridgeShape::none;
   material.contact.normal = NormalLaw::dmt;
-  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  material = std::get<SlumpTest>(with_contact_of(material, default_values()));
   for (const auto basis : {FrictionBasis::total, FrictionBasis::elastic}) {
     material.contact.friction_basis = basis;
     CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()),
@@ -266,7 +266,7 @@ TEST_CASE("the deck with LAMMPS's DMT says that its friction is of the net force
 TEST_CASE("the deck for LAMMPS as it stands says how much lower heaps of dry grains that roll are") {
   SlumpTest material = slump_of_paste();
   material.contact.bridge.shape = BridgeShape::none;
-  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  material = std::get<SlumpTest>(with_contact_of(material, default_values()));
   material.contact.rolling_friction = 0.1;
   CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), Catch::Contains("lower in the deck"));
   material.contact.rolling_friction = 0;
@@ -276,7 +276,7 @@ TEST_CASE("the deck for LAMMPS as it stands says how much lower heaps of dry gra
 TEST_CASE("liquid and surface energy become parameters by the formulas of the manual") {
   const double tension = 0.072, volume = 2e-9, root = std::cbrt(volume);
   SlumpTest material = slump_of_paste();
-  auto values = usual_values();
+  auto values = default_values();
   const auto set = [&](std::string_view name, double value) {
     const auto kinds = parameter_kinds();
     const auto at = std::ranges::find(kinds, name, &ParameterKind::name);

@@ -35,7 +35,7 @@ TEST_CASE("JKR without a bridge goes to EDEM, which has it, with its surface ene
   SlumpTest material = slump_of_paste();
   material.contact.normal = NormalLaw::jkr;
   material.contact.bridge.shape = BridgeShape::none;
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   material = std::get<SlumpTest>(with_contact_of(material, values));
   const auto written = export_edem_notes(scene(material));
   REQUIRE(written.ok());
@@ -58,7 +58,7 @@ TEST_CASE("a law of grains that stick goes to the targets that have it or one of
     SlumpTest material = slump_of_paste();
     material.contact.normal = law;
     material.contact.bridge.shape = BridgeShape::none;
-    material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+    material = std::get<SlumpTest>(with_contact_of(material, default_values()));
     for (const auto& exporter : exporters()) {
       INFO(exporter.name << ", " << word);
       const auto& having = takers.at(std::string(word));
@@ -83,7 +83,7 @@ SlumpTest sticky() {
   SlumpTest material = slump_of_paste();
   material.contact.normal = NormalLaw::jkr;
   material.contact.bridge.shape = BridgeShape::none;
-  return std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  return std::get<SlumpTest>(with_contact_of(material, default_values()));
 }
 
 /// A pellet crush of granules that stick and roll against a constant torque, as the shipped ones do.
@@ -219,7 +219,7 @@ TEST_CASE("what LAMMPS's JKR has otherwise is said with numbers") {
   material.contact.normal = NormalLaw::jkr;
   material.contact.bridge.shape = BridgeShape::none;
   material.contact.friction_basis = FrictionBasis::elastic;
-  material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+  material = std::get<SlumpTest>(with_contact_of(material, default_values()));
   const auto written = export_lammps_tables(scene(material));
   REQUIRE(written.ok());
   // 3 pi gamma R* with gamma 8 J/m^2 and R* 4 mm
@@ -233,7 +233,7 @@ TEST_CASE("what Yade's friction of grains that stick has otherwise is said with 
     material.contact.normal = NormalLaw::dmt;
     material.contact.bridge.shape = BridgeShape::none;
     material.contact.friction_basis = basis;
-    material = std::get<SlumpTest>(with_contact_of(material, usual_values()));
+    material = std::get<SlumpTest>(with_contact_of(material, default_values()));
     const auto written = export_yade(scene(material));
     REQUIRE(written.ok());
     // 4 pi gamma R* of two reference grains, each of radius 2 R*; of the total force friction feels twice the pull

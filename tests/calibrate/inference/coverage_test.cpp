@@ -43,7 +43,7 @@ Heap heap_of(const UnitPoint& x, std::uint64_t seed) {
 }
 
 struct MadeUpStudy {
-  Evidence evidence;
+  TrainingData evidence;
   UnitPoint truth;
   UnitPoint recommended;
 };
@@ -87,11 +87,11 @@ MadeUpStudy made_up(std::uint64_t seed, bool with_spread) {
   };
   for (const UnitPoint& point : screening_points(2, 12, seed)) simulate(point, 1);
   std::vector<UnitPoint> near = screening_points(2, 200, seed + 1);
-  const auto miss = [&](const UnitPoint& x) {
+  const auto difference = [&](const UnitPoint& x) {
     return std::abs(mean_heap(x).height - measured.height) / height.deviation +
            (with_spread ? std::abs(mean_heap(x).spread - measured.spread) / spread.deviation : 0);
   };
-  std::ranges::sort(near, {}, miss);
+  std::ranges::sort(near, {}, difference);
   for (std::size_t k = 0; k < 8; ++k) simulate(near[3 * k], 2);
   study.recommended = near[0];
   simulate(near[0], 8);

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "calibrate/inference/description.h"
 #include "calibrate/inference/posterior.h"
-#include "calibrate/inference/words.h"
 #include "calibrate/search/space_filling.h"
 #include "tests/calibrate/search/fake_slump.h"
 
@@ -21,8 +21,8 @@ struct Law {
   double deviation = 5;
 };
 
-Evidence evidence_for(const std::vector<Law>& laws, int simulations = 40, double most_of_second = 1) {
-  Evidence evidence;
+TrainingData evidence_for(const std::vector<Law>& laws, int simulations = 40, double most_of_second = 1) {
+  TrainingData evidence;
   for (const char* name : {"first", "second"}) {
     Parameter parameter;
     parameter.name = name;
@@ -110,14 +110,14 @@ TEST_CASE("the interval of a parameter that is seen alone is that of the closed 
 }
 
 TEST_CASE("repeats narrow an interval as their number does") {
-  Evidence evidence = evidence_for({first_alone});
+  TrainingData evidence = evidence_for({first_alone});
   const double once = infer(evidence, middle).intervals[0].uncertainty;
   evidence.readings[0].repeats = 4;
   CHECK(infer(evidence, middle).intervals[0].uncertainty == Approx(once / 2).epsilon(0.12));
 }
 
 TEST_CASE("a prior and a reading of the same parameter are weighed by their variances") {
-  Evidence evidence = evidence_for({first_alone});  // tells 0.5 +- 0.05
+  TrainingData evidence = evidence_for({first_alone});  // tells 0.5 +- 0.05
   evidence.parameters[0].prior = Prior{0.6, 0.05};
   const Inference inference = infer(evidence, middle);
   const ParameterInterval& one = inference.intervals[0];
@@ -125,18 +125,18 @@ TEST_CASE("a prior and a reading of the same parameter are weighed by their vari
   CHECK(one.upper == Approx(0.55 + 1.96 * 0.05 / std::sqrt(2.0)).margin(0.012));
   CHECK(one.deviation_before == Approx(0.05).epsilon(0.01));
   CHECK(one.uncertainty == Approx(1 / std::sqrt(2.0)).margin(0.06));
-  CHECK_THAT(words_of(inference), Catch::Contains("first was known to be 0.6 +- 0.05; with the readings"));
+  CHECK_THAT(describe(inference), Catch::Contains("first was known to be 0.6 +- 0.05; with the readings"));
 }
 
 TEST_CASE("a prior tells apart what the reading alone cannot, and what came from it is said") {
-  Evidence evidence = evidence_for({sum_of_both});
+  TrainingData evidence = evidence_for({sum_of_both});
   evidence.parameters[1].prior = Prior{0.3, 0.03};
   const Inference inference = infer(evidence, Eigen::Vector2d(0.7, 0.3));
   CHECK(inference.intervals[0].interval_exists());
   CHECK(inference.intervals[0].lower == Approx(0.7 - 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
   CHECK(inference.intervals[0].upper == Approx(0.7 + 1.96 * std::hypot(0.05, 0.03)).margin(0.02));
   CHECK(inference.intervals[1].uncertainty > 0.9);
-  CHECK_THAT(words_of(inference), Catch::Contains("second was known to be 0.3 +- 0.03; the readings add nothing"));
+  CHECK_THAT(describe(inference), Catch::Contains("second was known to be 0.3 +- 0.03; the readings add nothing"));
   for (const EquivalentMaterial& member : inference.family) CHECK(member.values[1] == Approx(0.3).margin(0.12));
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("no material is named of which a reading is expected to miss by more t
       CHECK(error(member) <= std::max(1.0, error(recommended)) + 1e-9);
     }
   }
-  CHECK_THAT(words_of(inference), Catch::Contains("expected to fit these readings as well as the first"));
+  CHECK_THAT(describe(inference), Catch::Contains("expected to fit these readings as well as the first"));
 }
 
 TEST_CASE("the measurement that would tell them apart is named first, with what it would leave") {
@@ -179,7 +179,7 @@ TEST_CASE("the measurement that would tell them apart is named first, with what 
   CHECK(inference.gains[0].narrowing < 0.25);
   CHECK(inference.gains[1].narrowing > 0.8);
 
-  Evidence after = evidence_for({sum_of_both, second_alone});
+  TrainingData after = evidence_for({sum_of_both, second_alone});
   after.readings[1].measured = 50;
   after.readings[1].repeats = inference.gains[0].measurements;
   const double left = infer(after, middle).intervals[1].uncertainty / inference.intervals[1].uncertainty;
@@ -187,7 +187,7 @@ TEST_CASE("the measurement that would tell them apart is named first, with what 
 }
 
 TEST_CASE("a reading that the model misses by far is not proposed again") {
-  Evidence evidence = evidence_for({sum_of_both, second_alone});
+  TrainingData evidence = evidence_for({sum_of_both, second_alone});
   evidence.readings[1].measured = 500;
   evidence.readings[1].weight = 0;
   const Inference inference = infer(evidence, middle);
@@ -197,18 +197,18 @@ TEST_CASE("a reading that the model misses by far is not proposed again") {
 
 TEST_CASE("what no simulation has looked at is not ruled out by readings that are one and the same") {
   const auto wave = [](const UnitPoint& x) { return 100 * x[0] + 8 * std::sin(9 * x[1]); };
-  const Evidence evidence = evidence_for({{"step1.height_mm", wave, 50},
-                                          {"step1.spread_mm", wave, 50},
-                                          {"step2.height_mm", wave, 50},
-                                          {"step2.spread_mm", wave, 50}},
-                                         40, 0.4);
+  const TrainingData evidence = evidence_for({{"step1.height_mm", wave, 50},
+                                              {"step1.spread_mm", wave, 50},
+                                              {"step2.height_mm", wave, 50},
+                                              {"step2.spread_mm", wave, 50}},
+                                             40, 0.4);
   const Inference inference = infer(evidence, UnitPoint{{0.5, 0.35}});
   CHECK(inference.intervals[0].interval_exists());
   CHECK_FALSE(inference.intervals[1].upper_known);
 }
 
 TEST_CASE("the words name what is fixed, what is not, and what to measure") {
-  const std::string words = words_of(infer(evidence_for({first_alone, second_alone}), middle));
+  const std::string words = describe(infer(evidence_for({first_alone, second_alone}), middle));
   CHECK(words.find("step1.height_mm fixes first to") != std::string::npos);
   CHECK(words.find("second is not told by this test") != std::string::npos);
   CHECK(words.find("measurements of step1.spread_mm") != std::string::npos);
@@ -228,22 +228,22 @@ TEST_CASE("a card keeps the ends that the data set, and names what they do not s
 }
 
 TEST_CASE("the same evidence gives the same inference") {
-  const std::string once = words_of(infer(evidence_for({sum_of_both, second_alone}), middle));
-  CHECK(words_of(infer(evidence_for({sum_of_both, second_alone}), middle)) == once);
+  const std::string once = describe(infer(evidence_for({sum_of_both, second_alone}), middle));
+  CHECK(describe(infer(evidence_for({sum_of_both, second_alone}), middle)) == once);
 }
 
 TEST_CASE("a simulation that ended early says that it read less, not that it read its bound") {
-  const Evidence whole = evidence_for({first_alone});
-  Evidence cut = whole;
+  const TrainingData whole = evidence_for({first_alone});
+  TrainingData cut = whole;
   ReadingEvidence& height = cut.readings[0];
   constexpr double cutoff = 38;
   for (double& value : height.simulated) {
     height.is_bound.push_back(value <= cutoff);
     value = std::max(value, cutoff);
   }
-  Evidence equal = cut;
+  TrainingData equal = cut;
   equal.readings[0].is_bound.clear();
-  const auto lower = [](const Evidence& evidence) { return infer(evidence, middle).intervals[0].lower; };
+  const auto lower = [](const TrainingData& evidence) { return infer(evidence, middle).intervals[0].lower; };
   const double known = lower(whole);
   CHECK(lower(cut) == Approx(known).margin(0.02));
   CHECK(std::abs(lower(cut) - known) < std::abs(lower(equal) - known));
@@ -252,7 +252,7 @@ TEST_CASE("a simulation that ended early says that it read less, not that it rea
 TEST_CASE("readings of one heap that scatter against each other tell more together than apart") {
   // Both rise with the first parameter, with a noise of 5 each: var = 25/(100^2 2) (1 + r).
   const auto uncertainty = [](double correlation) {
-    Evidence evidence = evidence_for({first_alone, {"step1.spread_mm", first_alone.mean, 50}}, 40);
+    TrainingData evidence = evidence_for({first_alone, {"step1.spread_mm", first_alone.mean, 50}}, 40);
     const std::vector<UnitPoint> sites = evidence.points;
     evidence.points.clear();
     std::vector<double> heights, spreads;
@@ -272,7 +272,7 @@ TEST_CASE("readings of one heap that scatter against each other tell more togeth
 }
 
 TEST_CASE("that a laboratory reports its heaps tells against materials of which most shear off") {
-  Evidence evidence = evidence_for({first_alone}, 60);
+  TrainingData evidence = evidence_for({first_alone}, 60);
   for (const UnitPoint& point : evidence.points) evidence.rejected.push_back(point[1] > 0.5);
   const auto range = [&](int heaps) {
     evidence.accepted_heaps = heaps;

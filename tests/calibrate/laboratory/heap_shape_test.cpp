@@ -14,17 +14,17 @@ SlumpTest abrams() {
   return test;
 }
 
-Doubts doubts_about_heap(double height_mm, double width_mm, int repeats = 1) {
+ReadingCheck doubts_about_heap(double height_mm, double width_mm, int repeats = 1) {
   const std::vector<Measurement> readings{{"step1.height_mm", height_mm, 7.5, repeats},
                                           {"step1.spread_mm", width_mm, 25, repeats}};
-  return doubts_about(abrams(), readings);
+  return check_readings(abrams(), readings);
 }
 
 std::string note_on(double height_mm, double width_mm) {
-  const Doubts doubts = doubts_about_heap(height_mm, width_mm);
-  REQUIRE(doubts.faults.empty());
-  REQUIRE(doubts.notes.size() == 1);
-  return doubts.notes[0];
+  const ReadingCheck check = doubts_about_heap(height_mm, width_mm);
+  REQUIRE(check.faults.empty());
+  REQUIRE(check.notes.size() == 1);
+  return check.notes[0];
 }
 
 /// Width of a body of the mould's volume V = factor pi/4 D^2 h.
@@ -62,11 +62,11 @@ TEST_CASE("readings that only a heap with a skirt has are doubted, with the near
   const std::string nearest = note.substr(note.find("can be, is ") + 11);
   REQUIRE(std::sscanf(nearest.c_str(), "%lf mm high and %lf mm wide", &height, &width) == 2);
   CHECK(width == Approx(cone_width_mm(abrams(), height)).epsilon(0.002));
-  const auto miss = [](double at_mm) {
+  const auto difference = [](double at_mm) {
     return std::hypot((at_mm - 150) / 7.5, (cone_width_mm(abrams(), at_mm) - 485) / 25);
   };
-  CHECK(miss(height) < miss(height - 1));
-  CHECK(miss(height) < miss(height + 1));
+  CHECK(difference(height) < difference(height - 1));
+  CHECK(difference(height) < difference(height + 1));
 }
 
 TEST_CASE("a heap into which the mould's content does not fit is a fault that names both readings and the bound") {
@@ -81,14 +81,14 @@ TEST_CASE("a heap into which the mould's content does not fit is a fault that na
 TEST_CASE("a heap that is too narrow is told what may have been taken for what") {
   CHECK_THAT(note_on(107, 236), Catch::Contains("if 236 mm is a radius, the width is 472 mm"));
   const std::vector<Measurement> swapped{{"step1.height_mm", 20, 2, 1}, {"step1.spread_mm", 200, 5, 1}};
-  const Faults faults = doubts_about(abrams(), swapped).faults;
+  const Faults faults = check_readings(abrams(), swapped).faults;
   REQUIRE(faults.size() == 1);
   CHECK_THAT(faults[0].what, Catch::Contains("if 20 mm is a slump, the height is 280 mm"));
 }
 
 TEST_CASE("a slump of a few millimetres is told in other units") {
   const std::vector<Measurement> height{{"step1.height_mm", 292.75, 7.5, 1}};
-  const auto notes = doubts_about(abrams(), height).notes;
+  const auto notes = check_readings(abrams(), height).notes;
   REQUIRE(notes.size() == 1);
   CHECK_THAT(notes[0], Catch::Contains("7.25 cm are 72.5 mm, 7.25 in are 184.15 mm"));
 }
@@ -101,9 +101,9 @@ TEST_CASE("repeats make a contradiction sure") {
 
 TEST_CASE("one reading alone is not doubted") {
   const std::vector<Measurement> height{{"step1.height_mm", 150, 7.5, 1}};
-  CHECK(doubts_about(abrams(), height).notes.empty());
+  CHECK(check_readings(abrams(), height).notes.empty());
   const std::vector<Measurement> mixed{{"step1.height_mm", 150, 7.5, 1}, {"step2.spread_mm", 485, 25, 1}};
-  CHECK(doubts_about(abrams(), mixed).notes.empty());
+  CHECK(check_readings(abrams(), mixed).notes.empty());
 }
 
 }  // namespace pastefit

@@ -5,7 +5,7 @@
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/check.h"
 #include "calibrate/inference/examination.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/lab.h"
@@ -97,11 +97,11 @@ TEST_CASE("a material from another test is held against a drop test, with the ba
   for (const ParameterKind& kind : parameter_kinds()) {
     const bool known = kind.name == "restitution" || kind.name == "strength_pa" || kind.name == "youngs_modulus_pa";
     const double value = kind.name == "restitution" ? 0.8 : kind.name == "strength_pa" ? 1 : 1e9;
-    values.push_back(known ? value : kind.usual);
+    values.push_back(known ? value : kind.default_value);
     card.material.parameters.push_back({std::string(kind.name), false, values.back(), 0, 0, kind.scale});
   }
   Test& slump = card.tests.emplace_back().test;
-  slump = with_contact_of(with_usual_contact(slump), values);
+  slump = with_contact_of(with_default_contact(slump), values);
   card.material.grains = specimen_of(slump).grains;
   card.material.contact = specimen_of(slump).contact;
   json document = template_of_lab();

@@ -10,7 +10,7 @@ namespace {
 
 /// A test whose numbers have no short decimal form.
 SlumpTest awkward() {
-  auto test = std::get<SlumpTest>(with_usual_contact(SlumpTest{}));
+  auto test = std::get<SlumpTest>(with_default_contact(SlumpTest{}));
   test.bulk_density_kg_m3 = 2300.0 / 7 * 7.0000000001;
   test.contact.friction = 1.0 / 3;
   test.contact.bridge.offset_m = 0.0008000000000000001;
@@ -47,11 +47,11 @@ TEST_CASE("tests that differ in one bit differ in their text") {
   CHECK(to_json(test).dump() != text);
 }
 
-TEST_CASE("another law of the overlap survives JSON, and is not in that of the usual one") {
+TEST_CASE("another law of the overlap survives JSON, and is not in that of the default one") {
   SlumpTest test = awkward();
-  const nlohmann::json usual = to_json(test);
-  CHECK_FALSE(usual.at("contact").contains("normal"));
-  CHECK_FALSE(usual.at("contact").contains("surface_energy_j_m2"));
+  const nlohmann::json by_default = to_json(test);
+  CHECK_FALSE(by_default.at("contact").contains("normal"));
+  CHECK_FALSE(by_default.at("contact").contains("surface_energy_j_m2"));
   test.contact.normal = NormalLaw::jkr;
   test.contact.surface_energy_j_m2 = 8.0 / 7;
   const nlohmann::json document = to_json(test);

@@ -69,7 +69,7 @@ TEST_CASE("granules of the same surface energy over radius are as sticky, whatev
   Test fine = lab.value().test, coarse = fine;
   specimen_of(fine).contact.normal = specimen_of(coarse).contact.normal = NormalLaw::jkr;
   specimen_of(coarse).grains = enlarged(specimen_of(fine).grains, 2);
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   fine = with_contact_of(fine, values);
   coarse = with_contact_of(coarse, values);
   CHECK(specimen_of(coarse).contact.surface_energy_j_m2 == Approx(2 * specimen_of(fine).contact.surface_energy_j_m2));

@@ -1,6 +1,6 @@
-#include "calibrate/search/coarse_rung.h"
-
 #include <catch2/catch.hpp>
+
+#include "calibrate/search/low_fidelity.h"
 
 using namespace pastefit;
 

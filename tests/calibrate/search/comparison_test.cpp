@@ -35,18 +35,18 @@ TEST_CASE("strategies are compared with the same budget and judged on the same p
   for (const StrategyTrial& trial : trials) {
     CAPTURE(trial.strategy, trial.seed);
     CHECK(trial.simulations <= 60);
-    CHECK(trial.miss.size() == static_cast<std::size_t>(trial.simulations));
+    CHECK(trial.normalised_error.size() == static_cast<std::size_t>(trial.simulations));
     CHECK(trial.judged >= 0);
     CHECK(trial.judged < 10);  // two tolerances
   }
-  CHECK(trials[0].miss[7] == trials[1].miss[7]);  // the screening is the same
+  CHECK(trials[0].normalised_error[7] == trials[1].normalised_error[7]);  // the screening is the same
 }
 
 TEST_CASE("a comparison is repeated exactly") {
   const auto once = compare_strategies(fake, options_for({"default"}));
   const auto again = compare_strategies(fake, options_for({"default"}));
   for (std::size_t i = 0; i < once.size(); ++i) {
-    CHECK(once[i].miss == again[i].miss);
+    CHECK(once[i].normalised_error == again[i].normalised_error);
     CHECK(once[i].judged == again[i].judged);
   }
 }
@@ -92,7 +92,7 @@ TEST_CASE("no strategy hangs, loses its best or confirms what fails, whatever fa
       CHECK(calibration.simulations == objective.simulations);
       if (calibration.best.point.size() == 0) continue;
       CHECK(is_feasible(calibration.best));
-      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.miss <= 1);
+      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.normalised_error <= 1);
     }
   }
 }

@@ -34,7 +34,7 @@ SearchOptions generous_options(std::uint64_t seed) {
 
 TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
   struct Case {
-    double miss, noise;
+    double normalised_error, noise;
     Verdict verdict;
   };
   const Case cases[] = {
@@ -43,8 +43,8 @@ TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
       {2.602, 2.4, Verdict::refuted}, {2.598, 2.4, Verdict::undecided},
   };
   for (const Case& one : cases) {
-    CAPTURE(one.miss, one.noise);
-    CHECK(verdict_on(one.miss, one.noise) == one.verdict);
+    CAPTURE(one.normalised_error, one.noise);
+    CHECK(verdict_on(one.normalised_error, one.noise) == one.verdict);
   }
   Response failed;
   failed.point = UnitPoint::Constant(2, 0.5);
@@ -115,7 +115,7 @@ TEST_CASE("a mean within the tolerance that may be luck is told so when the budg
     const Calibration calibration = search(objective, options);
     CHECK(calibration.status != CalibrationStatus::confirmed);
     const Response& told = calibration.confirmation;
-    if (told.point.size() == 0 || told.miss > 1 || told.noise <= 1) continue;
+    if (told.point.size() == 0 || told.normalised_error > 1 || told.noise <= 1) continue;
     ++luck;
     CHECK(calibration.reason.find("scatter too much") != std::string::npos);
     CHECK(calibration.reason.find("more than the tolerance") == std::string::npos);
@@ -184,7 +184,7 @@ TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, m
   CHECK(verdict_on(heaps_with(2, 16), 0.2) == Verdict::undecided);
   CHECK(verdict_on(heaps_with(8, 8), 1) == Verdict::holds);
   Response off = heaps_with(0, 8);
-  off.miss = 2;
+  off.normalised_error = 2;
   CHECK(verdict_on(off, 0.2) == Verdict::refuted);
 }
 

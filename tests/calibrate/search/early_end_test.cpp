@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/inference/evidence.h"
+#include "calibrate/inference/training_data.h"
 #include "calibrate/search/record.h"
 #include "calibrate/search/response.h"
 #include "calibrate/search/search.h"
@@ -63,7 +63,7 @@ std::vector<UnitPoint> ladder() {
 
 /// The same numbers, missing ones included.
 bool same(const Response& a, const Response& b) {
-  if (a.ended_early != b.ended_early || a.misfit != b.misfit || a.residuals != b.residuals) return false;
+  if (a.censored != b.censored || a.misfit != b.misfit || a.residuals != b.residuals) return false;
   for (Eigen::Index k = 0; k < a.observables.size(); ++k)
     if (a.observables[k] != b.observables[k] && !(std::isnan(a.observables[k]) && std::isnan(b.observables[k])))
       return false;
@@ -101,7 +101,7 @@ TEST_CASE("a simulation that was ended and one that was not answer the same") {
                    b = run_through.try_out({&point, 1}, kPackings).at(0);
     CHECK(same(a, b));
     const Response full = run_through.evaluate({&point, 1}, kPackings).at(0);
-    CHECK_FALSE(full.ended_early);
+    CHECK_FALSE(full.censored);
     CHECK(a.misfit <= full.misfit);
     if (full.observables[0] < 55) {
       ++below;
@@ -128,7 +128,7 @@ TEST_CASE("a candidate that meets the laboratory is not ended") {
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const Response response = objective.try_out(std::vector<UnitPoint>{at(0.30, 0.5)}, kPackings).at(0);
   CHECK(response.observables[0] == Approx(100).margin(6));
-  CHECK_FALSE(response.ended_early);
+  CHECK_FALSE(response.censored);
   CHECK(laboratory.ended == 0);
 }
 
@@ -137,17 +137,17 @@ TEST_CASE("an evaluation that ended early never stands in for a whole one, and a
   auto store = laboratory.store();
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const std::vector<UnitPoint> low{at(0.05, 0.5)}, lower{at(0.02, 0.5)};
-  CHECK(objective.try_out(low, kPackings).at(0).ended_early);
+  CHECK(objective.try_out(low, kPackings).at(0).censored);
   CHECK(laboratory.runs == 2);
   CHECK(objective.counts().best_miss < 0);
   const Response whole = objective.evaluate(low, kPackings).at(0);
   CHECK(laboratory.runs == 4);
-  CHECK_FALSE(whole.ended_early);
+  CHECK_FALSE(whole.censored);
   CHECK(whole.observables.allFinite());
   CHECK(store.size() == 4);
 
   (void)objective.evaluate(lower, kPackings);
-  CHECK(objective.try_out(lower, kPackings).at(0).ended_early);
+  CHECK(objective.try_out(lower, kPackings).at(0).censored);
   CHECK(laboratory.runs == 6);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("an answer that ended early is never better than one that has all its 
   ended.misfit = 0.5;
   whole.misfit = 81;
   CHECK(is_better(ended, whole));
-  ended.ended_early = true;
+  ended.censored = true;
   CHECK_FALSE(is_better(ended, whole));
   CHECK(is_better(whole, ended));
 }
@@ -170,7 +170,7 @@ TEST_CASE("the surrogate learns a reading from the simulations that took it") {
     Response one;
     one.point = at(0.1 * k, 0.5);
     one.packings = {1};
-    one.ended_early = k < 5;
+    one.censored = k < 5;
     one.observables = Eigen::Vector2d(k, k < 5 ? std::nan("") : 5.0);
     one.residuals = Eigen::Vector2d(k - 5, k < 5 ? 0.0 : 3.0);
     one.misfit = 0.5 * one.residuals.squaredNorm();
@@ -180,7 +180,7 @@ TEST_CASE("the surrogate learns a reading from the simulations that took it") {
   const std::vector<UnitPoint> points{at(0.1, 0.5), at(0.8, 0.5)};
   for (const UnitPoint& point : points) CHECK(surrogate.expected_residuals(point)[1] == Approx(3));
   for (Response& one : seen) {
-    one.ended_early = true;
+    one.censored = true;
     one.observables[1] = std::nan("");
   }
   CHECK(Surrogate(seen).expected_residuals(points.at(1))[1] == 0);
@@ -212,7 +212,8 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
     auto store = laboratory.store();
     SimulationObjective objective(laboratory.study, store, laboratory.options);
     Calibration calibration = search(objective, laboratory.study.search);
-    const Evidence evidence = evidence_of(laboratory.study, record_of(laboratory.study, store, calibration.history));
+    const TrainingData evidence =
+        training_data_of(laboratory.study, record_of(laboratory.study, store, calibration.history));
     return std::pair{std::move(calibration), evidence};
   };
   TwoSteps undisturbed;
@@ -220,8 +221,8 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
   const auto [first, evidence] = calibrate(undisturbed);
   CHECK(first.status == CalibrationStatus::confirmed);
   CHECK(undisturbed.ended > 4);
-  CHECK_FALSE(first.best.ended_early);
-  CHECK_FALSE(first.confirmation.ended_early);
+  CHECK_FALSE(first.best.censored);
+  CHECK_FALSE(first.confirmation.censored);
   for (const ReadingEvidence& reading : evidence.readings) {
     if (reading.name == "step2.height_mm") CHECK(reading.simulated.array().isNaN().any());
     if (reading.name != "step1.height_mm") continue;

@@ -26,13 +26,13 @@ struct Laboratory {
 
   Laboratory() {
     for (const auto& kind : parameter_kinds())
-      study.parameters.push_back({std::string(kind.name), false, kind.usual, 0, 0, kind.scale});
+      study.parameters.push_back({std::string(kind.name), false, kind.default_value, 0, 0, kind.scale});
     for (auto& parameter : study.parameters) {
       if (parameter.name == "strength_pa") parameter = {"strength_pa", true, 0, 100, 10000, Scale::logarithmic};
       if (parameter.name == "friction") parameter = {"friction", true, 0, 0, 1, Scale::linear};
     }
     study.tests.emplace_back();
-    study.tests[0].lab.test = with_usual_contact(SlumpTest{});
+    study.tests[0].lab.test = with_default_contact(SlumpTest{});
     study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 2, 3}, {"step1.spread_mm", 400, 10, 1}, {"fill.mass_kg", 9, 0.1, 1}};
     study.tests[0].targets = {{"step1.height_mm", 4}, {"step1.spread_mm", 0}, {"fill.mass_kg", 1}};

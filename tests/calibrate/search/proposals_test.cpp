@@ -14,37 +14,37 @@ using namespace pastefit::synthetic;
 
 namespace {
 
-SearchOptions lagging_options(std::uint64_t seed, int lag) {
+SearchOptions pending_options(std::uint64_t seed, int max_pending) {
   SearchOptions options = options_with(seed);
-  options.lag = lag;
+  options.max_pending = max_pending;
   return options;
 }
 
 const std::function<void(const Progress&)> nobody;
 const std::vector<std::uint64_t> common{1001, 1002};
 
-/// An archive that has screened.
-Archive screened(Answered& answered, const SearchOptions& options) {
-  Archive archive(answered.queue, {}, options, nobody);
-  archive.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
-  return archive;
+/// An history that has screened.
+EvaluationHistory screened(Answered& answered, const SearchOptions& options) {
+  EvaluationHistory history(answered.queue, {}, options, nobody);
+  history.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
+  return history;
 }
 
 /// A search that has screened, as its proposals find it.
 struct Screened {
-  Screened(std::uint64_t seed, int lag)
+  Screened(std::uint64_t seed, int max_pending)
       : objective(fake_slump(150, seed)),
-        options(lagging_options(seed, lag)),
+        options(pending_options(seed, max_pending)),
         answered(objective),
-        archive(screened(answered, options)),
-        proposals(archive, false, options) {}
+        history(screened(answered, options)),
+        proposals(history, false, options) {}
 
-  std::optional<UnitPoint> next() { return proposals.next({archive, {}}); }
+  std::optional<UnitPoint> next() { return proposals.next({history, {}}); }
 
   Synthetic objective;
   SearchOptions options;
   Answered answered;
-  Archive archive;
+  EvaluationHistory history;
   Proposals proposals;
 };
 
@@ -53,12 +53,12 @@ struct Cost {
   int confirmed = 0;
 };
 
-Cost cost_of(int lag, int cores, int seeds) {
+Cost cost_of(int max_pending, int cores, int seeds) {
   Cost cost;
   for (int seed = 1; seed <= seeds; ++seed) {
     const auto random = static_cast<std::uint64_t>(seed);
     VirtualCores objective(fake_heap(205, 275, random), cores);
-    SearchOptions options = lagging_options(random, lag);
+    SearchOptions options = pending_options(random, max_pending);
     options.budget_simulations = 150;
     const Calibration calibration = search(objective, options);
     cost.simulations += calibration.simulations / static_cast<double>(seeds);
@@ -76,20 +76,20 @@ TEST_CASE(
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Screened search(seed, 3);
-    Archive& archive = search.archive;
-    while (archive.under_way().size() < 4) {
+    EvaluationHistory& history = search.history;
+    while (history.under_way().size() < 4) {
       const auto proposal = search.next();
       if (!proposal) break;
-      for (const Archive::Asked& asked : archive.under_way())
+      for (const EvaluationHistory::Asked& asked : history.under_way())
         REQUIRE((asked.point - *proposal).lpNorm<Eigen::Infinity>() >= same_point);
-      archive.begin(*proposal, {common.data(), 1});
+      history.begin(*proposal, {common.data(), 1});
     }
-    REQUIRE(!archive.under_way().empty());
-    if (archive.under_way().size() > 1) ++several;
-    while (!archive.under_way().empty()) archive.next_answer();
+    REQUIRE(!history.under_way().empty());
+    if (history.under_way().size() > 1) ++several;
+    while (!history.under_way().empty()) history.next_answer();
     const auto next = search.next();
     if (!next) continue;
-    for (const Response& seen : archive.singles())
+    for (const Response& seen : history.singles())
       CHECK((seen.point == *next || (seen.point - *next).lpNorm<Eigen::Infinity>() >= same_point));
   }
   CHECK(several >= 15);
@@ -115,7 +115,7 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
     mean += 0.5 * (m + v);
     variance += v * (0.5 * v + m);
   }
-  const Surrogate::Outlook outlook(0, mean, variance);
+  const Surrogate::MisfitPosterior misfit_posterior(0, mean, variance);
   constexpr double bound = 0.7;
   double improvement = 0;
   constexpr int draws = 200'000;
@@ -125,32 +125,32 @@ TEST_CASE("the improvement that a point promises is the mean of what its misfit 
     improvement += std::max(0.0, bound - misfit) / draws;
   }
   // Mean and variance are exact, the shape is a gamma distribution's.
-  CHECK(outlook.improvement(bound) == Approx(improvement).epsilon(0.1));
-  CHECK(Surrogate::Outlook(0, 0.4, 0).improvement(bound) == Approx(bound - 0.4));
+  CHECK(misfit_posterior.improvement(bound) == Approx(improvement).epsilon(0.1));
+  CHECK(Surrogate::MisfitPosterior(0, 0.4, 0).improvement(bound) == Approx(bound - 0.4));
 }
 
 TEST_CASE("what is under way is spent, and answered in the order of asking") {
   Synthetic objective = fake_slump(150, 1);
   objective.budget = 60;
   Answered answered(objective);
-  Archive archive = screened(answered, lagging_options(1, 3));
-  const int before = archive.budget_left();
+  EvaluationHistory history = screened(answered, pending_options(1, 3));
+  const int before = history.budget_left();
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
-  for (const UnitPoint& point : points) archive.begin(point, common);
-  CHECK(archive.budget_left() == before - 6);
-  for (const UnitPoint& point : points) CHECK(archive.next_answer().point == point);
-  CHECK(archive.budget_left() == before - 6);
-  CHECK(archive.under_way().empty());
+  for (const UnitPoint& point : points) history.begin(point, common);
+  CHECK(history.budget_left() == before - 6);
+  for (const UnitPoint& point : points) CHECK(history.next_answer().point == point);
+  CHECK(history.budget_left() == before - 6);
+  CHECK(history.under_way().empty());
 }
 
-TEST_CASE("with a lag so many candidates more are under way, and no more than the budget allows", "[campaign]") {
-  for (const int lag : {0, 1, 3}) {
-    CAPTURE(lag);
+TEST_CASE("with more candidates pending so many are under way, and no more than the budget allows", "[campaign]") {
+  for (const int max_pending : {0, 1, 3}) {
+    CAPTURE(max_pending);
     std::size_t most = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       Synthetic slump = fake_slump(150, seed);
       slump.tolerance_mm = 0.1;  // no candidate is good enough
-      Search search(slump, lagging_options(seed, lag), {.simulations = 60});
+      Search search(slump, pending_options(seed, max_pending), {.simulations = 60});
       std::deque<Candidate> under_way;
       while (!search.finished()) {
         const auto candidates = search.suggest(1);
@@ -166,19 +166,19 @@ TEST_CASE("with a lag so many candidates more are under way, and no more than th
       }
       CHECK(search.result().simulations <= 60);
     }
-    CHECK(most == static_cast<std::size_t>(lag) + 1);
+    CHECK(most == static_cast<std::size_t>(max_pending) + 1);
   }
 }
 
-TEST_CASE("a lag of one costs simulations, and saves time", "[campaign]") {
+TEST_CASE("a second candidate pending costs simulations, and saves time", "[campaign]") {
   const int seeds = 40;
-  std::vector<std::vector<Cost>> costs;  // by lag and cores
-  for (const int lag : {0, 1}) {
+  std::vector<std::vector<Cost>> costs;  // by candidates pending and cores
+  for (const int max_pending : {0, 1}) {
     costs.emplace_back();
     for (const int cores : {2, 8}) {
-      const Cost cost = costs.back().emplace_back(cost_of(lag, cores, seeds));
-      UNSCOPED_INFO("lag " << lag << ", " << cores << " cores: " << cost.simulations << " simulations, " << cost.time
-                           << " units of time");
+      const Cost cost = costs.back().emplace_back(cost_of(max_pending, cores, seeds));
+      UNSCOPED_INFO("pending " << max_pending << ", " << cores << " cores: " << cost.simulations << " simulations, "
+                               << cost.time << " units of time");
       CHECK(cost.confirmed >= 0.95 * seeds);
     }
   }

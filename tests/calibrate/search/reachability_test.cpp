@@ -16,11 +16,11 @@ struct Screening {
   SearchOptions options;
   std::function<void(const Progress&)> progress;
   Answered answered;
-  Archive archive;
+  EvaluationHistory history;
   explicit Screening(Synthetic made, std::uint64_t seed)
-      : objective(std::move(made)), answered(objective), archive(answered.queue, {}, options, progress) {
+      : objective(std::move(made)), answered(objective), history(answered.queue, {}, options, progress) {
     const std::uint64_t packing = 1;
-    archive.try_out(screening_points(5, 12, seed), {&packing, 1});
+    history.try_out(screening_points(5, 12, seed), {&packing, 1});
   }
 };
 
@@ -44,7 +44,7 @@ TEST_CASE("a height below all that the model can do is called out of reach befor
   int called = 0, named = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Screening screened(too_stiff(seed), seed);
-    const auto found = find_out_of_reach(screened.archive, {});
+    const auto found = find_out_of_reach(screened.history, {});
     CHECK(screened.objective.simulations <= 24);
     if (!found) continue;
     ++called;
@@ -53,7 +53,7 @@ TEST_CASE("a height below all that the model can do is called out of reach befor
     CHECK(found->likely == Approx(mean_height(found->nearest) + 30).margin(15));
     CHECK(found->at_best > 15);
     for (const OutOfReach::Bound& bound : found->bounds) named += bound.parameter == 0 && !bound.upper ? 1 : 0;
-    CHECK_THAT(words_of(*found, reading, parameters),
+    CHECK_THAT(describe(*found, reading, parameters),
                Catch::Contains("step1.height_mm is out of reach") && Catch::Contains("10"));
   }
   CAPTURE(called, named);
@@ -68,7 +68,7 @@ TEST_CASE("what some material does is never called out of reach") {
     Synthetic objective = fake_slump(height, seed);
     objective.level = seed % 3 == 0 ? 40 : 0;  // some end early
     Screening screened(objective, seed);
-    CHECK_FALSE(find_out_of_reach(screened.archive, {}));
+    CHECK_FALSE(find_out_of_reach(screened.history, {}));
   }
 }
 
@@ -86,20 +86,20 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
       return wide(inside, packing);
     };
     Screening screened(weak, seed);
-    const auto found = find_out_of_reach(screened.archive, {});
+    const auto found = find_out_of_reach(screened.history, {});
     if (!found) continue;
     ++called;
     CHECK_FALSE(found->above);
-    CHECK_THAT(words_of(*found, reading, parameters), Catch::Contains("the upper bound of strength_pa"));
+    CHECK_THAT(describe(*found, reading, parameters), Catch::Contains("the upper bound of strength_pa"));
   }
   CHECK(called >= 15);
 }
 
-TEST_CASE("a tolerance wider than the miss leaves nothing out of reach") {
+TEST_CASE("a tolerance wider than the error leaves nothing out of reach") {
   Synthetic slump = fake_slump(10, 3);
   slump.tolerance_mm = 60;
   Screening screened(std::move(slump), 3);
-  CHECK_FALSE(find_out_of_reach(screened.archive, {}));
+  CHECK_FALSE(find_out_of_reach(screened.history, {}));
 }
 
 TEST_CASE("a search that would be in vain ends after the screening, and says so") {
@@ -117,7 +117,7 @@ TEST_CASE("a search that would be in vain ends after the screening, and says so"
     ++ended;
     CHECK(objective.simulations <= 30);
     CHECK(calibration.confirmation.packings.size() == 4);
-    CHECK(calibration.best.miss < 14);
+    CHECK(calibration.best.normalised_error < 14);
   }
   CHECK(ended >= 15);
 }

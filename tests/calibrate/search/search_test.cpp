@@ -16,7 +16,7 @@ constexpr int budget = 120;
 SearchOptions options_of(std::uint64_t seed) {
   SearchOptions options = options_with(seed);
   options.budget_simulations = budget;
-  options.lag = 3;
+  options.max_pending = 3;
   return options;
 }
 

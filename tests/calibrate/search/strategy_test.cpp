@@ -2,7 +2,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/search.h"
 #include "fake_slump.h"
 
@@ -33,7 +33,7 @@ TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations fr
     simulations.push_back(calibration.simulations);
     if (calibration.status != CalibrationStatus::confirmed) continue;
     ++confirmed;
-    CHECK(calibration.confirmation.miss <= 1);
+    CHECK(calibration.confirmation.normalised_error <= 1);
     if (std::abs(mean_height(calibration.best.point) - target_of(seed)) <= 5) ++true_within_tolerance;
   }
   std::sort(simulations.begin(), simulations.end());
@@ -120,9 +120,9 @@ TEST_CASE("ending candidates early leaves the answer as good, and the best is al
       Synthetic objective = fake_slump(height, seed), whole = fake_slump(height, seed);
       objective.level = level;
       const Calibration calibration = search(objective, options_with(seed)), other = search(whole, options_with(seed));
-      CHECK_FALSE(calibration.best.ended_early);
-      CHECK_FALSE(calibration.search.ended_early);
-      CHECK_FALSE(calibration.confirmation.ended_early);
+      CHECK_FALSE(calibration.best.censored);
+      CHECK_FALSE(calibration.search.censored);
+      CHECK_FALSE(calibration.confirmation.censored);
       confirmed += calibration.status == CalibrationStatus::confirmed;
       confirmed_whole += other.status == CalibrationStatus::confirmed;
       off += std::abs(mean_height(calibration.best.point) - height) / 40;
@@ -131,7 +131,7 @@ TEST_CASE("ending candidates early leaves the answer as good, and the best is al
       simulations_whole += whole.simulations;
       for (const Response& one : objective.answered) {
         ++asked;
-        ended += one.ended_early;
+        ended += one.censored;
       }
     }
     CAPTURE(level, confirmed, confirmed_whole, off, off_whole, simulations, simulations_whole);
@@ -234,7 +234,7 @@ TEST_CASE("readings that contradict each other end unconfirmed, not out of reach
   };
   const Calibration calibration = search(objective, options_with(2));
   CHECK(calibration.status == CalibrationStatus::unconfirmed);
-  CHECK(calibration.best.miss < 4);
+  CHECK(calibration.best.normalised_error < 4);
 }
 
 TEST_CASE("of the materials that meet the laboratory the search finds one that agrees with what is known",

@@ -100,9 +100,9 @@ class Synthetic : public Objective {
   }
 
   void end_early(Evaluation& evaluation) const {
-    const double miss = evaluation.observables[0] - measured[0];
-    evaluation.ended_early = miss < -level || (miss > level && evaluation.observables.size() > 1);
-    if (!evaluation.ended_early) return;
+    const double difference = evaluation.observables[0] - measured[0];
+    evaluation.censored = difference < -level || (difference > level && evaluation.observables.size() > 1);
+    if (!evaluation.censored) return;
     std::fill(evaluation.observables.begin() + 1, evaluation.observables.end(), std::nan(""));
     evaluation.observables[0] = std::max(evaluation.observables[0], measured[0] - level);
   }
@@ -122,7 +122,7 @@ class Synthetic : public Objective {
         evaluation.rejected = rejects(point, packing);
         if (tried) end_early(evaluation);
       }
-      evaluation.simulations = known_.insert({digest(point), packing, evaluation.ended_early}).second ? 1 : 0;
+      evaluation.simulations = known_.insert({digest(point), packing, evaluation.censored}).second ? 1 : 0;
       simulations += evaluation.simulations;
       evaluations.push_back(std::move(evaluation));
     }
@@ -138,7 +138,7 @@ class Synthetic : public Objective {
     for (const Evaluation& evaluation : evaluations) {
       response.packings.push_back(evaluation.packing);
       response.failed = response.failed || evaluation.failure;
-      response.ended_early = response.ended_early || evaluation.ended_early;
+      response.censored = response.censored || evaluation.censored;
       response.rejected += evaluation.rejected ? 1 : 0;
     }
     const auto judged = accepted(evaluations);
@@ -150,20 +150,20 @@ class Synthetic : public Objective {
     const auto priors = known(response.point);
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
     for (int k = 0; k < count; ++k) {
-      double miss = response.observables[k] - measured[k];
+      double difference = response.observables[k] - measured[k];
       const auto bound = [&](const Evaluation& one) {
-        return one.ended_early && one.observables[0] <= measured[0] - level;
+        return one.censored && one.observables[0] <= measured[0] - level;
       };
-      if (std::isnan(miss)) miss = 0;
-      if (k == 0 && std::ranges::any_of(response.evaluations, bound)) miss = std::min(miss, 0.0);
-      response.residuals[k] = miss / standard_deviations[k];
+      if (std::isnan(difference)) difference = 0;
+      if (k == 0 && std::ranges::any_of(response.evaluations, bound)) difference = std::min(difference, 0.0);
+      response.residuals[k] = difference / standard_deviations[k];
       const double allowed = tolerance(static_cast<std::size_t>(k));
-      response.miss = std::max(response.miss, std::abs(miss) / allowed);
+      response.normalised_error = std::max(response.normalised_error, std::abs(difference) / allowed);
       response.noise = std::max(response.noise, std::sqrt(squared_standard_error(response, k)) / allowed);
     }
     if (response.failed) response.residuals.setConstant(failure_value(response.point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
-    if (response.failed) response.miss = std::abs(response.residuals[0]) / tolerance_mm;
+    if (response.failed) response.normalised_error = std::abs(response.residuals[0]) / tolerance_mm;
     return response;
   }
 

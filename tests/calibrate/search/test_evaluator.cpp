@@ -28,7 +28,7 @@ TEST_CASE("a candidate answers with the mean over its packings against the labor
   CHECK(responses[1].residuals[1] == 0);
   CHECK(responses[1].residuals[2] == Approx(1));
   CHECK(responses[1].misfit == Approx(0.5 * (144 + 1)));
-  CHECK(responses[1].miss == Approx(12.0 / 5));
+  CHECK(responses[1].normalised_error == Approx(12.0 / 5));
   CHECK_FALSE(responses[1].failed);
   CHECK(responses[1].evaluations[1].packing == 3);
   CHECK(responses[1].evaluations[1].observables[0] == Approx(113));
@@ -51,7 +51,7 @@ TEST_CASE("a reading is the mean over the heaps that a laboratory would not reje
   const Response one = answer({6});
   CHECK(one.rejected == 1);
   CHECK(one.observables[0] == Approx(101.5));
-  CHECK(one.miss == Approx(1));  // of the mass
+  CHECK(one.normalised_error == Approx(1));  // of the mass
   CHECK(one.noise == Approx(0.5 / 5));
   const Response all = answer({1, 2, 6});
   CHECK(all.rejected == 3);
@@ -179,7 +179,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
   for (int i = 0; i < 3; ++i) {
     CHECK(responses[i].failed);
     CHECK(std::isfinite(responses[i].misfit));
-    CHECK(std::isfinite(responses[i].miss));
+    CHECK(std::isfinite(responses[i].normalised_error));
     CHECK(responses[i].residuals.allFinite());
     CHECK(responses[i].observables.allFinite());
     CHECK(responses[i].misfit > 2 * responses[3].misfit);
@@ -281,7 +281,7 @@ TEST_CASE("what is known of a parameter beforehand is a residual of its own, in 
   CHECK(response.observables.size() == 3);
   CHECK(response.residuals[3] == Approx(2));
   CHECK(response.residuals[4] == Approx(1));
-  CHECK(response.miss == Approx(1));
+  CHECK(response.normalised_error == Approx(1));
   CHECK(response.misfit == Approx(0.5 * response.residuals.squaredNorm()));
 }
 

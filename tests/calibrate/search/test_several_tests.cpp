@@ -40,7 +40,7 @@ TEST_CASE("two tests of one material are one residual vector, each reading under
   CHECK(response.observables[0] == Approx(102));
   CHECK(response.observables[3] == Approx(22));
   CHECK(response.residuals[3] == Approx(2));
-  CHECK(response.miss == Approx(1));
+  CHECK(response.normalised_error == Approx(1));
   CHECK(laboratory.runs == 4);
   CHECK(laboratory.fills == 4);
   CHECK(objective.counts().simulated == 4);

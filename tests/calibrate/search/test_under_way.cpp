@@ -74,15 +74,16 @@ TEST_CASE("an objective that goes away ends what is under way and stores none of
   CHECK(store.size() == 0);
 }
 
-TEST_CASE("the same study gives the same history and card, whatever the threads, the lag and the delays") {
-  for (const int lag : {0, 1, 3}) {
+TEST_CASE(
+    "the same study gives the same history and card, whatever the threads, the candidates pending and the delays") {
+  for (const int max_pending : {0, 1, 3}) {
     std::string card_of_one_thread;
     std::vector<UnitPoint> way_of_one_thread;
     for (const int threads : {1, 2, 8}) {
-      CAPTURE(lag, threads);
+      CAPTURE(max_pending, threads);
       Laboratory laboratory;
       auto& study = laboratory.study;
-      study.search.lag = lag;
+      study.search.max_pending = max_pending;
       study.search.budget_simulations = 60;
       study.search.tolerance_mm = 0.2;  // never met: the whole budget is spent
       laboratory.options.threads = threads;

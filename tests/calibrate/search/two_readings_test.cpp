@@ -92,7 +92,7 @@ TEST_CASE("a reading that is off by more than its tolerance is not made up for b
   objective.observe = [](const UnitPoint&, std::uint64_t) { return std::vector<double>{110, 430 + 1.2 * 25}; };
   const Calibration calibration = search(objective, options_with(1));
   CHECK(calibration.status != CalibrationStatus::confirmed);
-  CHECK(calibration.best.miss == Approx(1.2));
+  CHECK(calibration.best.normalised_error == Approx(1.2));
 }
 
 TEST_CASE("a reading within its tolerance is in reach, though every simulation reads more than the laboratory") {

@@ -22,7 +22,7 @@ inline const StoreIdentity kIdentity{"pastefit 0.1.0 engine abc",
 inline StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   StoredEvaluation out;
   out.point = {value, 0.1 + 0.2};
-  out.values = usual_values();
+  out.values = default_values();
   out.values[0] = value * 3000;
   out.values[5] = 1.0 / 3;
   out.packing = packing;

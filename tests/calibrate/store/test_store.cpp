@@ -53,35 +53,35 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   CHECK(found->sketch.points == kept.sketch.points);
 }
 
-TEST_CASE("parameters are kept by name, those that are not usual, and one that is absent has its usual value") {
-  auto values = usual_values();
+TEST_CASE("parameters are kept by name, those that are not default, and one that is absent has its default value") {
+  auto values = default_values();
   values[0] = 1234.5;
   values[5] = 1.0 / 3;
   const nlohmann::json kept = parameters_to_json(values);
   CHECK(kept == nlohmann::json{{"friction", 1.0 / 3}, {"strength_pa", 1234.5}});
   CHECK(parameters_from_json(kept) == values);
-  CHECK(parameters_from_json(nlohmann::json::object()) == usual_values());
+  CHECK(parameters_from_json(nlohmann::json::object()) == default_values());
   CHECK_THROWS_AS(parameters_from_json({{"stickiness", 1}}), std::invalid_argument);
 }
 
-TEST_CASE("a field that is added with its usual value leaves the name of an evaluation as it was") {
+TEST_CASE("a field that is added with its default value leaves the name of an evaluation as it was") {
   SlumpTest test;
   test.contact.friction = 0.15;
   test.drop.emplace().mass_kg = 12;
-  const auto usual = usual_test(test);
+  const auto by_default = default_test(test);
   CHECK(identity_of(test)[0] == "slump");
-  const auto before = differing_part(to_json(test), to_json(usual));
+  const auto before = differing_part(to_json(test), to_json(by_default));
   CHECK(identity_of(test)[1] == before);
   CHECK(before == nlohmann::json{{"contact", {{"friction", 0.15}}}, {"drop", {{"mass_kg", 12.0}}}});
-  auto larger_test = to_json(test), larger_usual = to_json(usual);
-  for (auto* one : {&larger_test, &larger_usual}) {
+  auto larger_test = to_json(test), larger_default = to_json(by_default);
+  for (auto* one : {&larger_test, &larger_default}) {
     (*one)["contact"]["throwaway"] = 0.7;
     (*one)["drop"]["bounces"] = nullptr;
     (*one)["reading"]["outline_step3_m"] = nlohmann::json::array();
   }
-  CHECK(differing_part(larger_test, larger_usual) == before);
+  CHECK(differing_part(larger_test, larger_default) == before);
   larger_test["contact"]["throwaway"] = 0.8;
-  CHECK(differing_part(larger_test, larger_usual) != before);
+  CHECK(differing_part(larger_test, larger_default) != before);
   // What tells tests apart tells their names apart.
   const auto key = [](const SlumpTest& one) { return evaluation_key("program", one); };
   SlumpTest without = test, outlined = test;

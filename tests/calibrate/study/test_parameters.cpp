@@ -11,12 +11,13 @@
 namespace pastefit {
 namespace {
 
-/// All parameters at their usual values, the first five free over their whole admissible range.
+/// All parameters at their default values, the first five free over their whole admissible range.
 Study bridge_study() {
   Study study;
   for (const ParameterKind& kind : parameter_kinds()) {
     const bool free = study.parameters.size() < 5;
-    study.parameters.push_back({std::string(kind.name), free, kind.usual, kind.smallest, kind.largest, kind.scale});
+    study.parameters.push_back(
+        {std::string(kind.name), free, kind.default_value, kind.smallest, kind.largest, kind.scale});
   }
   return study;
 }
@@ -28,7 +29,7 @@ double force(const Bridge& bridge, double d) {
 TEST_CASE("every point of the unit cube is an admissible bridge that is fit to run") {
   for (const BridgeFormation formation : {BridgeFormation::film, BridgeFormation::touch}) {
     Study study = bridge_study();
-    Test own = with_usual_contact(SlumpTest{});
+    Test own = with_default_contact(SlumpTest{});
     specimen_of(own).contact.bridge.formation = formation;
     std::ranges::find(study.parameters, "youngs_modulus_pa", &Parameter::name)->value = 1e9;  // carries the strongest
     std::vector<double> point(5);
@@ -51,13 +52,13 @@ TEST_CASE("every point of the unit cube is an admissible bridge that is fit to r
 
 TEST_CASE("strength, rupture force, curvature, gap and offset are what their names say") {
   const double radius = 0.008;
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   values[0] = 5000;
   values[1] = 0.25;
   values[2] = 1;
   values[3] = 0.3;
   values[4] = 0.8;
-  Test test = with_usual_contact(SlumpTest{});
+  Test test = with_default_contact(SlumpTest{});
   specimen_of(test).grains.radius_m = radius;
   const Bridge bridge = specimen_of(with_contact_of(test, values)).contact.bridge;
   CHECK(bridge.c_n == Approx(0.32));
@@ -72,13 +73,13 @@ TEST_CASE("strength, rupture force, curvature, gap and offset are what their nam
 }
 
 TEST_CASE("with formation by touch the shells reach as far as the bridge, whatever its film would be") {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   values[3] = 0.5;
   values[4] = 0.1;
   const auto offset = [&](const Test& test) {
     return specimen_of(with_contact_of(test, values)).contact.bridge.offset_m;
   };
-  Test test = with_usual_contact(SlumpTest{});
+  Test test = with_default_contact(SlumpTest{});
   specimen_of(test).contact.bridge.formation = BridgeFormation::touch;
   CHECK(offset(test) == Approx(0.25 * 0.008));
   specimen_of(test).contact.bridge.formation = BridgeFormation::film;
@@ -86,9 +87,9 @@ TEST_CASE("with formation by touch the shells reach as far as the bridge, whatev
 }
 
 TEST_CASE("each parameter reaches its own place in the test") {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   for (std::size_t i = 5; i < 17; ++i) values[i] = 0.1 + 0.01 * static_cast<double>(i);
-  const auto test = std::get<SlumpTest>(with_contact_of(with_usual_contact(SlumpTest{}), values));
+  const auto test = std::get<SlumpTest>(with_contact_of(with_default_contact(SlumpTest{}), values));
   CHECK(test.contact.friction == values[5]);
   CHECK(test.contact.rolling_friction == values[6]);
   CHECK(test.contact.restitution == values[7]);
@@ -104,9 +105,9 @@ TEST_CASE("each parameter reaches its own place in the test") {
 }
 
 TEST_CASE("mould and table resist rolling as a study says, and as before where it says nothing") {
-  const auto usual = std::get<SlumpTest>(with_contact_of(with_usual_contact(SlumpTest{}), usual_values()));
-  CHECK(usual.mould_wall.rolling_friction == SlumpTest{}.mould_wall.rolling_friction);
-  CHECK(usual.table_wall.rolling_friction == SlumpTest{}.table_wall.rolling_friction);
+  const auto by_default = std::get<SlumpTest>(with_contact_of(with_default_contact(SlumpTest{}), default_values()));
+  CHECK(by_default.mould_wall.rolling_friction == SlumpTest{}.mould_wall.rolling_friction);
+  CHECK(by_default.table_wall.rolling_friction == SlumpTest{}.table_wall.rolling_friction);
 }
 
 TEST_CASE("the unit interval spans the bounds exactly, in equal steps or equal ratios") {
@@ -122,11 +123,11 @@ TEST_CASE("the unit interval spans the bounds exactly, in equal steps or equal r
   CHECK(free_count(study) == 5);
 }
 
-TEST_CASE("usual values lie in their admissible range, and names are unique") {
+TEST_CASE("default values lie in their admissible range, and names are unique") {
   for (const ParameterKind& kind : parameter_kinds()) {
     CHECK(kind.smallest < kind.largest);
-    CHECK(kind.usual >= kind.smallest);
-    CHECK(kind.usual <= kind.largest);
+    CHECK(kind.default_value >= kind.smallest);
+    CHECK(kind.default_value <= kind.largest);
     CHECK((kind.scale == Scale::linear || kind.smallest > 0));
     const auto same = [&](const ParameterKind& other) { return other.name == kind.name; };
     CHECK(std::count_if(parameter_kinds().begin(), parameter_kinds().end(), same) == 1);
@@ -171,7 +172,7 @@ TEST_CASE("an attraction of any law has the strength and the gap that were asked
     INFO(word);
     for (const double strength : {1.0, 5000.0, 1e7})
       for (const double gap : {1e-3, 0.3, 1.0}) {
-        std::vector<double> values = usual_values();
+        std::vector<double> values = default_values();
         values[0] = strength;
         values[3] = gap;
         values[8] = 1e11;  // carries the strongest
@@ -190,9 +191,9 @@ TEST_CASE("an attraction of any law has the strength and the gap that were asked
 }
 
 TEST_CASE("without an attraction nothing of one is left, and no cohesion") {
-  Test test = with_usual_contact(SlumpTest{});
+  Test test = with_default_contact(SlumpTest{});
   specimen_of(test).contact.bridge.shape = BridgeShape::none;
-  const ContactModel contact = specimen_of(with_contact_of(test, usual_values())).contact;
+  const ContactModel contact = specimen_of(with_contact_of(test, default_values())).contact;
   CHECK(contact.cohesion_n == 0.0);
   CHECK(contact.bridge.c_n == 0);
   CHECK(contact.bridge.d_c_m == 0);
@@ -200,9 +201,9 @@ TEST_CASE("without an attraction nothing of one is left, and no cohesion") {
 }
 
 TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has none") {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   values[17] = 2000;
-  Test test = with_usual_contact(SlumpTest{});
+  Test test = with_default_contact(SlumpTest{});
   CHECK(specimen_of(with_contact_of(test, values)).contact.surface_energy_j_m2 == 0);
   specimen_of(test).contact.normal = NormalLaw::jkr;
   test = with_contact_of(test, values);
@@ -212,10 +213,10 @@ TEST_CASE("JKR's surface energy is the adhesion times the radius, and Hertz has 
 }
 
 TEST_CASE("DMT has JKR's surface energy, SJKR an energy density, and neither has the other's") {
-  std::vector<double> values = usual_values();
+  std::vector<double> values = default_values();
   values[17] = 2000;
   values[18] = 30000;
-  Test test = with_usual_contact(SlumpTest{});
+  Test test = with_default_contact(SlumpTest{});
   specimen_of(test).contact.bridge.shape = BridgeShape::none;
   specimen_of(test).contact.normal = NormalLaw::dmt;
   test = with_contact_of(test, values);
@@ -229,7 +230,7 @@ TEST_CASE("DMT has JKR's surface energy, SJKR an energy density, and neither has
 }
 
 TEST_CASE("the same parameters for larger grains are the enlarged material, whatever its laws") {
-  const std::vector<double> values = usual_values();
+  const std::vector<double> values = default_values();
   for (const auto& normal : normal_laws)
     for (const auto& shape : bridge_shapes) {
       INFO(normal.name << ", " << shape.name);
@@ -285,7 +286,7 @@ TEST_CASE("a parameter belongs to the laws that name it, and to every test if no
 }
 
 TEST_CASE("the packing seed is the one that was asked for") {
-  CHECK(specimen_of(test_with(SlumpTest{}, usual_values(), 77)).packing_seed == 77);
+  CHECK(specimen_of(test_with(SlumpTest{}, default_values(), 77)).packing_seed == 77);
 }
 
 }  // namespace

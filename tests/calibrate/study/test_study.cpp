@@ -85,7 +85,7 @@ TEST_CASE("the shipped studies are read: height and spread to fit where a heap c
   CHECK(studies == 9);
 }
 
-TEST_CASE("what a study does not name has its usual value") {
+TEST_CASE("what a study does not name has its default value") {
   const Result<Study> read = Desk().read(Desk::study());
   REQUIRE(read.ok());
   const Study& study = read.value();
@@ -93,7 +93,7 @@ TEST_CASE("what a study does not name has its usual value") {
   CHECK(study.parameters[0].free);
   CHECK(study.parameters[0].scale == Scale::logarithmic);
   CHECK(study.parameters[5].value == 0.4);
-  CHECK(study.parameters[7].value == parameter_kinds()[7].usual);
+  CHECK(study.parameters[7].value == parameter_kinds()[7].default_value);
   CHECK(study.search.budget_simulations == SearchOptions{}.budget_simulations);
   for (const Target& target : study.tests[0].targets) CHECK(target.weight == 1);
 }

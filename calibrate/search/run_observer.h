@@ -8,11 +8,11 @@ namespace pastefit {
 
 /// Sees simulations while a search runs them, so that they need not be run once more to be shown. Called from the
 /// threads that simulate.
-class Onlooker {
+class RunObserver {
  public:
   using Watch = std::function<void(const Moment&)>;
 
-  virtual ~Onlooker() = default;
+  virtual ~RunObserver() = default;
 
   /// A simulation that will run to its end; asked in the order of simulations. The answer is called with its moments,
   /// those of the filling first if that is made for it, by one thread.

@@ -1,4 +1,4 @@
-#include "calibrate/inference/words.h"
+#include "calibrate/inference/description.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +124,7 @@ std::string family(const Inference& inference) {
     row(inference.intervals[k].name, [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
   for (std::size_t k = 0; k < inference.fitted.size(); ++k)
     row(inference.fitted[k], [&](const EquivalentMaterial& member) { return plain(member.readings[k], 4); });
-  row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.miss, 2); });
+  row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.normalised_error, 2); });
   row("known from",
       [](const EquivalentMaterial& member) { return std::string(member.simulated ? "simulated" : "predicted"); });
   return out;
@@ -161,7 +161,7 @@ std::string what_is_determined(const Inference& inference) {
          determined(inference) + intervals(inference) + "What to measure next\n" + next(inference);
 }
 
-std::string words_of(const Inference& inference) {
+std::string describe(const Inference& inference) {
   return what_is_determined(inference) + family(inference);
 }
 

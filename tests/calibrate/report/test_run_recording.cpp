@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/report/film.h"
-#include "calibrate/report/film_code.h"
+#include "calibrate/report/recording_code.h"
+#include "calibrate/report/run_recording.h"
 #include "core/world/world.h"
 
 using namespace pastefit;
@@ -20,15 +20,15 @@ World world_of(std::vector<Vec3> places) {
   return world;
 }
 
-Film film_of_two_frames() {
-  Film film;
-  Reel reel;
-  reel.radii_m = {0.01, 0.02};
-  reel.frames.push_back(
+RunRecording film_of_two_frames() {
+  RunRecording film;
+  RecordingPart part;
+  part.radii_m = {0.01, 0.02};
+  part.frames.push_back(
       {0, "step1.lift", {{0, 0, 0}, {1, 2, 3}}, {0.0f, 1.0f}, {0, 1}, {0.0f, 0.5f}, {{"table", Plane{}}}});
-  reel.frames.push_back(
+  part.frames.push_back(
       {0.5, "step1.rest", {{0, 0, -0.25}, {1, 2, 3.5}}, {10.0f, 1.0f}, {3, 0}, {2.0f, 1.0f}, {{"table", Plane{}}}});
-  film.reels.push_back(std::move(reel));
+  film.parts.push_back(std::move(part));
   return film;
 }
 
@@ -54,11 +54,11 @@ std::string bytes_in(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a coded film says where each grain is, to half a quantum, by differences from the frame before") {
-  const Film film = film_of_two_frames();
-  const auto index = film_index(film);
+  const RunRecording film = film_of_two_frames();
+  const auto index = recording_index(film);
   const double quantum = index.at("quantum_m");
   CHECK(quantum == Approx(3.75 / 65535));  // wider than 16 bits of 0.05 mm
-  const std::string bytes = bytes_in(film_bytes(film));
+  const std::string bytes = bytes_in(recording_bytes(film));
   REQUIRE(bytes.size() == 2 * 2 + 2 * (3 * 2 * 2 + 2 + 2 + 2));
   std::size_t place = 0;
   const auto octet = [&] { return static_cast<unsigned char>(bytes.at(place++)); };
@@ -70,7 +70,7 @@ TEST_CASE("a coded film says where each grain is, to half a quantum, by differen
   };
   CHECK(words()[1] * quantum == Approx(0.02).margin(quantum));
   std::array<std::array<unsigned, 2>, 3> places{};
-  for (const FilmFrame& frame : film.reels[0].frames) {
+  for (const RecordedFrame& frame : film.parts[0].frames) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto step = words();
       for (std::size_t i = 0; i < 2; ++i) {
@@ -95,51 +95,51 @@ TEST_CASE("a coded film says where each grain is, to half a quantum, by differen
 }
 
 TEST_CASE("the index of a film names a wall again only where it has moved") {
-  Film film = film_of_two_frames();
-  film.reels[0].frames.push_back(film.reels[0].frames.back());
-  film.reels[0].frames.back().walls[0].shape = Plane{{0, 0, 1}};
-  const auto frames = film_index(film).at("reels")[0].at("frames");
+  RunRecording film = film_of_two_frames();
+  film.parts[0].frames.push_back(film.parts[0].frames.back());
+  film.parts[0].frames.back().walls[0].shape = Plane{{0, 0, 1}};
+  const auto frames = recording_index(film).at("parts")[0].at("frames");
   CHECK(frames[0].contains("walls"));
   CHECK_FALSE(frames[1].contains("walls"));
   CHECK(frames[2].at("walls")[0].at("point_m")[2] == 1);
 }
 
-TEST_CASE("a film begins a reel where the grains are other ones, and its clock goes on") {
-  FilmRecorder recorder;
+TEST_CASE("a film begins a part where the grains are other ones, and its clock goes on") {
+  RunRecorder recorder;
   World two = world_of({{0, 0, 0}, {0, 0, 1}}), one = world_of({{0, 0, 0}});
   for (const double time : {0.0, 0.02, 0.04}) recorder.add({"fill.pour", time, 0, &two});
   for (const double time : {0.0, 0.02}) recorder.add({"step1.lift", time, 0, &one});
   Moment second_drop{"step2.rest", 0.04, 0, &one};
   second_drop.drop = 1;
   recorder.add(second_drop);
-  const Film film = std::move(recorder).film();
-  REQUIRE(film.reels.size() == 3);
+  const RunRecording film = std::move(recorder).film();
+  REQUIRE(film.parts.size() == 3);
   CHECK(film.grains() == 2);
-  CHECK(film.reels[1].frames.front().time_s == Approx(0.04));
-  CHECK(film.reels[1].frames.back().time_s == Approx(0.06));
-  CHECK(film.reels[1].frames.size() == 2);
-  CHECK(film.reels[1].frames.back().phase == "step1.lift");
-  CHECK(film.reels[2].frames.front().time_s == Approx(0.06));
-  CHECK(film.reels[2].frames.front().phase == "step2.rest, heap turned half round");
+  CHECK(film.parts[1].frames.front().time_s == Approx(0.04));
+  CHECK(film.parts[1].frames.back().time_s == Approx(0.06));
+  CHECK(film.parts[1].frames.size() == 2);
+  CHECK(film.parts[1].frames.back().phase == "step1.lift");
+  CHECK(film.parts[2].frames.front().time_s == Approx(0.06));
+  CHECK(film.parts[2].frames.front().phase == "step2.rest, heap turned half round");
 }
 
-TEST_CASE("a long film is thinned to what a page holds, and keeps the last picture of each reel") {
-  FilmRecorder recorder;
+TEST_CASE("a long film is thinned to what a page holds, and keeps the last picture of each part") {
+  RunRecorder recorder;
   World world = world_of({{0, 0, 0}});
   for (int k = 0; k <= 1000; ++k) recorder.add({"step1.rest", 0.02 * k, 0, &world});
-  const Film film = std::move(recorder).film();
+  const RunRecording film = std::move(recorder).film();
   CHECK(film.frames() > 120);
   CHECK(film.frames() < 160);
-  CHECK(film.reels[0].frames.back().time_s == Approx(20));
+  CHECK(film.parts[0].frames.back().time_s == Approx(20));
 }
 
 TEST_CASE("grains are told in the order of their identities, wherever they stand in the world") {
-  FilmRecorder recorder;
+  RunRecorder recorder;
   World world = world_of({{0, 0, 1}, {0, 0, 2}});
   std::swap(world.particles.motion[0], world.particles.motion[1]);
   std::swap(world.particles.identity[0], world.particles.identity[1]);
   recorder.add({"step1.rest", 0, 0, &world});
-  const Film film = std::move(recorder).film();
-  CHECK(film.reels[0].frames[0].centres_m[0].z == 1);
-  CHECK(film.reels[0].frames[0].centres_m[1].z == 2);
+  const RunRecording film = std::move(recorder).film();
+  CHECK(film.parts[0].frames[0].centres_m[0].z == 1);
+  CHECK(film.parts[0].frames[0].centres_m[1].z == 2);
 }

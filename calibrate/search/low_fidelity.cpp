@@ -1,4 +1,4 @@
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 
 #include "calibrate/search/response.h"
 #include "calibrate/search/surrogate.h"

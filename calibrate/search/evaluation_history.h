@@ -19,14 +19,14 @@ namespace pastefit {
 ///
 /// Residuals are weighted by the noise of the packings as well as by the laboratory's own deviation: each is divided by
 /// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
-/// packings. A reading that wobbles says less. v is the usual one (`usual_variance`) of the candidates that ran on
+/// packings. A reading that wobbles says less. v is the typical one (`typical_variance`) of the candidates that ran on
 /// several packings: those that stand or shear off by luck would say that no reading matters. It changes only between
 /// phases, so that an optimiser's objective stays the same while it runs.
-class Archive {
+class EvaluationHistory {
  public:
   /// `earlier`: what is known from the start, each point on one packing.
-  Archive(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
-          const std::function<void(const Progress&)>& progress);
+  EvaluationHistory(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
+                    const std::function<void(const Progress&)>& progress);
 
   const Scoring& scoring() const { return queue_.scoring(); }
   int parameters() const { return scoring().parameters(); }
@@ -71,11 +71,11 @@ class Archive {
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
   /// Best answer of a point on one packing; one that has all its readings.
   std::optional<Response> best_single() const;
-  const std::vector<Response>& history() const { return history_; }
+  const std::vector<Response>& responses() const { return responses_; }
   const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
   const std::vector<Response>& coarse_singles() const { return coarse_singles_; }
   /// What a surrogate learns from: the simulations, and the coarse ones as far as they tell of them.
-  std::vector<Response> evidence() const;
+  std::vector<Response> training_data() const;
   /// The best starting point known: on these packings, else on whatever others.
   UnitPoint best_point(std::span<const std::uint64_t> packings) const;
   int simulations() const { return (at_start_ - queue_.budget_left()) * scoring().simulations_each(); }
@@ -104,7 +104,7 @@ class Archive {
   double common_packings_ = 1;
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1
   std::deque<Asked> under_way_;
-  std::vector<Response> history_;
+  std::vector<Response> responses_;
   std::vector<Response> singles_;
   std::vector<Response> coarse_singles_;
 };

@@ -30,7 +30,7 @@ struct ReadingEvidence {
 };
 
 /// All that finished simulations say about a study.
-struct Evidence {
+struct TrainingData {
   std::vector<Parameter> parameters;  ///< the free ones: the coordinates of the points
   std::vector<UnitPoint> points;      ///< of the simulations that ended well; one
                                       ///< for each simulated value
@@ -43,6 +43,6 @@ struct Evidence {
 /// Collects the evidence from a record (`search/record.h`). Of a simulation that ended early the reading that ended it
 /// is a bound, where it ended below, and the readings that it lacks are learnt from the others. Readings are learnt
 /// from the simulations that a laboratory would not reject; from all, if it would reject every one.
-Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations);
+TrainingData training_data_of(const Study& study, std::span<const StoredEvaluation> evaluations);
 
 }  // namespace pastefit

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "calibrate/search/archive.h"
+#include "calibrate/search/evaluation_history.h"
 #include "calibrate/search/surrogate.h"
 
 namespace pastefit {
@@ -10,10 +10,10 @@ namespace pastefit {
 /// The candidates of a search in the light of all that was simulated so far. The one that reads best is often the
 /// luckiest; what its neighbours read, with luck of their own, tells them apart.
 /// Requirement: some evidence is feasible.
-class Prospects {
+class CandidateRanking {
  public:
   /// `refuted`: candidates that a confirmation has judged, which are none any more.
-  Prospects(const Archive& archive, std::span<const UnitPoint> refuted);
+  CandidateRanking(const EvaluationHistory& history, std::span<const UnitPoint> refuted);
 
   const Surrogate& surrogate() const { return surrogate_; }
   /// The one of least expected misfit, of those simulated to their end; no point if there is none.
@@ -30,7 +30,7 @@ class Prospects {
   double chance_of(const UnitPoint& point, double tolerances) const;
 
  private:
-  const Archive& archive_;
+  const EvaluationHistory& history_;
   Surrogate surrogate_;
   UnitPoint best_, least_;
   double misfit_of_best_, least_misfit_;

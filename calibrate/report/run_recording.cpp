@@ -1,4 +1,4 @@
-#include "calibrate/report/film.h"
+#include "calibrate/report/run_recording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@ namespace pastefit {
 
 namespace {
 
-bool is_filling(const FilmFrame& frame) {
+bool is_filling(const RecordedFrame& frame) {
   return frame.phase.starts_with("fill.");
 }
 
-FilmFrame frame_of(const World& world) {
+RecordedFrame frame_of(const World& world) {
   const auto grains = static_cast<std::size_t>(world.particles.count());
-  FilmFrame frame;
+  RecordedFrame frame;
   frame.centres_m.resize(grains);
   frame.speeds_m_s.resize(grains);
   frame.coordination.resize(grains);
@@ -44,69 +44,69 @@ double pictures_for(std::size_t grains) {
   return std::clamp(kGrainsInAll / static_cast<double>(std::max<std::size_t>(grains, 1)), kLeast, kMost);
 }
 
-/// The pictures of a reel at least `interval_s` apart, and its last one.
-void thin(Reel& reel, double interval_s) {
+/// The pictures of a part at least `interval_s` apart, and its last one.
+void thin(RecordingPart& part, double interval_s) {
   double next_s = -std::numeric_limits<double>::infinity();
-  std::vector<FilmFrame> kept;
-  for (std::size_t i = 0; i < reel.frames.size(); ++i) {
-    FilmFrame& frame = reel.frames[i];
-    if (frame.time_s < next_s && i + 1 < reel.frames.size()) continue;
-    next_s = frame.time_s + interval_s - 0.5 * FilmRecorder::kInterval;
+  std::vector<RecordedFrame> kept;
+  for (std::size_t i = 0; i < part.frames.size(); ++i) {
+    RecordedFrame& frame = part.frames[i];
+    if (frame.time_s < next_s && i + 1 < part.frames.size()) continue;
+    next_s = frame.time_s + interval_s - 0.5 * RunRecorder::kInterval;
     kept.push_back(std::move(frame));
   }
-  reel.frames = std::move(kept);
+  part.frames = std::move(kept);
 }
 
 }  // namespace
 
-std::size_t Film::grains() const {
+std::size_t RunRecording::grains() const {
   std::size_t most = 0;
-  for (const Reel& reel : reels) most = std::max(most, reel.radii_m.size());
+  for (const RecordingPart& part : parts) most = std::max(most, part.radii_m.size());
   return most;
 }
 
-std::size_t Film::frames() const {
+std::size_t RunRecording::frames() const {
   std::size_t sum = 0;
-  for (const Reel& reel : reels) sum += reel.frames.size();
+  for (const RecordingPart& part : parts) sum += part.frames.size();
   return sum;
 }
 
-void FilmRecorder::add(const Moment& moment) {
+void RunRecorder::add(const Moment& moment) {
   if (!moment.world || moment.world->particles.count() == 0) return;
   const World& world = *moment.world;
   const auto grains = static_cast<std::size_t>(world.particles.count());
-  const bool anew = film_.reels.empty() || moment.time_s < last_s_ || moment.drop != drop_ ||
-                    film_.reels.back().radii_m.size() != grains;
+  const bool anew = film_.parts.empty() || moment.time_s < last_s_ || moment.drop != drop_ ||
+                    film_.parts.back().radii_m.size() != grains;
   if (anew) {
-    begun_s_ = film_.reels.empty() ? 0 : film_.reels.back().frames.back().time_s;
+    begun_s_ = film_.parts.empty() ? 0 : film_.parts.back().frames.back().time_s;
     first_s_ = moment.drop > 0 ? moment.time_s : 0;  // the drop goes on with the clock of the heap
-    Reel reel;
-    reel.radii_m.resize(grains);
+    RecordingPart part;
+    part.radii_m.resize(grains);
     for (std::size_t i = 0; i < grains; ++i)
-      reel.radii_m[static_cast<std::size_t>(world.particles.identity[i])] = world.particles.motion[i].radius;
-    film_.reels.push_back(std::move(reel));
+      part.radii_m[static_cast<std::size_t>(world.particles.identity[i])] = world.particles.motion[i].radius;
+    film_.parts.push_back(std::move(part));
   }
   last_s_ = moment.time_s;
   drop_ = moment.drop;
-  FilmFrame frame = frame_of(world);
+  RecordedFrame frame = frame_of(world);
   frame.time_s = begun_s_ + moment.time_s - first_s_;
   frame.phase = moment.phase;
   if (moment.drop > 0) frame.phase += ", heap turned half round";
-  film_.reels.back().frames.push_back(std::move(frame));
+  film_.parts.back().frames.push_back(std::move(frame));
 }
 
-Film FilmRecorder::film() && {
+RunRecording RunRecorder::film() && {
   double filling_s = 0, test_s = 0;
-  for (const Reel& reel : film_.reels) {
-    const double length_s = reel.frames.back().time_s - reel.frames.front().time_s;
-    (is_filling(reel.frames.front()) ? filling_s : test_s) += length_s;
+  for (const RecordingPart& part : film_.parts) {
+    const double length_s = part.frames.back().time_s - part.frames.front().time_s;
+    (is_filling(part.frames.front()) ? filling_s : test_s) += length_s;
   }
   const double count = pictures_for(film_.grains());
   const double share_of_filling = filling_s > 0 && test_s > 0 ? 0.25 : 1;
-  for (Reel& reel : film_.reels) {
-    const bool filling = is_filling(reel.frames.front());
+  for (RecordingPart& part : film_.parts) {
+    const bool filling = is_filling(part.frames.front());
     const double share = filling ? share_of_filling : test_s > 0 && filling_s > 0 ? 0.75 : 1;
-    thin(reel, (filling ? filling_s : test_s) / (share * count));
+    thin(part, (filling ? filling_s : test_s) / (share * count));
   }
   return std::move(film_);
 }

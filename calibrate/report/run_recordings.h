@@ -8,15 +8,15 @@
 #include <string>
 
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/report/film.h"
-#include "calibrate/search/onlooker.h"
+#include "calibrate/report/run_recording.h"
+#include "calibrate/search/run_observer.h"
 
 namespace pastefit {
 
 /// One simulation, and what is seen of it.
-struct Look {
+struct SeenSimulation {
   SeenRun seen;
-  std::optional<FilmRecorder> film;  ///< none if it is not filmed
+  std::optional<RunRecorder> film;  ///< none if it is not filmed
   std::optional<Failure> failure;
   bool ended = false;
 
@@ -27,19 +27,19 @@ struct Look {
 
 /// What was seen of simulations while a search ran them. The first packing of each material is filmed, of the first few
 /// materials: those that are confirmed.
-class Looks : public Onlooker {
+class RunRecordings : public RunObserver {
  public:
   Watch begin(const Test& test) override;
   void end(const Test& test, const Outcome& outcome) override;
-  double interval_s() const override { return FilmRecorder::kInterval; }
+  double interval_s() const override { return RunRecorder::kInterval; }
 
   /// What was seen of this very simulation; nothing if it was not seen to its end. Given away once.
-  std::optional<Look> take(const Test& test);
+  std::optional<SeenSimulation> take(const Test& test);
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<Look>> looks_;  // by the simulation's name
-  std::set<std::string> filmed_;                        // materials
+  std::map<std::string, std::unique_ptr<SeenSimulation>> recordings_;  // by the simulation's name
+  std::set<std::string> filmed_;                                       // materials
 };
 
 }  // namespace pastefit

@@ -1,4 +1,4 @@
-#include "calibrate/models/scatter.h"
+#include "calibrate/models/replicate_variance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@ constexpr double harmless_ones = 2;  // simulations of harmless scatter that are
 
 }  // namespace
 
-Scatter::Scatter(std::vector<UnitPoint> points, const Eigen::VectorXd& surprises, double harmless)
+ReplicateVariance::ReplicateVariance(std::vector<UnitPoint> points, const Eigen::VectorXd& deviations, double harmless)
     : points_(std::move(points)), harmless_(harmless) {
-  for (const double surprise : surprises) squares_.push_back(surprise * surprise);
+  for (const double deviation : deviations) squares_.push_back(deviation * deviation);
 }
 
-double Scatter::excess(const UnitPoint& point) const {
+double ReplicateVariance::excess(const UnitPoint& point) const {
   double sum = harmless_ones * harmless_, weights = harmless_ones;
   const double reach = near * near * static_cast<double>(point.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {

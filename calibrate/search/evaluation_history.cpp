@@ -1,4 +1,4 @@
-#include "calibrate/search/archive.h"
+#include "calibrate/search/evaluation_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/search/coarse_rung.h"
+#include "calibrate/search/low_fidelity.h"
 
 namespace pastefit {
 
@@ -25,40 +25,42 @@ std::vector<Response> without_cut_off(std::vector<Response> responses, bool stop
 
 }  // namespace
 
-Archive::Archive(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
-                 const std::function<void(const Progress&)>& progress)
+EvaluationHistory::EvaluationHistory(CandidateQueue& queue, std::span<const Response> earlier,
+                                     const SearchOptions& options, const std::function<void(const Progress&)>& progress)
     : queue_(queue), progress_(progress), at_start_(queue.budget_left()), common_packings_(options.packings) {
   budget_ = std::min(options.budget_simulations / scoring().simulations_each(), at_start_);
   for (const Response& response : earlier) keep_single(response, singles_);
 }
 
-int Archive::budget_left() const {
+int EvaluationHistory::budget_left() const {
   int spent = at_start_ - queue_.budget_left();
   for (const Asked& asked : under_way_) spent += static_cast<int>(asked.packings.size());
   return std::max(0, budget_ - spent - held_back_);
 }
 
-void Archive::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+void EvaluationHistory::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
   queue_.begin(point, packings);
   under_way_.push_back({point, {packings.begin(), packings.end()}});
 }
 
-Response Archive::next_answer() {
+Response EvaluationHistory::next_answer() {
   const Asked asked = std::move(under_way_.front());
   under_way_.pop_front();
   return try_out({&asked.point, 1}, asked.packings).at(0);
 }
 
-std::vector<Response> Archive::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+std::vector<Response> EvaluationHistory::evaluate(std::span<const UnitPoint> points,
+                                                  std::span<const std::uint64_t> packings) {
   return ask(points, packings, false);
 }
 
-std::vector<Response> Archive::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+std::vector<Response> EvaluationHistory::try_out(std::span<const UnitPoint> points,
+                                                 std::span<const std::uint64_t> packings) {
   return ask(points, packings, true);
 }
 
-std::vector<Response> Archive::ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                                   bool may_end_early) {
+std::vector<Response> EvaluationHistory::ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                                             bool may_end_early) {
   std::vector<Response> responses;
   for (std::vector<Evaluation>& evaluations : queue_.evaluate(points, packings, Fidelity::fine, may_end_early))
     responses.push_back(scoring().response_of(std::move(evaluations)));
@@ -76,7 +78,7 @@ std::vector<Response> Archive::ask(std::span<const UnitPoint> points, std::span<
   return responses;
 }
 
-Response Archive::recall(const UnitPoint& point, std::span<const std::uint64_t> packings) {
+Response EvaluationHistory::recall(const UnitPoint& point, std::span<const std::uint64_t> packings) {
   std::vector<Evaluation> evaluations;
   for (const std::uint64_t packing : packings)
     for (const Response& one : singles_)
@@ -88,19 +90,19 @@ Response Archive::recall(const UnitPoint& point, std::span<const std::uint64_t> 
   return response;
 }
 
-void Archive::note(std::span<const Response> answered) {
-  history_.insert(history_.end(), answered.begin(), answered.end());
+void EvaluationHistory::note(std::span<const Response> answered) {
+  responses_.insert(responses_.end(), answered.begin(), answered.end());
   for (const Response& response : answered) {
     if (!is_whole(response) || response.packings.size() < best_packings_) continue;
-    if (response.packings.size() > best_packings_ || response.miss < best_miss_) {
-      best_miss_ = response.miss;
+    if (response.packings.size() > best_packings_ || response.normalised_error < best_miss_) {
+      best_miss_ = response.normalised_error;
       best_packings_ = response.packings.size();
     }
   }
   report();
 }
 
-void Archive::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+void EvaluationHistory::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
   const auto answered = queue_.evaluate(points, packings, Fidelity::coarse, false);
   if (stop_requested()) return;
   for (std::size_t k = 0; k < packings.size(); ++k)
@@ -112,35 +114,35 @@ void Archive::evaluate_coarse(std::span<const UnitPoint> points, std::span<const
   report();
 }
 
-void Archive::enter(std::string_view phase) {
+void EvaluationHistory::enter(std::string_view phase) {
   phase_ = phase;
   queue_.enter(phase);
   measure_noise();
   report();
 }
 
-double Archive::allowance(std::size_t reading) const {
+double EvaluationHistory::allowance(std::size_t reading) const {
   const double factor = factors_.size() == 0 ? 1 : factors_[static_cast<Eigen::Index>(reading)];
   return factor * scoring().allowance(reading);
 }
 
-Eigen::VectorXd Archive::allowances() const {
+Eigen::VectorXd EvaluationHistory::allowances() const {
   Eigen::VectorXd allowances = Eigen::VectorXd::Zero(residuals());
   for (int k = 0; k < readings(); ++k) allowances[k] = allowance(static_cast<std::size_t>(k));
   return allowances;
 }
 
-double Archive::allowed_misfit() const {
+double EvaluationHistory::allowed_misfit() const {
   return 0.5 * allowances().squaredNorm();
 }
 
-void Archive::weigh(Response& response) const {
+void EvaluationHistory::weigh(Response& response) const {
   if (factors_.size() == 0 || !is_feasible(response)) return;
   response.residuals.array() *= factors_.array();
   response.misfit = 0.5 * response.residuals.squaredNorm();
 }
 
-Eigen::ArrayXd Archive::variance_between_packings() const {
+Eigen::ArrayXd EvaluationHistory::variance_between_packings() const {
   constexpr double most = 4;  // squares that a point counts for: what stands or shears off by luck is simulated often
   std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
@@ -158,11 +160,12 @@ Eigen::ArrayXd Archive::variance_between_packings() const {
   }
   if (squares.front().empty()) return {};
   Eigen::ArrayXd variance(residuals());
-  for (std::size_t k = 0; k < squares.size(); ++k) variance[static_cast<Eigen::Index>(k)] = usual_variance(squares[k]);
+  for (std::size_t k = 0; k < squares.size(); ++k)
+    variance[static_cast<Eigen::Index>(k)] = typical_variance(squares[k]);
   return variance;
 }
 
-void Archive::measure_noise() {
+void EvaluationHistory::measure_noise() {
   Eigen::ArrayXd variance = variance_between_packings();
   if (variance.size() == 0) return;
   if (factors_.size() == 0) factors_ = Eigen::VectorXd::Ones(variance.size());
@@ -170,7 +173,7 @@ void Archive::measure_noise() {
   const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
   const Eigen::VectorXd change = factors / factors_.array();
   factors_ = factors;
-  for (std::vector<Response>* kept : {&history_, &singles_, &coarse_singles_}) {
+  for (std::vector<Response>* kept : {&responses_, &singles_, &coarse_singles_}) {
     for (Response& response : *kept) {
       if (!is_feasible(response)) continue;
       response.residuals.array() *= change.array();
@@ -179,23 +182,23 @@ void Archive::measure_noise() {
   }
 }
 
-void Archive::report(const std::string& note) const {
+void EvaluationHistory::report(const std::string& note) const {
   if (progress_) progress_({phase_, simulations(), budget_ * scoring().simulations_each(), best_miss_, note});
 }
 
-void Archive::keep_single(const Response& response, std::vector<Response>& singles) {
+void EvaluationHistory::keep_single(const Response& response, std::vector<Response>& singles) {
   const auto known = std::ranges::find_if(singles, [&](const Response& single) {
     return single.packings == response.packings && single.point == response.point;
   });
   if (known == singles.end())
     singles.push_back(response);
-  else if (known->ended_early && !response.ended_early)
+  else if (known->censored && !response.censored)
     *known = response;
 }
 
-std::optional<Response> Archive::best_on(std::span<const std::uint64_t> packings) const {
+std::optional<Response> EvaluationHistory::best_on(std::span<const std::uint64_t> packings) const {
   Response best;
-  for (const Response& response : history_) {
+  for (const Response& response : responses_) {
     if (is_whole(response) && std::ranges::equal(response.packings, packings) && is_better(response, best)) {
       best = response;
     }
@@ -204,22 +207,22 @@ std::optional<Response> Archive::best_on(std::span<const std::uint64_t> packings
   return best;
 }
 
-std::vector<Response> Archive::evidence() const {
+std::vector<Response> EvaluationHistory::training_data() const {
   std::vector<Response> all = corrected(coarse_singles_, singles_);
   all.insert(all.end(), singles_.begin(), singles_.end());
   return all;
 }
 
-UnitPoint Archive::best_point(std::span<const std::uint64_t> packings) const {
+UnitPoint EvaluationHistory::best_point(std::span<const std::uint64_t> packings) const {
   if (const auto best = best_on(packings)) return best->point;
   Response best;
-  for (const Response& single : evidence()) {
+  for (const Response& single : training_data()) {
     if (is_feasible(single) && is_better(single, best)) best = single;
   }
   return best.point;
 }
 
-std::optional<Response> Archive::best_single() const {
+std::optional<Response> EvaluationHistory::best_single() const {
   Response best;
   for (const Response& single : singles_) {
     if (is_whole(single) && is_better(single, best)) best = single;
@@ -228,12 +231,12 @@ std::optional<Response> Archive::best_single() const {
   return best;
 }
 
-int Archive::failures() const {
+int EvaluationHistory::failures() const {
   return static_cast<int>(
       std::count_if(singles_.begin(), singles_.end(), [](const auto& s) { return !is_feasible(s); }));
 }
 
-bool Archive::any_feasible() const {
+bool EvaluationHistory::any_feasible() const {
   return std::any_of(singles_.begin(), singles_.end(), [](const auto& s) { return is_feasible(s); });
 }
 

@@ -1,4 +1,4 @@
-#include "calibrate/report/looks.h"
+#include "calibrate/report/run_recordings.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,8 +8,8 @@ namespace pastefit {
 namespace {
 
 /// Simulated as a search does it: on a packing that was prepared before, with somebody looking on.
-Outcome simulated(const Test& test, Looks& looks) {
-  const Onlooker::Watch watch = looks.begin(test);
+Outcome simulated(const Test& test, RunRecordings& looks) {
+  const RunObserver::Watch watch = looks.begin(test);
   RunOptions options;
   options.watch_interval_s = looks.interval_s();
   options.watch = [&](const Moment& moment) {
@@ -28,7 +28,7 @@ TEST_CASE("what was seen during a search is shown without simulating it again") 
   Specimen& specimen = specimen_of(of_card.test);
   specimen.grains.radius_m = 0.014;
   const std::vector<std::uint64_t> packings{5, 6};
-  Looks looks;
+  RunRecordings looks;
   std::vector<Outcome> outcomes;
   for (const std::uint64_t packing : packings) {
     specimen.packing_seed = packing;
@@ -52,7 +52,7 @@ TEST_CASE("what was seen during a search is shown without simulating it again") 
 }
 
 TEST_CASE("a simulation that was not seen to its end counts as not seen") {
-  Looks looks;
+  RunRecordings looks;
   const Test test = SlumpTest{};
   (void)looks.begin(test);
   CHECK_FALSE(looks.take(test));

@@ -93,7 +93,7 @@ inline std::vector<Drawing> drawings_of(const Specimen&, std::span<const SeenRun
 }
 
 /// How far off a simulated reading may be where nobody says: one standard deviation of the laboratory.
-inline double usual_tolerance(const Specimen&, const Measurement& measured) {
+inline double default_tolerance(const Specimen&, const Measurement& measured) {
   return measured.standard_deviation;
 }
 
@@ -108,7 +108,7 @@ inline std::vector<Experience> experience_of(const Specimen& test) {
 }
 
 /// What these measurements, taken together, cannot be, or can hardly be.
-inline Doubts doubts_about(const Specimen&, std::span<const Measurement>) {
+inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>) {
   return {};
 }
 

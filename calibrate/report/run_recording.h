@@ -11,51 +11,51 @@
 namespace pastefit {
 
 /// A wall as it stands in one picture.
-struct FilmWall {
+struct RecordedWall {
   std::string name;
   Shape shape;
 };
 
-/// One picture: a value for each grain of its reel, in the order of their identities.
-struct FilmFrame {
+/// One picture: a value for each grain of its part, in the order of their identities.
+struct RecordedFrame {
   double time_s = 0;  ///< on the film's own clock
   std::string phase;
   std::vector<Vec3> centres_m;
   std::vector<float> speeds_m_s;
   std::vector<std::uint8_t> coordination;  ///< grains that touch it
   std::vector<float> pulls_n;              ///< what its neighbours pull on it (`pulls_of`)
-  std::vector<FilmWall> walls;
+  std::vector<RecordedWall> walls;
 };
 
 /// Pictures of the same grains.
-struct Reel {
+struct RecordingPart {
   std::vector<double> radii_m;
-  std::vector<FilmFrame> frames;
+  std::vector<RecordedFrame> frames;
 };
 
-/// A run as a film: one reel after the other, on one clock.
-struct Film {
-  std::vector<Reel> reels;
+/// A run as a film: one part after the other, on one clock.
+struct RunRecording {
+  std::vector<RecordingPart> parts;
 
-  std::size_t grains() const;  ///< of the largest reel
+  std::size_t grains() const;  ///< of the largest part
   std::size_t frames() const;
 };
 
-/// Makes a film of the moments of a run (`RunOptions::watch`). A reel ends where the grains are other ones: a stage of
+/// Makes a film of the moments of a run (`RunOptions::watch`). A part ends where the grains are other ones: a stage of
 /// the test that begins its own clock, and at each further drop of one heap, whose phases say that they are of that.
-class FilmRecorder {
+class RunRecorder {
  public:
   static constexpr double kInterval = 0.02;  ///< [s] between two pictures, for `RunOptions::watch_interval_s`
 
   void add(const Moment& moment);
 
   /// The film, thinned to what a page can hold: about 140 pictures, fewer of many grains, a quarter of them of the
-  /// filling. First and last of each reel are in it.
-  Film film() &&;
+  /// filling. First and last of each part are in it.
+  RunRecording film() &&;
 
  private:
-  Film film_;
-  double begun_s_ = 0, first_s_ = 0;  // start of the reel on the film's clock, and on that of the run
+  RunRecording film_;
+  double begun_s_ = 0, first_s_ = 0;  // start of the part on the film's clock, and on that of the run
   double last_s_ = 0;                 // time of the run
   int drop_ = 0;
 };

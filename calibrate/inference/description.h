@@ -11,7 +11,7 @@ namespace pastefit {
 /// The inference as a person reads it: what is determined and how well, what is
 /// not, the equivalent materials, and what to measure next. Several lines, each
 /// ended.
-std::string words_of(const Inference& inference);
+std::string describe(const Inference& inference);
 
 /// The same without the table of equivalent materials.
 std::string what_is_determined(const Inference& inference);

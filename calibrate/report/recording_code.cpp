@@ -1,4 +1,4 @@
-#include "calibrate/report/film_code.h"
+#include "calibrate/report/recording_code.h"
 
 #include <zlib.h>
 
@@ -28,13 +28,13 @@ std::array<double, 3> places_of(const Vec3& point) {
   return {point.x, point.y, point.z};
 }
 
-Box box_of(const Film& film) {
+Box box_of(const RunRecording& film) {
   constexpr double kSteps = 65535;
   Box box;
   std::array<double, 3> high{};
   bool first = true;
-  for (const Reel& reel : film.reels)
-    for (const FilmFrame& frame : reel.frames)
+  for (const RecordingPart& part : film.parts)
+    for (const RecordedFrame& frame : part.frames)
       for (const Vec3& centre : frame.centres_m) {
         const auto place = places_of(centre);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -62,21 +62,21 @@ void append(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
   for (const auto number : numbers) bytes += static_cast<char>(number >> 8);
 }
 
-/// What of a reel is coded as change from the frame before.
+/// What of a part is coded as change from the frame before.
 struct CodedColumns {
   std::array<std::vector<std::uint16_t>, 3> places;
   std::vector<std::uint8_t> speeds, touching, pulls;
 };
 
-float most_pull_n(const Film& film) {
+float most_pull_n(const RunRecording& film) {
   float most = 0;
-  for (const Reel& reel : film.reels)
-    for (const FilmFrame& frame : reel.frames)
+  for (const RecordingPart& part : film.parts)
+    for (const RecordedFrame& frame : part.frames)
       for (const float pull : frame.pulls_n) most = std::max(most, pull);
   return most;
 }
 
-CodedColumns columns_of(const FilmFrame& frame, const Box& box, float most_pull) {
+CodedColumns columns_of(const RecordedFrame& frame, const Box& box, float most_pull) {
   CodedColumns out;
   for (const Vec3& centre : frame.centres_m) {
     const auto place = places_of(centre);
@@ -118,7 +118,7 @@ ordered_json json_of(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-ordered_json json_of(const FilmWall& wall) {
+ordered_json json_of(const RecordedWall& wall) {
   ordered_json out{{"name", wall.name}};
   if (const auto* plane = std::get_if<Plane>(&wall.shape)) {
     out["shape"] = "plane";
@@ -147,40 +147,40 @@ ordered_json json_of(const FilmWall& wall) {
 
 }  // namespace
 
-CodedFilm coded(const Film& film) {
+CodedRecording coded(const RunRecording& film) {
   if (film.frames() == 0) return {};
-  return {film_index(film).dump(), film_bytes(film)};
+  return {recording_index(film).dump(), recording_bytes(film)};
 }
 
-ordered_json film_index(const Film& film) {
+ordered_json recording_index(const RunRecording& film) {
   const Box box = box_of(film);
   ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}, {"most_pull_n", most_pull_n(film)}};
-  auto& reels = out["reels"] = ordered_json::array();
-  for (const Reel& reel : film.reels) {
-    ordered_json of_reel{{"grains", reel.radii_m.size()}};
+  auto& parts = out["parts"] = ordered_json::array();
+  for (const RecordingPart& part : film.parts) {
+    ordered_json of_reel{{"grains", part.radii_m.size()}};
     ordered_json standing;
-    for (const FilmFrame& frame : reel.frames) {
+    for (const RecordedFrame& frame : part.frames) {
       ordered_json of_frame{{"time_s", frame.time_s}, {"phase", frame.phase}};
       auto walls = ordered_json::array();
-      for (const FilmWall& wall : frame.walls) walls.push_back(json_of(wall));
+      for (const RecordedWall& wall : frame.walls) walls.push_back(json_of(wall));
       if (walls != standing) of_frame["walls"] = standing = std::move(walls);
       of_reel["frames"].push_back(std::move(of_frame));
     }
-    reels.push_back(std::move(of_reel));
+    parts.push_back(std::move(of_reel));
   }
   return out;
 }
 
-std::string film_bytes(const Film& film) {
+std::string recording_bytes(const RunRecording& film) {
   const Box box = box_of(film);
   const float most_pull = most_pull_n(film);
   std::string bytes;
-  for (const Reel& reel : film.reels) {
+  for (const RecordingPart& part : film.parts) {
     std::vector<std::uint16_t> radii;
-    for (const double radius : reel.radii_m) radii.push_back(steps(radius, box.quantum));
+    for (const double radius : part.radii_m) radii.push_back(steps(radius, box.quantum));
     append(bytes, radii);
     CodedColumns before;
-    for (const FilmFrame& frame : reel.frames) {
+    for (const RecordedFrame& frame : part.frames) {
       CodedColumns now = columns_of(frame, box, most_pull);
       append(bytes, now, before);
       before = std::move(now);

@@ -1,4 +1,4 @@
-#include "calibrate/inference/evidence.h"
+#include "calibrate/inference/training_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ std::size_t test_of(const Study& study, const std::string& name) {
 
 }  // namespace
 
-Evidence evidence_of(const Study& study, std::span<const StoredEvaluation> evaluations) {
-  Evidence evidence;
+TrainingData training_data_of(const Study& study, std::span<const StoredEvaluation> evaluations) {
+  TrainingData evidence;
   for (const Parameter& parameter : study.parameters)
     if (parameter.free) evidence.parameters.push_back(parameter);
   std::vector<const StoredEvaluation*> good;

@@ -1,4 +1,4 @@
-#include "calibrate/search/prospects.h"
+#include "calibrate/search/candidate_ranking.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -18,35 +18,35 @@ constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger
 
 }  // namespace
 
-Prospects::Prospects(const Archive& archive, std::span<const UnitPoint> refuted)
-    : archive_(archive),
-      surrogate_(archive.evidence(), archive.allowances(), archive.scoring().rejected_share()),
+CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<const UnitPoint> refuted)
+    : history_(history),
+      surrogate_(history.training_data(), history.allowances(), history.scoring().rejected_share()),
       misfit_of_best_(no_misfit),
       least_misfit_(no_misfit) {
   const auto is_refuted = [&](const UnitPoint& point) {
     return std::ranges::any_of(refuted, [&](const UnitPoint& one) { return one == point; });
   };
-  for (const Response& seen : archive.evidence()) {
+  for (const Response& seen : history.training_data()) {
     if (!is_feasible(seen)) continue;
-    const double misfit = surrogate_.outlook(seen.point).mean();
+    const double misfit = surrogate_.misfit_posterior(seen.point).mean();
     if (misfit >= least_misfit_) continue;
     least_misfit_ = misfit;
     least_ = seen.point;
   }
-  for (const Response& seen : archive.singles()) {
+  for (const Response& seen : history.singles()) {
     if (!is_whole(seen) || is_refuted(seen.point)) continue;
-    const double misfit = surrogate_.outlook(seen.point).mean();
+    const double misfit = surrogate_.misfit_posterior(seen.point).mean();
     if (misfit >= misfit_of_best_) continue;
     misfit_of_best_ = misfit;
     best_ = seen.point;
   }
 }
 
-double Prospects::chance_of(const UnitPoint& point, double tolerances) const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(archive_.residuals(), far_from_prior);
-  for (int k = 0; k < archive_.readings(); ++k)
-    bounds[k] = tolerances * archive_.allowance(static_cast<std::size_t>(k));
-  if (archive_.scoring().rejected_share() >= 1) return surrogate_.within(bounds, point);
+double CandidateRanking::chance_of(const UnitPoint& point, double tolerances) const {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(history_.residuals(), far_from_prior);
+  for (int k = 0; k < history_.readings(); ++k)
+    bounds[k] = tolerances * history_.allowance(static_cast<std::size_t>(k));
+  if (history_.scoring().rejected_share() >= 1) return surrogate_.within(bounds, point);
   const boost::math::binomial_distribution<> rejected(confirmed_heaps,
                                                       std::clamp(surrogate_.rejecting(point), 0.0, 1.0));
   return surrogate_.within(bounds, point) * boost::math::cdf(rejected, confirmed_rejected);
