@@ -51,7 +51,7 @@ enum class FailureReason {
   excessive_overlap,  ///< two bodies interpenetrate beyond the bound
   grain_lost,         ///< a grain passed through a boundary
   runaway_speed,      ///< a grain is faster than anything in the scene can make it
-  energy_created,     ///< there is more energy than the ledger explains
+  energy_created,     ///< there is more energy than the energy balance explains
   energy_lost,        ///< there is less
   step_collapse,      ///< the stable time step shrinks without end
   never_settled,      ///< the heap is not at rest when the time allowed is over

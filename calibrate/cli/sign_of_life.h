@@ -19,12 +19,12 @@ class SignOfLife {
   SignOfLife(const SignOfLife&) = delete;
   SignOfLife& operator=(const SignOfLife&) = delete;
 
-  void show(const Moment& moment);
+  void show(const Snapshot& snapshot);
 
  private:
   using Clock = std::chrono::steady_clock;
   /// In words; nothing while the phase is too young to know.
-  std::string time_left(const Moment& moment, Clock::time_point now) const;
+  std::string time_left(const Snapshot& snapshot, Clock::time_point now) const;
 
   const bool terminal_;
   const Clock::time_point start_ = Clock::now();

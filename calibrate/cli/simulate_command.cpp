@@ -28,7 +28,7 @@
 #include "calibrate/store/checkpoint.h"
 #include "calibrate/store/outcome_json.h"
 #include "core/observe/outline.h"
-#include "core/step/journal.h"
+#include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
 #include "core/world/world.h"
 
@@ -62,9 +62,9 @@ std::vector<std::string> names_of_series(const Scene& scene) {
   return {names.begin(), names.end()};
 }
 
-std::size_t series_in(const Scene& scene, const Moment& moment) {
+std::size_t series_in(const Scene& scene, const Snapshot& snapshot) {
   const auto* test = std::get_if<Test>(&scene);
-  return test ? series_at(*test, moment) : 0;
+  return test ? series_at(*test, snapshot) : 0;
 }
 
 /// What a picture is made of, each a series of its own: the name of that of the grains, and what is added to it.
@@ -80,17 +80,18 @@ class Pictures {
     }
   }
 
-  Faults add(const Moment& moment, std::size_t series) {
+  Faults add(const Snapshot& snapshot, std::size_t series) {
     Shown& scene = scenes_.at(series);
     // A stage may be several runs, one after the other.
-    if (moment.time_s < scene.last_s) scene.earlier_s += scene.last_s;
-    scene.last_s = moment.time_s;
+    if (snapshot.time_s < scene.last_s) scene.earlier_s += scene.last_s;
+    scene.last_s = snapshot.time_s;
     scene.begun = true;
-    const World& world = *moment.world;
+    const World& world = *snapshot.world;
     const std::array<std::string, 3> files{vtp_of(grain_frame(world)), vtp_of(link_frame(world)),
                                            vtp_of(wall_frame(world))};
     for (std::size_t i = 0; i < files.size(); ++i)
-      if (auto faults = scene.layers[i].add(moment.time_s + scene.earlier_s, files[i]); !faults.empty()) return faults;
+      if (auto faults = scene.layers[i].add(snapshot.time_s + scene.earlier_s, files[i]); !faults.empty())
+        return faults;
     return {};
   }
 
@@ -218,10 +219,10 @@ class SavedRun {
   SavedRun(Checkpoint file, RunState found, const std::atomic<bool>& stop)
       : file_(std::move(file)), found_(std::move(found)), stop_(stop) {}
 
-  std::shared_ptr<Journal> journal() {
-    return std::make_shared<Journal>([this] { return stop_ || Clock::now() > next_; },
-                                     [this](const std::string& state) { keep(state); },
-                                     std::exchange(found_.bytes, {}));
+  std::shared_ptr<RunCheckpoint> checkpoint() {
+    return std::make_shared<RunCheckpoint>([this] { return stop_ || Clock::now() > next_; },
+                                           [this](const std::string& state) { keep(state); },
+                                           std::exchange(found_.bytes, {}));
   }
   bool goes_on() const { return !found_.bytes.empty(); }
   const Faults& unwritten() const { return unwritten_; }
@@ -252,7 +253,7 @@ Result<Outcome> outcome_of(const Scene& test, const RunOptions& run, const std::
   if (!saved) return simulate_it();
   try {
     Outcome outcome = simulate_it();
-    if (run.journal->is_told()) return outcome;
+    if (run.checkpoint->is_told()) return outcome;
     return saved->file().no_state_of_this_run("it holds more than this run has");
   } catch (const BadState& bad) {
     return saved->file().no_state_of_this_run(bad.what());
@@ -292,7 +293,7 @@ int simulate_file(const SimulateOptions& options) {
     if (saved->goes_on())
       note("pastefit: goes on from %s, after %.0f s\n", options.checkpoint.c_str(), saved->wall_s());
     try {
-      run.journal = saved->journal();
+      run.checkpoint = saved->checkpoint();
     } catch (const BadState& bad) {
       return report(saved->file().no_state_of_this_run(bad.what()));
     }
@@ -315,16 +316,16 @@ int simulate_file(const SimulateOptions& options) {
   Faults unwritten;
   std::map<std::string_view, Outline> outlines;
   run.watch_interval_s = options.vtk_interval_s.value_or(0.1);
-  run.watch = [&](const Moment& moment) {
-    if (!moment.world) return true;
+  run.watch = [&](const Snapshot& snapshot) {
+    if (!snapshot.world) return true;
     if (of_lab)
-      if (auto seen = outline_at(*of_lab, moment)) outlines[seen->name] = std::move(seen->outline);
-    if (pictures) unwritten = pictures->add(moment, series_in(test, moment));
+      if (auto seen = outline_at(*of_lab, snapshot)) outlines[seen->name] = std::move(seen->outline);
+    if (pictures) unwritten = pictures->add(snapshot, series_in(test, snapshot));
     return unwritten.empty();
   };
   std::optional<SignOfLife> sign(std::in_place);
-  run.pulse = [&](const Moment& moment) {
-    sign->show(moment);
+  run.pulse = [&](const Snapshot& snapshot) {
+    sign->show(snapshot);
     return !stop && (!saved || saved->unwritten().empty());
   };
   const auto start = std::chrono::steady_clock::now();

@@ -103,10 +103,10 @@ std::optional<double> seconds_of_simulation(const Test& test) {
     if (enlarged == 1) return std::nullopt;
   }
   RunOptions options;
-  options.steps.ledger = false;
+  options.steps.energy_balance = false;
   const double start_s = thread_seconds();
   const auto taken_s = [&] { return thread_seconds() - start_s; };
-  options.pulse = [&](const Moment&) { return taken_s() < patience_s; };
+  options.pulse = [&](const Snapshot&) { return taken_s() < patience_s; };
   if (simulate(coarse, options).failure) return std::nullopt;
   return taken_s() * std::pow(enlarged, 4);
 }

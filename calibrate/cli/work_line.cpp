@@ -60,9 +60,9 @@ std::string WorkLine::text(Clock::time_point now) const {
 CheckEngine counted(CheckEngine engine, WorkLine& line) {
   const auto seen = [&line](const RunOptions& asked) {
     RunOptions options = asked;
-    options.pulse = [&line, pulse = asked.pulse](const Moment& moment) {
+    options.pulse = [&line, pulse = asked.pulse](const Snapshot& snapshot) {
       line.look();
-      return !pulse || pulse(moment);
+      return !pulse || pulse(snapshot);
     };
     return options;
   };

@@ -28,7 +28,7 @@ Sticking sticking(NormalLaw normal, const PairConstants& pair, double effective_
     Sticking out;
     const double root = std::sqrt(effective_radius);
     out.resting_overlap_m = law.overlap_under(pair, effective_radius, 0.0);
-    if (law.reaches) out.part_gap_m = pair.tear_gap;
+    if (law.reaches) out.part_gap_m = pair.pull_off_gap;
     const auto rest = law.at(pair, root, out.resting_overlap_m, 1.0);
     out.load_n = rest.load;
     out.reserve_n = rest.reserve;

@@ -18,8 +18,9 @@ std::string note_of_constant_torque(const ExportScene& scene, double load) {
   const double radius = 0.5 * scene.radius_m();
   const PairConstants pair = grain_pair(contact, scene.radius_m());
   const double turn = with_law(NormalLaws{}, acting(contact.normal, pair), [&](auto law) {
-    const auto press = law.at(pair, std::sqrt(radius), law.overlap_under(pair, radius, load), 1.0);
-    return pair.rolling_friction * press.load / (2.25 * pair.normal_stiffness * press.contact_radius * radius);
+    const auto normal_force = law.at(pair, std::sqrt(radius), law.overlap_under(pair, radius, load), 1.0);
+    return pair.rolling_friction * normal_force.load /
+           (2.25 * pair.normal_stiffness * normal_force.contact_radius * radius);
   });
   return format(
       "The card's rolling resistance is a torque of constant size against the spin. In its place stands a spring that "

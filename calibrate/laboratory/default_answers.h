@@ -73,17 +73,17 @@ inline std::span<const std::string_view> series_of(const Specimen&) {
   return only;
 }
 
-inline std::size_t series_at(const Specimen&, const Moment&) {
+inline std::size_t series_at(const Specimen&, const Snapshot&) {
   return 0;
 }
 
 /// The heap as it stands at a moment of the test, from the side; nothing where there is none, as while it is prepared.
-inline std::optional<Outline> heap_at(const Specimen&, const Moment&) {
+inline std::optional<Outline> heap_at(const Specimen&, const Snapshot&) {
   return std::nullopt;
 }
 
 /// What stands there is seen from the side, at moments that are worth a drawing; of one name the last counts.
-inline std::optional<NamedOutline> outline_at(const Specimen&, const Moment&) {
+inline std::optional<NamedOutline> outline_at(const Specimen&, const Snapshot&) {
   return std::nullopt;
 }
 

@@ -40,8 +40,8 @@ std::span<const std::string_view> series_of(const T&) {
 }
 
 template <GranuleTest T>
-std::size_t series_at(const T&, const Moment& moment) {
-  return moment.phase.starts_with("fill.") ? 0 : 1;
+std::size_t series_at(const T&, const Snapshot& snapshot) {
+  return snapshot.phase.starts_with("fill.") ? 0 : 1;
 }
 
 /// What a laboratory file calls the bulk density is that of a granule, not of the bed.

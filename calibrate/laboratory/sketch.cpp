@@ -40,12 +40,12 @@ Sketch sketch_of(const Curve& curve) {
 
 }  // namespace
 
-void Sketcher::see(const Test& test, const Moment& moment) {
-  if (!moment.world || (moment.time_s >= seen_s_ && moment.time_s < seen_s_ + kInterval)) return;
-  auto heap = heap_at(test, moment);
+void Sketcher::see(const Test& test, const Snapshot& snapshot) {
+  if (!snapshot.world || (snapshot.time_s >= seen_s_ && snapshot.time_s < seen_s_ + kInterval)) return;
+  auto heap = heap_at(test, snapshot);
   if (!heap) return;
   heap_ = std::move(*heap);
-  seen_s_ = moment.time_s;
+  seen_s_ = snapshot.time_s;
 }
 
 Sketch Sketcher::sketch(const Outcome& outcome) const {

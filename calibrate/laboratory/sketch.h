@@ -18,7 +18,7 @@ struct Sketch {
 class Sketcher {
  public:
   /// A moment of the run; cheap, because few are looked at.
-  void see(const Test& test, const Moment& moment);
+  void see(const Test& test, const Snapshot& snapshot);
 
   /// What was seen last, also of a run that failed or ended early; the curve where the test draws one. Without points
   /// if nothing was seen.

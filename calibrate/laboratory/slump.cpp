@@ -66,7 +66,7 @@ std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& 
 
 std::string preparation_key(const SlumpTest& test) {
   const Filling filling = filling_of(test);
-  return nlohmann::json{filling.friction, filling.squeeze, filling.youngs_modulus_pa}.dump();
+  return nlohmann::json{filling.friction, filling.resting_overlap, filling.youngs_modulus_pa}.dump();
 }
 
 double grains_needed(const SlumpTest& test) {
@@ -158,19 +158,19 @@ std::span<const std::string_view> series_of(const SlumpTest&) {
   return series;
 }
 
-std::size_t series_at(const SlumpTest&, const Moment& moment) {
-  return moment.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(moment.drop) + 1;
+std::size_t series_at(const SlumpTest&, const Snapshot& snapshot) {
+  return snapshot.phase.starts_with("fill.") ? 0 : static_cast<std::size_t>(snapshot.drop) + 1;
 }
 
-std::optional<Outline> heap_at(const SlumpTest& test, const Moment& moment) {
-  if (moment.drop > 0 || !moment.phase.starts_with("step")) return std::nullopt;
-  return outline(on_table(moment.world->particles), test.grains.radius_m);
+std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot) {
+  if (snapshot.drop > 0 || !snapshot.phase.starts_with("step")) return std::nullopt;
+  return outline(on_table(snapshot.world->particles), test.grains.radius_m);
 }
 
-std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment) {
-  const bool first = moment.phase == "step1.rest";
-  if (moment.drop > 0 || (!first && moment.phase != "step2.rest")) return std::nullopt;
-  return NamedOutline{first ? "step1" : "step2", outline(on_table(moment.world->particles), test.grains.radius_m)};
+std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot) {
+  const bool first = snapshot.phase == "step1.rest";
+  if (snapshot.drop > 0 || (!first && snapshot.phase != "step2.rest")) return std::nullopt;
+  return NamedOutline{first ? "step1" : "step2", outline(on_table(snapshot.world->particles), test.grains.radius_m)};
 }
 
 double default_tolerance(const SlumpTest& test, const Measurement& measured) {

@@ -59,13 +59,13 @@ std::optional<double> grain_density_of(const SlumpTest& test, const Observables&
 
 /// The mould being filled, the test, and the second drop of its heap, each with a clock of its own.
 std::span<const std::string_view> series_of(const SlumpTest& test);
-std::size_t series_at(const SlumpTest& test, const Moment& moment);
+std::size_t series_at(const SlumpTest& test, const Snapshot& snapshot);
 
 /// Of the drops of one heap the first counts.
-std::optional<Outline> heap_at(const SlumpTest& test, const Moment& moment);
+std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot);
 
 /// The heap at rest after each step, for a photograph beside it.
-std::optional<NamedOutline> outline_at(const SlumpTest& test, const Moment& moment);
+std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot);
 
 /// The heap after each step from the side, in millimetres (calibrate/laboratory/slump_drawing.cpp).
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,

@@ -118,16 +118,16 @@ std::span<const std::string_view> series_of(const Test& test) {
   return std::visit([](const auto& one) { return series_of(one); }, test);
 }
 
-std::size_t series_at(const Test& test, const Moment& moment) {
-  return std::visit([&](const auto& one) { return series_at(one, moment); }, test);
+std::size_t series_at(const Test& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return series_at(one, snapshot); }, test);
 }
 
-std::optional<Outline> heap_at(const Test& test, const Moment& moment) {
-  return std::visit([&](const auto& one) { return heap_at(one, moment); }, test);
+std::optional<Outline> heap_at(const Test& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return heap_at(one, snapshot); }, test);
 }
 
-std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment) {
-  return std::visit([&](const auto& one) { return outline_at(one, moment); }, test);
+std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return outline_at(one, snapshot); }, test);
 }
 
 std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,

@@ -27,7 +27,7 @@ using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
-             std::span<const Observables> runs, const Observables& means, const Moment& moment,
+             std::span<const Observables> runs, const Observables& means, const Snapshot& snapshot,
              std::span<const Measurement> measurements, std::span<const SeenRun> seen,
              std::span<const std::string_view> names) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
@@ -49,9 +49,9 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
   { why_of_that_size(given) } -> std::same_as<std::string_view>;
   { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
-  { series_at(given, moment) } -> std::same_as<std::size_t>;
-  { heap_at(given, moment) } -> std::same_as<std::optional<Outline>>;
-  { outline_at(given, moment) } -> std::same_as<std::optional<NamedOutline>>;
+  { series_at(given, snapshot) } -> std::same_as<std::size_t>;
+  { heap_at(given, snapshot) } -> std::same_as<std::optional<Outline>>;
+  { outline_at(given, snapshot) } -> std::same_as<std::optional<NamedOutline>>;
   { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
@@ -80,9 +80,9 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
 std::optional<double> grain_density_of(const Test& test, const Observables& means);
 std::string_view why_of_that_size(const Test& test);
 std::span<const std::string_view> series_of(const Test& test);
-std::size_t series_at(const Test& test, const Moment& moment);
-std::optional<Outline> heap_at(const Test& test, const Moment& moment);
-std::optional<NamedOutline> outline_at(const Test& test, const Moment& moment);
+std::size_t series_at(const Test& test, const Snapshot& snapshot);
+std::optional<Outline> heap_at(const Test& test, const Snapshot& snapshot);
+std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot);
 std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured);
 nlohmann::ordered_json conditions_of(const Test& test);

@@ -9,9 +9,9 @@ namespace pastefit {
 
 namespace {
 
-/// The force of the laws between two grains at this overlap. `root_contact_radius`: of the contact, 0 if there is none.
+/// The force of the laws between two grains at this overlap. `sqrt_contact_radius`: of the contact, 0 if there is none.
 double force_of(const World& world, double effective_radius, double overlap, bool touching,
-                double root_contact_radius) {
+                double sqrt_contact_radius) {
   const PairConstants& pair = world.grain_pair;
   const double scale = pair.size_per_radius * effective_radius;
   if (!touching)
@@ -21,10 +21,10 @@ double force_of(const World& world, double effective_radius, double overlap, boo
       else
         return 0.0;
     });
-  const double press = with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
-    return law.at(pair, std::sqrt(effective_radius), overlap, root_contact_radius).force;
+  const double normal_force = with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
+    return law.at(pair, std::sqrt(effective_radius), overlap, sqrt_contact_radius).force;
   });
-  return press - pair.cohesion * scale * scale;
+  return normal_force - pair.cohesion * scale * scale;
 }
 
 class LinkFinder {
@@ -36,7 +36,7 @@ class LinkFinder {
 
   void add_contacts(const ContactList& contacts) {
     for (std::int32_t k = 0; k < contacts.count; ++k)
-      add(contacts.first(k), contacts.second(k), contacts.bridge(k) > 0, contacts.contact(k).root_contact_radius);
+      add(contacts.first(k), contacts.second(k), contacts.bridge(k) > 0, contacts.contact(k).sqrt_contact_radius);
   }
 
   void add_bridges(const BridgeList& bridges) {
@@ -50,17 +50,17 @@ class LinkFinder {
 
  private:
   /// Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
-  void add(std::int32_t i, std::int32_t j, bool bridge, double root_contact_radius) {
+  void add(std::int32_t i, std::int32_t j, bool bridge, double sqrt_contact_radius) {
     const auto& grains = world_.particles;
     if (i >= grains.count() || j >= grains.count()) return;  // padding
     const Motion &one = grains.motion[i], &other = grains.motion[j];
     const double overlap = one.radius + other.radius - norm(one.position - other.position);
     const double effective_radius = one.radius * other.radius / (one.radius + other.radius);
-    const double tear_gap = world_.grain_pair.tear_gap * world_.grain_pair.size_per_radius * effective_radius;
-    const bool touching = overlap > 0 || (reaches_ && root_contact_radius > 0 && overlap > -tear_gap);
+    const double pull_off_gap = world_.grain_pair.pull_off_gap * world_.grain_pair.size_per_radius * effective_radius;
+    const bool touching = overlap > 0 || (reaches_ && sqrt_contact_radius > 0 && overlap > -pull_off_gap);
     if (!touching && !bridge) return;
     links_.push_back(
-        {i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, root_contact_radius)});
+        {i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, sqrt_contact_radius)});
   }
 
   const World& world_;

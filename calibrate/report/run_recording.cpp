@@ -71,27 +71,27 @@ std::size_t RunRecording::frames() const {
   return sum;
 }
 
-void RunRecorder::add(const Moment& moment) {
-  if (!moment.world || moment.world->particles.count() == 0) return;
-  const World& world = *moment.world;
+void RunRecorder::add(const Snapshot& snapshot) {
+  if (!snapshot.world || snapshot.world->particles.count() == 0) return;
+  const World& world = *snapshot.world;
   const auto grains = static_cast<std::size_t>(world.particles.count());
-  const bool anew = film_.parts.empty() || moment.time_s < last_s_ || moment.drop != drop_ ||
+  const bool anew = film_.parts.empty() || snapshot.time_s < last_s_ || snapshot.drop != drop_ ||
                     film_.parts.back().radii_m.size() != grains;
   if (anew) {
     begun_s_ = film_.parts.empty() ? 0 : film_.parts.back().frames.back().time_s;
-    first_s_ = moment.drop > 0 ? moment.time_s : 0;  // the drop goes on with the clock of the heap
+    first_s_ = snapshot.drop > 0 ? snapshot.time_s : 0;  // the drop goes on with the clock of the heap
     RecordingPart part;
     part.radii_m.resize(grains);
     for (std::size_t i = 0; i < grains; ++i)
       part.radii_m[static_cast<std::size_t>(world.particles.identity[i])] = world.particles.motion[i].radius;
     film_.parts.push_back(std::move(part));
   }
-  last_s_ = moment.time_s;
-  drop_ = moment.drop;
+  last_s_ = snapshot.time_s;
+  drop_ = snapshot.drop;
   RecordedFrame frame = frame_of(world);
-  frame.time_s = begun_s_ + moment.time_s - first_s_;
-  frame.phase = moment.phase;
-  if (moment.drop > 0) frame.phase += ", heap turned half round";
+  frame.time_s = begun_s_ + snapshot.time_s - first_s_;
+  frame.phase = snapshot.phase;
+  if (snapshot.drop > 0) frame.phase += ", heap turned half round";
   film_.parts.back().frames.push_back(std::move(frame));
 }
 

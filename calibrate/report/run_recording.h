@@ -47,7 +47,7 @@ class RunRecorder {
  public:
   static constexpr double kInterval = 0.02;  ///< [s] between two pictures, for `RunOptions::watch_interval_s`
 
-  void add(const Moment& moment);
+  void add(const Snapshot& snapshot);
 
   /// The film, thinned to what a page can hold: about 140 pictures, fewer of many grains, a quarter of them of the
   /// filling. First and last of each part are in it.

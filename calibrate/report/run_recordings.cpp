@@ -20,11 +20,11 @@ std::string name_of_material(Test test) {
 
 }  // namespace
 
-void SeenSimulation::see(const Test& test, const Moment& moment) {
-  if (moment.world)
-    if (auto outline = outline_at(test, moment))
+void SeenSimulation::see(const Test& test, const Snapshot& snapshot) {
+  if (snapshot.world)
+    if (auto outline = outline_at(test, snapshot))
       seen.outlines.insert_or_assign(std::string(outline->name), std::move(outline->outline));
-  if (film) film->add(moment);
+  if (film) film->add(snapshot);
 }
 
 void SeenSimulation::end(const Outcome& outcome) {
@@ -41,7 +41,7 @@ RunObserver::Watch RunRecordings::begin(const Test& test) {
   look = std::make_unique<SeenSimulation>();
   look->seen.packing = specimen_of(test).packing_seed;
   if (filmed_.size() < kMostFilms && filmed_.insert(name_of_material(test)).second) look->film.emplace();
-  return [test, look = look.get()](const Moment& moment) { look->see(test, moment); };
+  return [test, look = look.get()](const Snapshot& snapshot) { look->see(test, snapshot); };
 }
 
 void RunRecordings::end(const Test& test, const Outcome& outcome) {

@@ -21,7 +21,7 @@ struct SeenSimulation {
   bool ended = false;
 
   /// A moment of this test.
-  void see(const Test& test, const Moment& moment);
+  void see(const Test& test, const Snapshot& snapshot);
   void end(const Outcome& outcome);
 };
 

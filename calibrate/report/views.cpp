@@ -17,8 +17,8 @@ SeenSimulation look_at(const Test& test, bool filmed, const std::function<bool()
   if (filmed) look.film.emplace();
   RunOptions options;
   options.watch_interval_s = RunRecorder::kInterval;
-  options.watch = [&](const Moment& moment) {
-    look.see(test, moment);
+  options.watch = [&](const Snapshot& snapshot) {
+    look.see(test, snapshot);
     return goes_on();
   };
   look.end(simulate(test, options));

@@ -197,7 +197,7 @@ void SimulationObjective::run(Task& task) {
   outcome.failure = too_soft(test, options);
   if (!outcome.failure && !options.own_fill) options.packing = packing(task.index, test, task.look);
   if (stop_requested()) return;
-  options.steps.ledger = options.steps.ledger && !task.tried;
+  options.steps.energy_balance = options.steps.energy_balance && !task.tried;
   options.cutoff = task.cutoff;
 
   bool by_user = false;
@@ -205,9 +205,9 @@ void SimulationObjective::run(Task& task) {
   const double core_start = thread_seconds();
   watch(options, start, task.look, &by_user);
   Sketcher sketcher;
-  options.watch = [&, goes_on = std::move(options.watch)](const Moment& moment) {
-    sketcher.see(test, moment);
-    return goes_on(moment);
+  options.watch = [&, goes_on = std::move(options.watch)](const Snapshot& snapshot) {
+    sketcher.see(test, snapshot);
+    return goes_on(snapshot);
   };
   if (!outcome.failure) outcome = options_.engine.run(test, options);
   if (by_user) return;
@@ -248,14 +248,14 @@ void SimulationObjective::count(const StoredEvaluation& evaluation, std::size_t 
 void SimulationObjective::watch(RunOptions& options, Clock::time_point start, const RunObserver::Watch& look,
                                 bool* by_user) const {
   options.watch_interval_s = look ? options_.run_observer->interval_s() : kWatchInterval;
-  options.pulse = [this, start, by_user](const Moment&) {
+  options.pulse = [this, start, by_user](const Snapshot&) {
     const bool stopped = (by_user && *by_user) || stop_requested();
     if (by_user) *by_user = stopped;
     return !stopped && seconds_since(start) < options_.wall_limit_s;
   };
-  options.watch = [look, goes_on = options.pulse](const Moment& moment) {
-    if (look) look(moment);
-    return goes_on(moment);
+  options.watch = [look, goes_on = options.pulse](const Snapshot& snapshot) {
+    if (look) look(snapshot);
+    return goes_on(snapshot);
   };
 }
 

@@ -57,9 +57,9 @@ struct EvaluatorOptions {
 /// What a test starts from (`prepare`) is shared by the candidates for which it is the same (`preparation_key`).
 ///
 /// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is then stored under a name
-/// of its own, so that it never stands in for one that ran to its end. It keeps no ledger of energy; where it ran to
-/// its end it has the same readings as one with a ledger and stands in for it on the same packing. A confirmation has
-/// packings on which nothing was tried.
+/// of its own, so that it never stands in for one that ran to its end. It keeps no energy balance; where it
+/// ran to its end it has the same readings as one with an energy balance and stands in for it on the same packing. A
+/// confirmation has packings on which nothing was tried.
 ///
 /// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
 /// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one

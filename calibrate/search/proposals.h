@@ -11,8 +11,8 @@ namespace pastefit {
 inline constexpr double same_point = 0.01;
 
 /// What the default strategy tries next: the point that is expected to improve most on the least expected misfit so far
-/// (`maximise_expected_improvement`), so that promise is weighed against doubt. One that is a known point is that point
-/// again, on another packing.
+/// (`maximise_expected_improvement`), so that promise is weighed against uncertainty. One that is a known point is that
+/// point again, on another packing.
 ///
 /// Of a candidate under way only the point is known. It counts in the surrogate with an answer drawn from what is known
 /// of its mean, always the same draw for the same candidate, so that the next proposal is made for a case that may well

@@ -10,7 +10,7 @@ namespace pastefit {
 /// threads that simulate.
 class RunObserver {
  public:
-  using Watch = std::function<void(const Moment&)>;
+  using Watch = std::function<void(const Snapshot&)>;
 
   virtual ~RunObserver() = default;
 

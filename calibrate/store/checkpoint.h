@@ -11,7 +11,7 @@ namespace pastefit {
 
 /// How far a run has come.
 struct RunState {
-  std::string bytes;  ///< of its `Journal`; empty: it has not begun
+  std::string bytes;  ///< of its `RunCheckpoint`; empty: it has not begun
   double wall_s = 0;  ///< that it has taken so far
 };
 

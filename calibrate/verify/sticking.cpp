@@ -13,13 +13,13 @@ double overlap_of(const Approach& pair, double gamma, double patch) {
 }
 
 /// Contact radius at which the contact is torn apart under a given distance [m].
-double jkr_tear_patch(const Approach& pair, double gamma) {
+double jkr_pull_off_patch(const Approach& pair, double gamma) {
   return std::cbrt(std::numbers::pi * gamma * pair.radius * pair.radius / (4 * pair.modulus));
 }
 
 /// The larger of the contact radii that have this overlap, by bisection.
 double patch_at(const Approach& pair, double gamma, double overlap) {
-  double low = jkr_tear_patch(pair, gamma), high = 2 * low;
+  double low = jkr_pull_off_patch(pair, gamma), high = 2 * low;
   while (overlap_of(pair, gamma, high) < overlap) high *= 2;
   for (int n = 0; n < 100; ++n) {
     const double middle = 0.5 * (low + high);
@@ -28,8 +28,8 @@ double patch_at(const Approach& pair, double gamma, double overlap) {
   return 0.5 * (low + high);
 }
 
-double jkr_tear_gap(const Approach& pair, double gamma) {
-  return -overlap_of(pair, gamma, jkr_tear_patch(pair, gamma));
+double jkr_pull_off_gap(const Approach& pair, double gamma) {
+  return -overlap_of(pair, gamma, jkr_pull_off_patch(pair, gamma));
 }
 
 /// Attraction less repulsion [N].
@@ -43,7 +43,7 @@ double jkr_pull(const Approach& pair, double gamma, double gap) {
 /// which takes away the root at the end.
 double jkr_work(const Approach& pair, double gamma) {
   constexpr int kPanels = 1000;
-  const double end = jkr_tear_gap(pair, gamma);
+  const double end = jkr_pull_off_gap(pair, gamma);
   const auto slope = [&](double s) { return 2 * s * end * jkr_pull(pair, gamma, end * (1 - s * s)); };
   double sum = 0;
   for (int k = 0; k < kPanels; ++k) sum += slope(k / 1e3) + 4 * slope((k + 0.5) / 1e3) + slope((k + 1) / 1e3);
@@ -71,7 +71,7 @@ double hertz_push(const Approach& pair, double overlap) {
 Result<double> jkr_force(const Impact& scene, const FormulaArguments& arguments) {
   const Approach pair = pair_of(scene);
   const double gamma = surface_energy(scene);
-  if (arguments.gap_m > jkr_tear_gap(pair, gamma))
+  if (arguments.gap_m > jkr_pull_off_gap(pair, gamma))
     return Fault{"expected.formula", "no contact reaches as far", "another gap"};
   return jkr_pull(pair, gamma, arguments.gap_m);
 }

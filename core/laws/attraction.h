@@ -211,8 +211,8 @@ struct CapillaryAttraction : AcrossGap {
 };
 
 /// Attraction of a pair at overlap d, none while it touches; forms and ruptures its bridge (`alive` 0 or 1).
-/// A bridge that forms will take work to be pulled apart: the ledger counts that work as spent when it forms (`spent`).
-/// Few form in a step, so that the work is computed only where one does.
+/// A bridge that forms will take work to be pulled apart: the energy balance counts that work as spent when it forms
+/// (`spent`). Few form in a step, so that the work is computed only where one does.
 template <class Attraction, class Real>
 PASTEFIT_INLINE Pull<Real> bridge_pull(const ConstantsOf<Real>& k, Real overlap, Real scale, Real& alive, Real& spent) {
   const Real zero(0.0), one(1.0);

@@ -21,7 +21,7 @@ void set_elastic(PairConstants& pair, double e1, double nu1, double e2, double n
   const double g_star = 1 / ((2 - nu1) / shear_modulus(e1, nu1) + (2 - nu2) / shear_modulus(e2, nu2));
   pair.hertz = 4.0 / 3.0 * e_star;
   pair.normal_stiffness = 2 * e_star;
-  pair.root_normal_stiffness = std::sqrt(pair.normal_stiffness);
+  pair.sqrt_normal_stiffness = std::sqrt(pair.normal_stiffness);
   pair.tangential_ratio = 4 * g_star / e_star;
   pair.damping = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
   pair.lost_share = 1 - restitution * restitution;
@@ -33,8 +33,8 @@ void set_friction(PairConstants& pair, double friction, FrictionBasis basis) {
   pair.friction = friction;
   pair.friction_of_total = basis != FrictionBasis::elastic;
   pair.friction_reserve = basis == FrictionBasis::net ? 0 : 1;
-  // Of a force T the spring's own push is T^2/(4 S_t d): share x of the repulsion where T is mu times the repulsion.
-  // T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two rounds, as in `act`.
+  // Of a force T the spring's own normal force is T^2/(4 S_t d): share x of the repulsion where T is mu times the
+  // repulsion. T/repulsion = mu (1 + x (T/(mu repulsion))^2) in two rounds, as in `act`.
   const double x = std::min(friction * friction / (6 * pair.tangential_ratio), 0.25);
   pair.slip_limit = friction * (1 + x * (1 + x) * (1 + x));
 }
@@ -114,7 +114,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
   return pair;
 }
 
-double squeeze(const ContactModel& grains, double radius) {
+double resting_overlap(const ContactModel& grains, double radius) {
   const PairConstants pair = grain_pair(grains, radius);
   return with_law(NormalLaws{}, acting(grains.normal, pair),
                   [&](auto law) { return law.overlap_under(pair, 0.5 * radius, pair.cohesion); }) /

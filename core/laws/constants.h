@@ -15,7 +15,7 @@ template <class Real>
 struct ConstantsOf {
   Real hertz{0};                   ///< 4/3 E* [Pa]
   Real normal_stiffness{0};        ///< 2 E*: S_n = 2 E* sqrt(R* d) [Pa]
-  Real root_normal_stiffness{0};   ///< sqrt(2 E*)
+  Real sqrt_normal_stiffness{0};   ///< sqrt(2 E*)
   Real tangential_ratio{0};        ///< S_t / S_n = 4 G*/E*
   Real damping{0};                 ///< 2 sqrt(5/6) beta(e); e exact when the damped contact may pull at its end
   Real tangential_damping{0};      ///< the same times sqrt(S_t / S_n)
@@ -24,16 +24,16 @@ struct ConstantsOf {
   Real friction{0};                ///< Coulomb coefficient
   Real slip_limit{0};              ///< force of a sliding tangential spring over the repulsion
   bool friction_of_total = false;  ///< limit mu N with N the total normal force instead of the elastic repulsion
-  Real friction_reserve{1};        ///< share of the law's reserve (`Press::reserve`) that counts as normal force then
-  Real rolling_friction{0};        ///< mu_r
-  Real roll_stiffness_share{0};    ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
-  Real roll_damping{0};            ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
-  Real spin_damping{0};      ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
-  Real size_per_radius{0};   ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  Real adhesion{0};          ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
-  Real tear_patch{0};        ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  Real tear_gap{0};          ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  Real cohesion{0};          ///< constant attraction in overlap [N]
+  Real friction_reserve{1};  ///< share of the law's reserve (`NormalForce::reserve`) that counts as normal force then
+  Real rolling_friction{0};  ///< mu_r
+  Real roll_stiffness_share{0};  ///< k_r/(I of a grain) over S_n/m: 2.25 mu_r^2/0.4
+  Real roll_damping{0};          ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
+  Real spin_damping{0};          ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
+  Real size_per_radius{0};       ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
+  Real adhesion{0};              ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
+  Real pull_off_patch{0};        ///< JKR: contact radius of reference grains at which they are torn apart [m]
+  Real pull_off_gap{0};          ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
+  Real cohesion{0};              ///< constant attraction in overlap [N]
   bool passes_over = false;  ///< attraction at touch differs from that: `passage` overlap leads from one to the other
   Real touch_excess{0};      ///< attraction at touch less the cohesion [N]
   Real passage{0};           ///< overlap of reference grains beyond which the cohesion alone is left [m]
@@ -50,7 +50,7 @@ template <class Real>
 PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
   return {Real(k.hertz),
           Real(k.normal_stiffness),
-          Real(k.root_normal_stiffness),
+          Real(k.sqrt_normal_stiffness),
           Real(k.tangential_ratio),
           Real(k.damping),
           Real(k.tangential_damping),
@@ -66,8 +66,8 @@ PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
           Real(k.spin_damping),
           Real(k.size_per_radius),
           Real(k.adhesion),
-          Real(k.tear_patch),
-          Real(k.tear_gap),
+          Real(k.pull_off_patch),
+          Real(k.pull_off_gap),
           Real(k.cohesion),
           k.passes_over,
           Real(k.touch_excess),
@@ -106,6 +106,6 @@ double bridge_force(const Bridge& bridge, double reference_radius_m, double over
 /// Overlap over diameter at which the repulsion of two touching reference grains balances their attraction:
 /// d/(2R); for Hertz with 4/3 E* sqrt(R/2) d^(3/2) = cohesion. In a column it is within a third of that: 30 % more at
 /// 40,000 Pa, where grains are pulled across gaps as well.
-double squeeze(const ContactModel& grains, double reference_radius_m);
+double resting_overlap(const ContactModel& grains, double reference_radius_m);
 
 }  // namespace pastefit

@@ -3,7 +3,7 @@
 #include "core/laws/pack.h"
 #include "core/vec3.h"
 
-// What laws with memory in the plane of a contact share: how the memory turns with the plane, and how it yields.
+// What laws with history in the plane of a contact share: how the history turns with the plane, and how it yields.
 
 namespace pastefit::detail {
 
@@ -45,16 +45,16 @@ PASTEFIT_INLINE Real cap(Real square, Real limit) {
   return select(yields, limit / square_root(square), Real(1.0));
 }
 
-/// The factor that brings a traction down to what friction allows, mu (load + push factor^2): the spring's own push
-/// belongs to the load. Two rounds from below: right to 0.1 % up to mu = 0.5, 4 % low at 1. (From above there is
-/// another solution, at which a spring would hold on to a grain that leaves.)
+/// The factor that brings a tangential force down to what friction allows, mu (load + normal_force factor^2): the
+/// spring's own normal force belongs to the load. Two rounds from below: right to 0.1 % up to mu = 0.5, 4 % low at 1.
+/// (From above there is another solution, at which a spring would hold on to a grain that leaves.)
 template <class Real>
-PASTEFIT_INLINE Real cap(Real square, Real friction, Real load, Real push) {
+PASTEFIT_INLINE Real cap(Real square, Real friction, Real load, Real normal_force) {
   const Real one(1.0), least = friction * load;
   if (!any(square > least * least)) return one;
   const Real share = friction / square_root(square);
   Real kept = smaller(share * load, one);
-  for (int round = 0; round < 2; ++round) kept = smaller(share * fused(kept * kept, push, load), one);
+  for (int round = 0; round < 2; ++round) kept = smaller(share * fused(kept * kept, normal_force, load), one);
   return kept;
 }
 

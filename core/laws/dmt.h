@@ -32,17 +32,19 @@ struct Dmt {
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
-    Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
-    const Real pull = select(press.touching, k.adhesion * root_radius * root_radius, Real(0.0));
-    press.force = press.load - pull;
-    press.reserve = Real(2.0) * pull;
-    return press;
+  PASTEFIT_INLINE static NormalForce<Real> at(const ConstantsOf<Real>& k, Real sqrt_radius, Real overlap,
+                                              Real touched) {
+    NormalForce<Real> normal_force = Hertz::at(k, sqrt_radius, overlap, touched);
+    const Real pull = select(normal_force.touching, k.adhesion * sqrt_radius * sqrt_radius, Real(0.0));
+    normal_force.force = normal_force.load - pull;
+    normal_force.reserve = Real(2.0) * pull;
+    return normal_force;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
-    const Real pull = press.load - press.force;
-    return (Real(0.4) * press.load - pull) * larger(overlap, Real(0.0));
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const NormalForce<Real>& normal_force,
+                                     Real overlap) {
+    const Real pull = normal_force.load - normal_force.force;
+    return (Real(0.4) * normal_force.load - pull) * larger(overlap, Real(0.0));
   }
   /// 4 pi gamma a^2: of the patch and of what surrounds it alike.
   static double surface(const PairConstants& k, double, double contact_radius) {

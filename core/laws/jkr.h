@@ -37,13 +37,14 @@ struct Jkr {
   static void set(PairConstants& pair, const ContactModel& grains, double share) {
     const double radius = 1 / pair.size_per_radius, modulus = 0.5 * pair.normal_stiffness;
     pair.adhesion = std::numbers::pi * share * grains.surface_energy_j_m2;
-    pair.tear_patch = std::cbrt(pair.adhesion * radius * radius / (4 * modulus));
-    pair.tear_gap = 3 * pair.tear_patch * pair.tear_patch / radius;
+    pair.pull_off_patch = std::cbrt(pair.adhesion * radius * radius / (4 * modulus));
+    pair.pull_off_gap = 3 * pair.pull_off_patch * pair.pull_off_patch / radius;
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
-    const Real zero(0.0), one(1.0), radius = root_radius * root_radius, patch = tear_patch(k, radius);
+  PASTEFIT_INLINE static NormalForce<Real> at(const ConstantsOf<Real>& k, Real sqrt_radius, Real overlap,
+                                              Real touched) {
+    const Real zero(0.0), one(1.0), radius = sqrt_radius * sqrt_radius, patch = pull_off_patch(k, radius);
     const Real left = fused(overlap, radius / (patch * patch), Real(3.0));  // to the end of the contact
     const auto touching = select(touched > zero, left, overlap) > zero;
     const Real w = square_root(larger(left, zero));
@@ -59,10 +60,12 @@ struct Jkr {
   }
   /// f (a_t^2/R*) (2/15 y^10 - 4/3 y^7 + 2 y^4 - 4/5).
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>& k, Real radius, const Press<Real>& press, Real) {
-    const Real unit = k.adhesion * radius, patch = tear_patch(k, radius), a = press.contact_radius;
-    const Real mean = Real(0.4) * press.load - Real(2.0 / 3) * (press.load - press.force) + Real(2.0) * unit;
-    return select(press.touching, (mean * a * a - Real(0.8) * unit * patch * patch) / radius, Real(0.0));
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>& k, Real radius, const NormalForce<Real>& normal_force,
+                                     Real) {
+    const Real unit = k.adhesion * radius, patch = pull_off_patch(k, radius), a = normal_force.contact_radius;
+    const Real mean =
+        Real(0.4) * normal_force.load - Real(2.0 / 3) * (normal_force.load - normal_force.force) + Real(2.0) * unit;
+    return select(normal_force.touching, (mean * a * a - Real(0.8) * unit * patch * patch) / radius, Real(0.0));
   }
   /// Work of adhesion times the area, 2 gamma pi a^2.
   static double surface(const PairConstants& k, double, double contact_radius) {
@@ -71,25 +74,25 @@ struct Jkr {
   /// `energy` at d = 0 but for its sign, where y^3 = 4.
   template <class Real>
   PASTEFIT_INLINE static Real spent(const ConstantsOf<Real>& k, Real radius) {
-    const Real patch = tear_patch(k, radius);
+    const Real patch = pull_off_patch(k, radius);
     return Real(8.4195250494473572) * k.adhesion * patch * patch;
   }
   /// That of Hertz over 1 - y^-3; bounded, because a contact that is torn apart shrinks without bound at its end.
   template <class Real>
   PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>& k, Real radius, Real energy,
                                        Real inverse_contact_radius) {
-    const Real shrunk = tear_patch(k, radius) * inverse_contact_radius;
+    const Real shrunk = pull_off_patch(k, radius) * inverse_contact_radius;
     const Real stable = larger(Real(1.0) - shrunk * square_root(shrunk), Real(0.1));
     return Hertz::widening(k, radius, energy, inverse_contact_radius) / stable;
   }
   static double overlap_under(const PairConstants& k, double radius, double load) {
     const double y = std::cbrt(3 + std::sqrt(9 + 3 * load / (k.adhesion * radius)));
-    const double patch = tear_patch(k, radius);
+    const double patch = pull_off_patch(k, radius);
     return patch * patch / radius * (y * y * y - 4) * y;
   }
   /// Slow bodies swing once about where the force is zero, with dF/dd = 3/10 f y^2 R*/a_t^2, y^3 = 6.
   static double collision_time(const PairConstants& k, double radius, double mass, double speed) {
-    const double patch = tear_patch(k, radius),
+    const double patch = pull_off_patch(k, radius),
                  stiffness = 0.3 * std::cbrt(36.0) * k.adhesion * radius * radius / (patch * patch);
     return std::min(Hertz::collision_time(k, radius, mass, speed), std::numbers::pi * std::sqrt(mass / stiffness));
   }
@@ -98,14 +101,14 @@ struct Jkr {
   /// a_t of a pair. The cube root: s^(5/16) is right to 10 % for sizes that differ by a hundred, and Halley's steps
   /// treble the number of right digits.
   template <class Real>
-  PASTEFIT_INLINE static Real tear_patch(const ConstantsOf<Real>& k, Real radius) {
+  PASTEFIT_INLINE static Real pull_off_patch(const ConstantsOf<Real>& k, Real radius) {
     const Real s = k.size_per_radius * radius, fourth = square_root(square_root(s));
     Real root = fourth * square_root(square_root(fourth));
     for (int step = 0; step < 3; ++step) {
       const Real cube = root * root * root;
       root = root * (cube + Real(2.0) * s) / (Real(2.0) * cube + s);
     }
-    return k.tear_patch * root * root;
+    return k.pull_off_patch * root * root;
   }
 };
 

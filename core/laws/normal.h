@@ -11,7 +11,7 @@ namespace pastefit {
 
 /// What a law of the overlap makes of a pair.
 template <class Real>
-struct Press {
+struct NormalForce {
   decltype(Real() > Real()) touching;  ///< whether the bodies are in contact
   Real contact_radius;  ///< a [m]; stiffnesses follow from it: S_n = 2 E* a, S_t = 8 G* a. 0 out of contact
   Real force;           ///< repulsion less what the law itself attracts by [N]; 0 out of contact
@@ -25,18 +25,18 @@ struct Press {
 ///                      and how: as those of an attraction (laws/attraction.h);
 ///     adheres          whether it attracts, and is Hertz where PairConstants::adhesion is 0;
 ///     beside_bridges   whether it may be chosen beside an attraction across a gap: kernels of both are compiled;
-///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::tear_gap or
+///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::pull_off_gap or
 ///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
 ///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
 ///                      elasticity and size are there;
-///     at(k, root_radius, overlap, touched)   the `Press` of a pair; root_radius is sqrt(R*), radius R*;
-///     energy(k, radius, press, overlap)   what it holds [J], 0 out of contact; the derivative by d is the force;
-///     surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
+///     at(k, sqrt_radius, overlap, touched)   the `NormalForce` of a pair; sqrt_radius is sqrt(R*), radius R*;
+///     energy(k, radius, normal_force, overlap)   what it holds [J], 0 out of contact; the derivative by d is the
+///     force; surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
 ///                      `energy` is that of the strain;
 ///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
-///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: push of a spring that grows with a [N];
-///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
-///     collision_time(k, radius, mass, speed)   of a collision at that speed, for the choice of the step [s].
+///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: normal force of a spring that grows with
+///     a [N]; overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m]; collision_time(k, radius,
+///     mass, speed)   of a collision at that speed, for the choice of the step [s].
 /// The last two, and `set`, are computed once and in plain numbers; the others in packs too (laws/pack.h).
 /// To add one: core/README.md.
 
@@ -54,15 +54,16 @@ struct Hertz {
   static void set(PairConstants&, const ContactModel&, double) {}
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real) {
+  PASTEFIT_INLINE static NormalForce<Real> at(const ConstantsOf<Real>& k, Real sqrt_radius, Real overlap, Real) {
     const Real depth = larger(overlap, Real(0.0));
-    const Real contact_radius = root_radius * square_root(depth);
+    const Real contact_radius = sqrt_radius * square_root(depth);
     const Real repulsion = k.hertz * contact_radius * depth;
     return {overlap > Real(0.0), contact_radius, repulsion, repulsion, Real(0.0)};
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
-    return Real(0.4) * press.force * overlap;
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const NormalForce<Real>& normal_force,
+                                     Real overlap) {
+    return Real(0.4) * normal_force.force * overlap;
   }
   template <class Real>
   PASTEFIT_INLINE static Real widening(const ConstantsOf<Real>&, Real radius, Real energy,

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "core/laws/constants.h"
+#include "core/laws/contact_kinematics.h"
 #include "core/laws/contact_plane.h"
-#include "core/laws/meeting.h"
 
 namespace pastefit {
 
@@ -14,14 +14,14 @@ template <class Real>
 struct RollingContact {
   decltype(Real() > Real()) touching;
   BasicVec3<Real> spin;         ///< relative spin across the normal [rad/s]
-  detail::Turned<Real> turned;  ///< what `Memory::roll` holds, turned with the contact, if the law says `turns`
+  detail::Turned<Real> turned;  ///< what `ContactHistory::roll` holds, turned with the contact, if the law says `turns`
   Real restored;                ///< factor that gives it its length back
   Real radius, smaller_radius;  ///< R*, of the two radii [m]
-  Real root_mass;               ///< sqrt(m*)
+  Real sqrt_mass;               ///< sqrt(m*)
   Real stiffness_n, stiffness_t;
   Real old_stiffness_n;        ///< S_n of the step before [N/m]
   Real softened;               ///< min(1, a_old/a) of the contact radius a
-  Real root_impedance;         ///< sqrt(S_n m*)
+  Real sqrt_impedance;         ///< sqrt(S_n m*)
   Real brake, inverse_brakes;  ///< a dashpot is weakened by both, as the damper along the normal
   Real limit;                  ///< largest moment mu_r N R* [N m]
 };
@@ -30,10 +30,11 @@ struct RollingContact {
 ///     choice, word   its name in the program and in files;
 ///     parameters, make(contact, radius, value)   scale-free numbers that it is made of, and how: as those of an
 ///                    attraction (laws/attraction.h);
-///     remembers      whether it uses `Memory::roll`;
+///     remembers      whether it uses `ContactHistory::roll`;
 ///     turns          whether that is a vector of the contact plane, which turns with the contact;
-///     act(k, contact, dt, counted, roll, action)   its moment on body i, its heat and what it stores if energies are
-///                    `counted`, its part in damping and stiffness of `action`; and what it will remember.
+///     act(k, contact, dt, counted, roll, contact_force)   its moment on body i, what it dissipates and what it stores
+///     if energies are
+///                    `counted`, its part in damping and stiffness of `contact_force`; and what it will remember.
 /// To add one: core/README.md.
 
 /// What both that resist have in common: the coefficient mu_r.
@@ -56,7 +57,7 @@ struct NoRolling {
   static void make(ContactModel&, double, const Value&) {}
   template <class Real>
   PASTEFIT_INLINE static void act(const ConstantsOf<Real>&, const RollingContact<Real>&, Real, bool, BasicVec3<Real>&,
-                                  Action<Real>&) {}
+                                  ContactForce<Real>&) {}
 };
 
 /// Elastic-plastic spring and dashpot (EPSD) of Ai et al. 2011: k_r = 2.25 S_n (mu_r R*)^2, moment at most mu_r N R*,
@@ -73,7 +74,7 @@ struct SpringDashpotRolling : RollingFriction {
 
   template <class Real>
   PASTEFIT_INLINE static void act(const ConstantsOf<Real>& k, const RollingContact<Real>& c, Real dt, bool counted,
-                                  BasicVec3<Real>& memory, Action<Real>& action) {
+                                  BasicVec3<Real>& history, ContactForce<Real>& contact_force) {
     const Real zero(0.0), one(1.0), half(0.5);
     const Real lever = k.rolling_friction * c.radius;
     const Real stiffness = Real(2.25) * c.stiffness_n * lever * lever;
@@ -82,26 +83,27 @@ struct SpringDashpotRolling : RollingFriction {
     const Real moment_square = larger(stiffness * stiffness * roll_square, Real(detail::kFloor));
     const Real kept = detail::cap(moment_square, c.limit);
     const Real kept_stiffness = kept * stiffness;
-    memory = select(c.touching, kept, zero) * roll;
-    const Real dashpot = k.roll_damping * c.root_impedance * c.radius * c.radius * c.brake * c.inverse_brakes;
+    history = select(c.touching, kept, zero) * roll;
+    const Real dashpot = k.roll_damping * c.sqrt_impedance * c.radius * c.radius * c.brake * c.inverse_brakes;
     const Real braking = select(kept < one, zero, dashpot);
-    action.moment = -fused(kept_stiffness, roll, braking * c.spin);
-    action.damping = fused(k.spin_damping, c.root_impedance, action.damping);
-    action.stiffness =
-        larger(action.stiffness, fused(Real(kSurfaceLightness), c.stiffness_t, k.roll_stiffness_share * c.stiffness_n));
+    contact_force.moment = -fused(kept_stiffness, roll, braking * c.spin);
+    contact_force.damping = fused(k.spin_damping, c.sqrt_impedance, contact_force.damping);
+    contact_force.stiffness = larger(
+        contact_force.stiffness, fused(Real(kSurfaceLightness), c.stiffness_t, k.roll_stiffness_share * c.stiffness_n));
     if (!counted) return;
     const Real old_stiffness = Real(2.25) * c.old_stiffness_n * lever * lever;
     const Real old_energy = half * old_stiffness * (c.turned.square + c.turned.lost);
     const Real energy = half * kept_stiffness * kept * roll_square;
     const Real work = half * fused(old_stiffness, dot(c.turned.vector, c.spin), kept_stiffness * dot(roll, c.spin));
-    action.heat_rolling = fused(dt, fused(braking, dot(c.spin, c.spin), work), old_energy - energy);
-    action.stored = action.stored + energy;
+    contact_force.dissipation_rolling = fused(dt, fused(braking, dot(c.spin, c.spin), work), old_energy - energy);
+    contact_force.stored = contact_force.stored + energy;
   }
 };
 
 /// Constant torque mu_r N R* against the relative spin. Near rest it turns into a dashpot: without that the torque's
-/// sign would alternate and heat the heap. In one step a dashpot takes at most a fifth of a grain's spin, a tenth among
-/// equal grains, so that all the contacts of a grain together stay below twice of it. It remembers its last torque.
+/// sign would alternate and add energy to the heap. In one step a dashpot takes at most a fifth of a grain's spin, a
+/// tenth among equal grains, so that all the contacts of a grain together stay below twice of it. It remembers its last
+/// torque.
 struct ConstantTorqueRolling : RollingFriction {
   static constexpr RollingModel choice = RollingModel::constant_torque;
   static constexpr std::string_view word = "constant_torque";
@@ -109,16 +111,16 @@ struct ConstantTorqueRolling : RollingFriction {
 
   template <class Real>
   PASTEFIT_INLINE static void act(const ConstantsOf<Real>&, const RollingContact<Real>& c, Real dt, bool counted,
-                                  BasicVec3<Real>& memory, Action<Real>& action) {
+                                  BasicVec3<Real>& history, ContactForce<Real>& contact_force) {
     const Real floor(detail::kFloor);
     const Real spin_square = larger(dot(c.spin, c.spin), floor);
     const Real gentle =
-        Real(0.08) * c.smaller_radius * c.smaller_radius * c.root_mass * c.root_mass / larger(dt, floor);
+        Real(0.08) * c.smaller_radius * c.smaller_radius * c.sqrt_mass * c.sqrt_mass / larger(dt, floor);
     const Real resistance = smaller(c.limit / square_root(spin_square), gentle);
     const BasicVec3<Real> torque = resistance * c.spin;
-    action.moment = -torque;
-    if (counted) action.heat_rolling = Real(0.5) * dt * dot(torque + memory, c.spin);
-    memory = torque;
+    contact_force.moment = -torque;
+    if (counted) contact_force.dissipation_rolling = Real(0.5) * dt * dot(torque + history, c.spin);
+    history = torque;
   }
 };
 

@@ -35,15 +35,18 @@ struct Sjkr {
   }
 
   template <class Real>
-  PASTEFIT_INLINE static Press<Real> at(const ConstantsOf<Real>& k, Real root_radius, Real overlap, Real touched) {
-    Press<Real> press = Hertz::at(k, root_radius, overlap, touched);
-    press.force = press.load - k.adhesion * press.contact_radius * press.contact_radius;  // a^2 = R* d
-    return press;
+  PASTEFIT_INLINE static NormalForce<Real> at(const ConstantsOf<Real>& k, Real sqrt_radius, Real overlap,
+                                              Real touched) {
+    NormalForce<Real> normal_force = Hertz::at(k, sqrt_radius, overlap, touched);
+    normal_force.force =
+        normal_force.load - k.adhesion * normal_force.contact_radius * normal_force.contact_radius;  // a^2 = R* d
+    return normal_force;
   }
   template <class Real>
-  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const Press<Real>& press, Real overlap) {
-    const Real pull = press.load - press.force;
-    return (Real(0.4) * press.load - Real(0.5) * pull) * larger(overlap, Real(0.0));
+  PASTEFIT_INLINE static Real energy(const ConstantsOf<Real>&, Real, const NormalForce<Real>& normal_force,
+                                     Real overlap) {
+    const Real pull = normal_force.load - normal_force.force;
+    return (Real(0.4) * normal_force.load - Real(0.5) * pull) * larger(overlap, Real(0.0));
   }
   static double surface(const PairConstants& k, double radius, double contact_radius) {
     const double square = contact_radius * contact_radius;

@@ -40,15 +40,15 @@ constexpr std::size_t row_of(Choice choice) {
   return static_cast<std::size_t>(choice);
 }
 
-/// Calls `look(Law{})` with the law of that name, a type without data, and returns what it returns.
-template <class... Laws, class Choice, class Look>
-auto with_law(TypeList<Laws...>, Choice choice, const Look& look) {
-  using Result = std::common_type_t<decltype(look(Laws{}))...>;
+/// Calls `visit(Law{})` with the law of that name, a type without data, and returns what it returns.
+template <class... Laws, class Choice, class Visitor>
+auto with_law(TypeList<Laws...>, Choice choice, const Visitor& visit) {
+  using Result = std::common_type_t<decltype(visit(Laws{}))...>;
   if constexpr (std::is_void_v<Result>) {
-    (void)((Laws::choice == choice && (look(Laws{}), true)) || ...);
+    (void)((Laws::choice == choice && (visit(Laws{}), true)) || ...);
   } else {
     Result result{};
-    (void)((Laws::choice == choice && (result = look(Laws{}), true)) || ...);
+    (void)((Laws::choice == choice && (result = visit(Laws{}), true)) || ...);
     return result;
   }
 }

@@ -101,16 +101,16 @@ std::vector<double> posture_of_heap(const Particles& particles) {
 
 namespace {
 
-/// Calls `look(x, y, height)` for the points of the closed surface on a disc; x and y from its middle.
-template <class Look>
-void each_on_disc(const Particles& particles, double mean_radius, const Disc& disc, const Look& look) {
+/// Calls `visit(x, y, height)` for the points of the closed surface on a disc; x and y from its middle.
+template <class Visitor>
+void each_on_disc(const Particles& particles, double mean_radius, const Disc& disc, const Visitor& visit) {
   const double radius = 0.5 * disc.diameter;
   // The closing ball looks twice its radius beyond the disc.
   const HeightField field(particles, mean_radius, radius + 2 * kClosingBall * mean_radius, disc.x, disc.y);
   for (int iy = 0; iy < field.points(); ++iy)
     for (int ix = 0; ix < field.points(); ++ix) {
       const double x = field.coordinate(ix), y = field.coordinate(iy);
-      if (x * x + y * y <= radius * radius) look(x, y, field.at(ix, iy));
+      if (x * x + y * y <= radius * radius) visit(x, y, field.at(ix, iy));
     }
 }
 

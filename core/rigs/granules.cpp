@@ -46,14 +46,14 @@ LooseGrains struck_off(const LooseGrains& grains, double height) {
 }  // namespace
 
 FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
-                         const Vessel& vessel, const Posture& posture, const RunOptions& asked) {
+                         const Vessel& vessel, const RestMeasure& rest_measure, const RunOptions& asked) {
   RunOptions options = with_bounds_of(granules, asked);
-  // A fixed step, sleep and the ledger are meant for the test.
+  // A fixed step, sleep and the energy balance are meant for the test.
   options.steps.fixed_step_s.reset();
-  options.steps.sleep = options.steps.ledger = false;
+  options.steps.sleep = options.steps.energy_balance = false;
   FilledVessel filled;
   const auto settle = [&](World world, std::string_view phase, double moved_s) {
-    Runner runner(world, options, posture);
+    Runner runner(world, options, rest_measure);
     filled.fall.start_height += height_energy(world);
     filled.failure = runner.settle({phase}, kFillCap, moved_s);
     filled.fall.start = filled.fall.height += height_energy(world);

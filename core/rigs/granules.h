@@ -16,7 +16,7 @@ struct FilledVessel {
   LooseGrains grains;
   RunSummary run;
   std::optional<Failure> failure;
-  Ledger fall;  ///< of the granules, by which alone the filling was driven; what it turned into is not counted
+  EnergyBalance fall;  ///< of the granules, by which alone the filling was driven; what it turned into is not counted
 };
 
 /// An empty vessel: makes the world that these granules are put into.
@@ -32,7 +32,7 @@ struct Pouring {
 /// stick and how fast they arrive. They sink as in a liquid; what lies above the fill height is scraped away, and the
 /// rest closes up where its neighbours are gone. `loose`: more than enough of them, above each other.
 FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
-                         const Vessel& vessel, const Posture& posture, const RunOptions& options);
+                         const Vessel& vessel, const RestMeasure& rest_measure, const RunOptions& options);
 
 /// The run failed because less than `emptiest` of the vessel is solid.
 Failure bridged(const FilledVessel& filled, double solid_fraction, double emptiest);

@@ -121,7 +121,7 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
     // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
     constexpr double kMostSqueezed = 0.1;
     constexpr double kStiffestPa = 1e11;  // that a study may give
-    const double squeezed = squeeze(contact, radius);
+    const double squeezed = resting_overlap(contact, radius);
     const double needed_pa = contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5);
     const bool in_reach = needed_pa <= kStiffestPa;
     check.require(!(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",

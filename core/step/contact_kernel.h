@@ -123,13 +123,13 @@ class Tally {
     lanes[0] = lanes[0] + widened<0>(value);
     second = second + widened<1>(value);
   }
-  PASTEFIT_INLINE void count(Energies energies, int lane, const Action<Real>& action) {
+  PASTEFIT_INLINE void count(Energies energies, int lane, const ContactForce<Real>& contact_force) {
     if (energies == Energies::none) return;
-    count(EnergySums::normal_damping, lane, action.heat_normal);
-    count(EnergySums::sliding, lane, action.heat_sliding);
-    count(EnergySums::rolling, lane, action.heat_rolling);
-    count(EnergySums::bridges, lane, action.heat_bridge);
-    count(EnergySums::stored, lane, action.stored);
+    count(EnergySums::normal_damping, lane, contact_force.dissipation_normal);
+    count(EnergySums::sliding, lane, contact_force.dissipation_sliding);
+    count(EnergySums::rolling, lane, contact_force.dissipation_rolling);
+    count(EnergySums::bridges, lane, contact_force.dissipation_bridge);
+    count(EnergySums::stored, lane, contact_force.stored);
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
@@ -143,27 +143,27 @@ class Tally {
   Doubles<kHalf> sum_[EnergySums::kinds][EnergySums::kLanes / kHalf];
 };
 
-/// What a batch remembers, in and out; roll only where the rolling law has memory.
+/// What a batch remembers, in and out; roll only where the rolling law has history.
 template <class Rolling>
-PASTEFIT_INLINE Memory<Real> recall(const ContactBatch& c, int lane) {
-  Memory<Real> memory;
-  memory.slip = load(c.slip, lane);
-  if constexpr (Rolling::remembers) memory.roll = load(c.roll, lane);
-  memory.root_contact_radius = Real::load(c.root_contact_radius + lane);
-  memory.damper = Real::load(c.damper + lane);
-  memory.drag = Real::load(c.drag + lane);
-  memory.bridge = Real::load(c.bridge + lane);
-  return memory;
+PASTEFIT_INLINE ContactHistory<Real> recall(const ContactBatch& c, int lane) {
+  ContactHistory<Real> history;
+  history.slip = load(c.slip, lane);
+  if constexpr (Rolling::remembers) history.roll = load(c.roll, lane);
+  history.sqrt_contact_radius = Real::load(c.sqrt_contact_radius + lane);
+  history.damper = Real::load(c.damper + lane);
+  history.drag = Real::load(c.drag + lane);
+  history.bridge = Real::load(c.bridge + lane);
+  return history;
 }
 
 template <class Attraction, class Rolling>
-PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const Memory<Real>& memory) {
-  store(c.slip, lane, memory.slip);
-  if constexpr (Rolling::remembers) store(c.roll, lane, memory.roll);
-  memory.root_contact_radius.store(c.root_contact_radius + lane);
-  memory.damper.store(c.damper + lane);
-  memory.drag.store(c.drag + lane);
-  if constexpr (Attraction::present) memory.bridge.store(c.bridge + lane);
+PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const ContactHistory<Real>& history) {
+  store(c.slip, lane, history.slip);
+  if constexpr (Rolling::remembers) store(c.roll, lane, history.roll);
+  history.sqrt_contact_radius.store(c.sqrt_contact_radius + lane);
+  history.damper.store(c.damper + lane);
+  history.drag.store(c.drag + lane);
+  if constexpr (Attraction::present) history.bridge.store(c.bridge + lane);
 }
 
 template <class Normal, class Attraction, class Rolling>
@@ -173,31 +173,32 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real
   const Quad spin_a = spins(task, i), spin_b = spins(task, j);
   const Real radius_a = spin_a.beside, radius_b = spin_b.beside;
 
-  Meeting<Real> meeting;
-  meeting.normal = p.inverse_distance * p.between;
-  meeting.overlap = p.overlap;
-  const Real half_depth = Real(0.5) * larger(meeting.overlap, Real(0.0));
+  ContactKinematics<Real> kinematics;
+  kinematics.normal = p.inverse_distance * p.between;
+  kinematics.overlap = p.overlap;
+  const Real half_depth = Real(0.5) * larger(kinematics.overlap, Real(0.0));
   const Real lever_a = radius_a - half_depth, lever_b = radius_b - half_depth;
-  meeting.velocity = velocity_a.vector - velocity_b.vector +
-                     cross(fused(lever_a, spin_a.vector, lever_b * spin_b.vector), meeting.normal);
-  meeting.spin = spin_a.vector - spin_b.vector;
-  meeting.twist = Real(0.5) * dot(spin_a.vector + spin_b.vector, meeting.normal);
-  meeting.smaller_radius = smaller(radius_a, radius_b);
-  meeting.root_radius = Real::load(c.root_radius + lane);
-  meeting.root_mass = Real::load(c.root_mass + lane);
-  meeting.inverse_mass = Real(1.0) / (meeting.root_mass * meeting.root_mass);
-  meeting.neighbour_damping = velocity_a.beside + velocity_b.beside;
+  kinematics.velocity = velocity_a.vector - velocity_b.vector +
+                        cross(fused(lever_a, spin_a.vector, lever_b * spin_b.vector), kinematics.normal);
+  kinematics.spin = spin_a.vector - spin_b.vector;
+  kinematics.twist = Real(0.5) * dot(spin_a.vector + spin_b.vector, kinematics.normal);
+  kinematics.smaller_radius = smaller(radius_a, radius_b);
+  kinematics.sqrt_radius = Real::load(c.sqrt_radius + lane);
+  kinematics.sqrt_mass = Real::load(c.sqrt_mass + lane);
+  kinematics.inverse_mass = Real(1.0) / (kinematics.sqrt_mass * kinematics.sqrt_mass);
+  kinematics.neighbour_damping = velocity_a.beside + velocity_b.beside;
 
-  Memory<Real> memory = recall<Rolling>(c, lane);
-  const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
-  remember<Attraction, Rolling>(c, lane, memory);
-  tally.count(task.energies, lane, action);
+  ContactHistory<Real> history = recall<Rolling>(c, lane);
+  const ContactForce<Real> contact_force =
+      act<Normal, Attraction, Rolling>(pair, kinematics, history, dt, task.energies);
+  remember<Attraction, Rolling>(c, lane, history);
+  tally.count(task.energies, lane, contact_force);
 
-  const Vector force = fused(-action.push, meeting.normal, action.traction);
-  const Vector turning = cross(meeting.normal, action.traction);
-  const Vector torque_a = fused(lever_a, turning, action.moment);
-  const Vector torque_b = fused(lever_b, turning, -action.moment);
-  add_loads(task, i, j, force, action.damping, torque_a, torque_b, action.stiffness);
+  const Vector force = fused(-contact_force.normal_force, kinematics.normal, contact_force.tangential_force);
+  const Vector turning = cross(kinematics.normal, contact_force.tangential_force);
+  const Vector torque_a = fused(lever_a, turning, contact_force.moment);
+  const Vector torque_b = fused(lever_b, turning, -contact_force.moment);
+  add_loads(task, i, j, force, contact_force.damping, torque_a, torque_b, contact_force.stiffness);
 }
 
 /// Pairs that do not touch: attraction along the line of centres.
@@ -222,7 +223,7 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
 /// Whether a pair touches, or did so at the last step and has yet to forget it. Where none does, a contact exerts
 /// nothing and has nothing to remember.
 PASTEFIT_INLINE bool some_touch(const Pairing& p, const ContactBatch& c, int lane) {
-  return any(p.overlap > Real(0.0)) || any(Real::load(c.root_contact_radius + lane) > Real(0.0));
+  return any(p.overlap > Real(0.0)) || any(Real::load(c.sqrt_contact_radius + lane) > Real(0.0));
 }
 
 constexpr int kAhead = 2;        // batches; 5 to 10 % in a bed too large for the caches
@@ -258,8 +259,8 @@ void pair_kernel(const KernelTask& task) {
       if (k < task.stretch.near || some_touch(p, batch, lane)) {
         act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, i, j, p, batch, lane, tally);
       } else if constexpr (Attraction::present) {
-        const Real root_radius = Real::load(batch.root_radius + lane);
-        attract_pairs<Attraction>(task, pair, pair.size_per_radius * (root_radius * root_radius), i, j, p, batch, lane,
+        const Real sqrt_radius = Real::load(batch.sqrt_radius + lane);
+        attract_pairs<Attraction>(task, pair, pair.size_per_radius * (sqrt_radius * sqrt_radius), i, j, p, batch, lane,
                                   tally);
       }
     }
@@ -293,28 +294,30 @@ void wall_kernel(const KernelTask& task) {
       const Lanes i(c.i + lane);
       const Quad velocity = velocities(task, i), spin = spins(task, i);
       const Real radius = spin.beside;
-      Meeting<Real> meeting;
-      meeting.normal = load(w.normal, lane);
-      meeting.overlap = Real::load(w.overlap + lane);
-      const Real lever = radius - larger(meeting.overlap, Real(0.0));
-      meeting.velocity = velocity.vector - load(w.wall_velocity, lane) + cross(lever * spin.vector, meeting.normal);
-      meeting.spin = spin.vector;
-      meeting.twist = Real(0.5) * dot(spin.vector, meeting.normal);
-      meeting.smaller_radius = radius;
-      meeting.root_radius = Real::load(c.root_radius + lane);
-      meeting.root_mass = Real::load(c.root_mass + lane);
-      meeting.inverse_mass = Real(1.0) / (meeting.root_mass * meeting.root_mass);
-      meeting.neighbour_damping = velocity.beside;
+      ContactKinematics<Real> kinematics;
+      kinematics.normal = load(w.normal, lane);
+      kinematics.overlap = Real::load(w.overlap + lane);
+      const Real lever = radius - larger(kinematics.overlap, Real(0.0));
+      kinematics.velocity =
+          velocity.vector - load(w.wall_velocity, lane) + cross(lever * spin.vector, kinematics.normal);
+      kinematics.spin = spin.vector;
+      kinematics.twist = Real(0.5) * dot(spin.vector, kinematics.normal);
+      kinematics.smaller_radius = radius;
+      kinematics.sqrt_radius = Real::load(c.sqrt_radius + lane);
+      kinematics.sqrt_mass = Real::load(c.sqrt_mass + lane);
+      kinematics.inverse_mass = Real(1.0) / (kinematics.sqrt_mass * kinematics.sqrt_mass);
+      kinematics.neighbour_damping = velocity.beside;
 
-      Memory<Real> memory = recall<Rolling>(c, lane);
-      const Action<Real> action = act<Normal, Attraction, Rolling>(pair, meeting, memory, dt, task.energies);
-      remember<Attraction, Rolling>(c, lane, memory);
-      tally.count(task.energies, lane, action);
+      ContactHistory<Real> history = recall<Rolling>(c, lane);
+      const ContactForce<Real> contact_force =
+          act<Normal, Attraction, Rolling>(pair, kinematics, history, dt, task.energies);
+      remember<Attraction, Rolling>(c, lane, history);
+      tally.count(task.energies, lane, contact_force);
 
-      store(w.force, lane, action.traction - action.push * meeting.normal);
-      store(w.moment, lane, lever * cross(meeting.normal, action.traction) + action.moment);
-      action.damping.store(w.damping + lane);
-      action.stiffness.store(w.stiffness + lane);
+      store(w.force, lane, contact_force.tangential_force - contact_force.normal_force * kinematics.normal);
+      store(w.moment, lane, lever * cross(kinematics.normal, contact_force.tangential_force) + contact_force.moment);
+      contact_force.damping.store(w.damping + lane);
+      contact_force.stiffness.store(w.stiffness + lane);
     }
   tally.add_to(*task.energy);
 }

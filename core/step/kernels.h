@@ -53,8 +53,8 @@ constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test co
 struct MoveTask {
   Motion* motion;
   Velocity* velocity;
-  Load* load;         ///< used up: zero afterwards
-  const Room* rooms;  ///< where the lists allow them to be
+  Load* load;                       ///< used up: zero afterwards
+  const DisplacementBound* bounds;  ///< where the lists allow them to be
   std::int32_t grains, grains_end;
   double dt;    ///< [s]
   double kick;  ///< from the half step before to the half step after [s]
@@ -63,11 +63,11 @@ struct MoveTask {
 
 /// What grains did in a step.
 struct Moved {
-  double fastest_square = 0;  ///< [m^2/s^2]
-  double stiffest = 0;        ///< stiffness over mass [1/s^2]
-  double heat_drag = 0;       ///< [J]
-  bool strayed = false;       ///< one has left its room; a position that is not a number has
-  std::int32_t runaway = -1;  ///< one beyond any speed, or whose speed is not a number
+  double fastest_square = 0;    ///< [m^2/s^2]
+  double stiffest = 0;          ///< stiffness over mass [1/s^2]
+  double dissipation_drag = 0;  ///< [J]
+  bool exceeded = false;        ///< one has left its room; a position that is not a number has
+  std::int32_t runaway = -1;    ///< one beyond any speed, or whose speed is not a number
 };
 
 /// Laws are composed at compile time: one function per combination, chosen once per run.

@@ -11,23 +11,23 @@ namespace pastefit {
 namespace {
 
 constexpr double kStepsPerSelection = 18;
-constexpr double kSmallestLeeway = 0.02;  // of the mean radius
-constexpr double kLargestLeeway = 0.2;
-constexpr double kNearlyUsed = 0.6;      // of a leeway
+constexpr double kSmallestBound = 0.02;  // of the mean radius
+constexpr double kLargestBound = 0.2;
+constexpr double kNearlyUsed = 0.6;      // of a displacement bound
 constexpr double kRoundedUp = 1 + 1e-6;  // a float is not below it
-constexpr float kLeastShare = 0.5;       // of the leeway a grain would be given that its skin must have room for
+constexpr float kLeastShare = 0.5;  // of the displacement bound a grain would be given that its skin must have room for
 
 }  // namespace
 
-Lists::Lists(World& world, double skin, Team& team, Sleepers* sleepers, StageClock* clock)
-    : world_(world), skin_(skin), team_(team), sleepers_(sleepers), clock_(clock) {
-  selections_.resize(team.size());
+Lists::Lists(World& world, double skin, ThreadPool& pool, Sleepers* sleepers, StageClock* clock)
+    : world_(world), skin_(skin), pool_(pool), sleepers_(sleepers), clock_(clock) {
+  selections_.resize(pool.size());
 }
 
 Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   wall_way_ += wall_way;
-  const bool walls_due = wall_way_ > wall_leeway_;
-  if (valid_ && !walls_due && std::find(strayed_.begin(), strayed_.end(), true) == strayed_.end()) return {};
+  const bool walls_due = wall_way_ > wall_bound_;
+  if (valid_ && !walls_due && std::find(exceeded_.begin(), exceeded_.end(), true) == exceeded_.end()) return {};
   const double duration = dt * kStepsPerSelection;
   const bool relisted = !valid_ || !goes_on(duration);
   if (relisted) {
@@ -37,32 +37,32 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   }
   if (walls_due || relisted) {
     const double radius = world_.reference_radius;
-    wall_leeway_ = std::clamp(wall_speed * duration, kSmallestLeeway * radius, kLargestLeeway * radius);
+    wall_bound_ = std::clamp(wall_speed * duration, kSmallestBound * radius, kLargestBound * radius);
     wall_way_ = 0;
   }
   const Timed timed(clock_, StageClock::choice);
   note_ways();
   const Deepest deepest = select_pairs();
   select_at_walls(walls_due || relisted);
-  std::fill(strayed_.begin(), strayed_.end(), false);
+  std::fill(exceeded_.begin(), exceeded_.end(), false);
   return deepest;
 }
 
 void Lists::check_state() const {
   check_pairs(world_, valid_);
-  demand(wall_leeway_ >= 0 && wall_way_ >= 0 && rounding_ >= 0, "a leeway is below nothing");
+  demand(wall_bound_ >= 0 && wall_way_ >= 0 && rounding_ >= 0, "a displacement bound is below nothing");
   if (!valid_) return;  // the rest is made anew
   const auto grains = static_cast<std::size_t>(world_.particles.count());
-  demand(leeway_.rooms.size() == grains && leeway_.own.size() == grains && listed_.size() == grains &&
-             strayed_.size() == world_.pairs.blocks.size(),
+  demand(bounds_.bounds.size() == grains && bounds_.own.size() == grains && listed_.size() == grains &&
+             exceeded_.size() == world_.pairs.blocks.size(),
          "the lists are of another number of grains");
   const auto finite = [](const float(&place)[3]) {
     return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
   };
-  for (const Room& room : leeway_.rooms)
-    demand(finite(room.from) && room.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
+  for (const DisplacementBound& bound : bounds_.bounds)
+    demand(finite(bound.from) && bound.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
   for (const Listed& listed : listed_) demand(finite(listed.at), "a place is not finite");
-  for (const char strayed : strayed_) demand(strayed == 0 || strayed == 1, "a yes or no is neither");
+  for (const char exceeded : exceeded_) demand(exceeded == 0 || exceeded == 1, "a yes or no is neither");
 }
 
 /// Prepares to choose from the candidates as they are; false if that would not do.
@@ -78,18 +78,18 @@ bool Lists::goes_on(double duration) {
 void Lists::take_along() {
   const std::vector<Block>& blocks = world_.pairs.blocks;
   const auto nearly = [&](std::int32_t i) {
-    const Room& room = leeway_.rooms[i];
-    return norm(world_.particles.motion[i].position - vector_of(room.from)) > kNearlyUsed * room.distance;
+    const DisplacementBound& bound = bounds_.bounds[i];
+    return norm(world_.particles.motion[i].position - vector_of(bound.from)) > kNearlyUsed * bound.distance;
   };
-  team_.each(static_cast<int>(blocks.size()), [&](int b, int) {
-    for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !strayed_[b]; ++i) strayed_[b] = nearly(i);
+  pool_.each(static_cast<int>(blocks.size()), [&](int b, int) {
+    for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !exceeded_[b]; ++i) exceeded_[b] = nearly(i);
   });
 }
 
 void Lists::let_sleep() {
   if (!sleepers_) return;
-  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
-    if (strayed_[b]) sleepers_->fall_asleep(world_, b);
+  pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+    if (exceeded_[b]) sleepers_->fall_asleep(world_, b);
   });
 }
 
@@ -98,15 +98,15 @@ void Lists::list_candidates() {
   rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_);
   listed_.resize(particles.count());
   for (std::int32_t i = 0; i < particles.count(); ++i) put_rounded(particles.motion[i].position, listed_[i].at);
-  leeway_.rooms.resize(particles.count());
+  bounds_.bounds.resize(particles.count());
   rounding_ = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     constexpr double kUnit = 1.0 / (1 << 24);  // the relative error of a float
     const double farthest = norm(particles.motion[i].position) + skin_;
     rounding_ = std::max(rounding_, kUnit * farthest);
   }
-  leeway_.own.assign(particles.count(), 0);
-  strayed_.assign(world_.pairs.blocks.size(), true);
+  bounds_.own.assign(particles.count(), 0);
+  exceeded_.assign(world_.pairs.blocks.size(), true);
   if (sleepers_) sleepers_->take_place(world_);
   valid_ = true;
 }
@@ -114,26 +114,26 @@ void Lists::list_candidates() {
 bool Lists::give_leeway(double duration) {
   const Pairs& pairs = world_.pairs;
   const std::vector<Motion>& motion = world_.particles.motion;
-  const double least = kSmallestLeeway * world_.reference_radius, most = kLargestLeeway * world_.reference_radius;
+  const double least = kSmallestBound * world_.reference_radius, most = kLargestBound * world_.reference_radius;
   const auto blocks = static_cast<int>(pairs.blocks.size());
   const auto sleeps = [&](std::int32_t i) { return sleepers_ && sleepers_->is_asleep(world_.particles.identity[i]); };
-  team_.each(blocks, [&](int b, int) {
-    if (!strayed_[b]) return;
+  pool_.each(blocks, [&](int b, int) {
+    if (!exceeded_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
       const double own = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
-      leeway_.own[i] = sleeps(i) ? 0 : static_cast<float>(own);
-      put_rounded(motion[i].position, leeway_.rooms[i].from);
-      leeway_.rooms[i].distance = static_cast<float>(sleeps(i) ? least : own);
+      bounds_.own[i] = sleeps(i) ? 0 : static_cast<float>(own);
+      put_rounded(motion[i].position, bounds_.bounds[i].from);
+      bounds_.bounds[i].distance = static_cast<float>(sleeps(i) ? least : own);
     }
   });
-  in_two_rounds(team_, blocks, [&](int b, int) {
-    const bool first = strayed_[b], second = b + 1 < blocks && strayed_[b + 1];
+  in_two_rounds(pool_, blocks, [&](int b, int) {
+    const bool first = exceeded_[b], second = b + 1 < blocks && exceeded_[b + 1];
     if (!first && !second) return;
     const Block& block = pairs.blocks[b];
-    block.candidates.each(block.grains, [&](Candidates::Pair pair, std::int32_t i, std::int32_t) {
+    block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i, std::int32_t) {
       const std::int32_t j = pair.grain();
       const auto make_room = [&](std::int32_t grain, std::int32_t other) {
-        leeway_.rooms[grain].distance = std::max(leeway_.rooms[grain].distance, leeway_.own[other]);
+        bounds_.bounds[grain].distance = std::max(bounds_.bounds[grain].distance, bounds_.own[other]);
       };
       if (first) make_room(i, j);
       if (j < block.grains_end ? first : second) make_room(j, i);
@@ -141,12 +141,12 @@ bool Lists::give_leeway(double duration) {
   });
   // Two grains of a candidate may each use half of its skin.
   std::vector<char> enough(blocks, true);
-  team_.each(blocks, [&](int b, int) {
-    if (!strayed_[b]) return;
+  pool_.each(blocks, [&](int b, int) {
+    if (!exceeded_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
       const double used = norm(motion[i].position - vector_of(listed_[i].at)) + 2 * rounding_;
       const auto left = static_cast<float>(0.5 * skin_ - used);
-      float& distance = leeway_.rooms[i].distance;
+      float& distance = bounds_.bounds[i].distance;
       if (!(left >= kLeastShare * distance)) enough[b] = false;
       distance = std::min(distance, left);
     }
@@ -154,14 +154,14 @@ bool Lists::give_leeway(double duration) {
   return std::find(enough.begin(), enough.end(), false) == enough.end();
 }
 
-/// A grain of a block that keeps its rooms is on its way already, and may turn back.
+/// A grain of a block that keeps its bounds is on its way already, and may turn back.
 void Lists::note_ways() {
-  leeway_.way.resize(leeway_.rooms.size());
-  team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
+  bounds_.way.resize(bounds_.bounds.size());
+  pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
     for (std::int32_t i = world_.pairs.blocks[b].grains; i < world_.pairs.blocks[b].grains_end; ++i) {
-      const Room& room = leeway_.rooms[i];
-      const double gone = norm(world_.particles.motion[i].position - vector_of(room.from));
-      leeway_.way[i] = static_cast<float>((room.distance + gone) * kRoundedUp);
+      const DisplacementBound& bound = bounds_.bounds[i];
+      const double gone = norm(world_.particles.motion[i].position - vector_of(bound.from));
+      bounds_.way[i] = static_cast<float>((bound.distance + gone) * kRoundedUp);
     }
   });
 }
@@ -169,11 +169,11 @@ void Lists::note_ways() {
 Deepest Lists::select_pairs() {
   std::vector<Block>& blocks = world_.pairs.blocks;
   std::vector<Deepest> deepest(blocks.size());
-  team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
-    const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && strayed_[b + 1];
-    if (!strayed_[b] && !next_strayed) return;
+  pool_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
+    const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && exceeded_[b + 1];
+    if (!exceeded_[b] && !next_strayed) return;
     deepest[b] = pastefit::select_pairs(world_.particles, world_.domain, blocks[b], world_.particles.count() + b,
-                                        selections_[member], world_.reach(), leeway_);
+                                        selections_[member], world_.reach(), bounds_);
     if (sleepers_) sleepers_->note_chosen(b);
   });
   return *std::max_element(deepest.begin(), deepest.end(),
@@ -182,11 +182,11 @@ Deepest Lists::select_pairs() {
 
 void Lists::select_at_walls(bool everywhere) {
   std::vector<Block>& blocks = world_.pairs.blocks;
-  team_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
-    if (!everywhere && !strayed_[b]) return;
+  pool_.each(static_cast<int>(blocks.size()), [&](int b, int member) {
+    if (!everywhere && !exceeded_[b]) return;
     for (std::size_t w = 0; w < world_.walls.size(); ++w)
       select_at_wall(world_.particles, world_.walls[w], blocks[b], blocks[b].walls[w], selections_[member],
-                     world_.reach(), leeway_, wall_leeway_);
+                     world_.reach(), bounds_, wall_bound_);
   });
 }
 

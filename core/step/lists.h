@@ -2,7 +2,7 @@
 
 #include "core/step/sleepers.h"
 #include "core/step/stage_clock.h"
-#include "core/team.h"
+#include "core/thread_pool.h"
 #include "core/world/selection.h"
 #include "core/world/world.h"
 
@@ -11,11 +11,11 @@ namespace pastefit {
 /// Keeps the lists of a world true while its grains and walls move. Three kinds, each made from the one before when a
 /// bound on what may have moved is used up: all grains, sorted in space; candidates, made anew for the whole world when
 /// a grain has used up its share of the skin; contacts and bridges, chosen anew for the blocks of which a grain has
-/// left its leeway, and for their neighbours that share pairs with them. What is calm is left alone.
+/// left its displacement bound, and for their neighbours that share pairs with them. What is calm is left alone.
 class Lists {
  public:
   /// `skin`: of the candidates [m]. `sleepers`: none where no grain may sleep.
-  Lists(World& world, double skin, Team& team, Sleepers* sleepers, StageClock* clock = nullptr);
+  Lists(World& world, double skin, ThreadPool& pool, Sleepers* sleepers, StageClock* clock = nullptr);
 
   /// To be called after the world was changed from outside.
   void forget() { valid_ = false; }
@@ -25,11 +25,11 @@ class Lists {
   Deepest update(double dt, double wall_way, double wall_speed);
 
   /// Where the lists allow the grains to be, one room each.
-  const Room* rooms() const { return leeway_.rooms.data(); }
-  /// For `Journal`. All else is scratch.
+  const DisplacementBound* bounds() const { return bounds_.bounds.data(); }
+  /// For `RunCheckpoint`. All else is scratch.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(leeway_.rooms, leeway_.own, rounding_, listed_, strayed_, valid_, wall_leeway_, wall_way_);
+    archive(bounds_.bounds, bounds_.own, rounding_, listed_, exceeded_, valid_, wall_bound_, wall_way_);
   }
 
   /// Throws `BadState` unless what was read is of the world as it is.
@@ -39,7 +39,7 @@ class Lists {
   bool hold() const { return valid_; }
 
   /// A grain of the block is not in its room any more.
-  void note_strayed(std::size_t block) { strayed_[block] = true; }
+  void note_exceeded(std::size_t block) { exceeded_[block] = true; }
 
  private:
   struct Listed {
@@ -50,7 +50,7 @@ class Lists {
   void take_along();
   void let_sleep();
   void list_candidates();
-  /// Gives the grains of the strayed blocks a new leeway; false if one has too little of its skin left.
+  /// Gives the grains of the exceeded blocks a new displacement bound; false if one has too little of its skin left.
   bool give_leeway(double duration);
   Deepest select_pairs();
   void note_ways();
@@ -58,17 +58,17 @@ class Lists {
 
   World& world_;
   double skin_;
-  Team& team_;
+  ThreadPool& pool_;
   Sleepers* sleepers_;
   StageClock* clock_;
-  std::vector<Selection> selections_;  ///< one for each member of the team
-  Leeway leeway_;
+  std::vector<Selection> selections_;  ///< one for each member of the pool
+  DisplacementBounds bounds_;
   std::vector<Listed> listed_;  ///< where the grains were when the candidates were listed
   double rounding_ = 0;         ///< by which those places are off at most [m]
-  std::vector<char> strayed_;   ///< blocks to be chosen for anew (not bool: threads write side by side)
+  std::vector<char> exceeded_;  ///< blocks to be chosen for anew (not bool: threads write side by side)
   bool valid_ = false;
-  double wall_leeway_ = 0;  ///< way of a wall that the selected contacts allow for [m]
-  double wall_way_ = 0;     ///< bound on what has been used of it [m]
+  double wall_bound_ = 0;  ///< way of a wall that the selected contacts allow for [m]
+  double wall_way_ = 0;    ///< bound on what has been used of it [m]
 };
 
 }  // namespace pastefit

@@ -101,18 +101,18 @@ Moved move_grains(const MoveTask& task) {
 
     acting = {};
 
-    const Row allowed = widened(task.rooms[i].from);
+    const Row allowed = widened(task.bounds[i].from);
     const Doubles<2> square = squares(place - allowed, v);
     const Doubles<2>::Lanes limits{allowed.v[3] * allowed.v[3], kRunawaySpeed * kRunawaySpeed};
     within &= square <= Doubles<2>(limits);
     largest = larger(square, largest);
     if (task.drag > 0) {
       const double rate = 0.5 * task.kick * task.drag;
-      moved.heat_drag += rate / inverse_mass * dot_of_vectors(v, velocity_before + v) +
-                         rate / inverse_inertia * dot_of_vectors(w, spin_before + w);
+      moved.dissipation_drag += rate / inverse_mass * dot_of_vectors(v, velocity_before + v) +
+                                rate / inverse_inertia * dot_of_vectors(w, spin_before + w);
     }
   }
-  moved.strayed = within[0] == 0;
+  moved.exceeded = within[0] == 0;
   if (within[1] == 0) moved.runaway = find_runaway(task);
   moved.fastest_square = largest.v[1];
   moved.stiffest = stiffest.v[3];

@@ -19,8 +19,8 @@ class World;
 /// The grains that a test starts from.
 struct Packing;
 
-/// How an interrupted run goes on (core/step/journal.h).
-class Journal;
+/// How an interrupted run goes on (core/step/run_checkpoint.h).
+class RunCheckpoint;
 
 /// Simulated time that a phase still takes [s].
 struct PhaseLeft {
@@ -28,7 +28,7 @@ struct PhaseLeft {
 };
 
 /// Where a run is, handed to the caller between blocks of steps.
-struct Moment {
+struct Snapshot {
   std::string_view phase;
   double time_s = 0;
   std::int64_t step = 0;
@@ -54,12 +54,12 @@ struct RunOptions {
   bool own_fill = false;                 ///< pour under the laws of the test, not under those that fills share
   std::int64_t step_limit = 20'000'000;  ///< a run beyond it fails with `step_limit`
   double watch_interval_s = 0.01;        ///< simulated time between two calls of `watch`
-  std::function<bool(const Moment&)> watch;  ///< called at that interval; returning false stops the run
+  std::function<bool(const Snapshot&)> watch;  ///< called at that interval; returning false stops the run
   /// The same every so many steps, however small these are, for a caller who waits: no more than a moment passes
   /// between.
-  std::function<bool(const Moment&)> pulse;
-  std::shared_ptr<const Packing> packing;  ///< filled mould to start from; empty: the run fills its own
-  std::shared_ptr<Journal> journal;        ///< given: hands out states of the run, and goes on from one
+  std::function<bool(const Snapshot&)> pulse;
+  std::shared_ptr<const Packing> packing;     ///< filled mould to start from; empty: the run fills its own
+  std::shared_ptr<RunCheckpoint> checkpoint;  ///< given: hands out states of the run, and goes on from one
   /// Given: a run ends as soon as it is certain that the reading will be lower, without any reading of its stage, or
   /// after its stage where it lies beyond; `RunSummary::ended_early` says so. Until then the run is the same, bit for
   /// bit. Which reading may be asked for, and what is certain, is the rig's word.
@@ -74,10 +74,11 @@ struct RunSummary {
   double time_step_s = 0;     ///< mean over the run
   double advised_step_s = 0;  ///< smallest step the scene asked for; a fixed step beyond it is not to be trusted
   double simulated_s = 0;
-  bool settled = false;                ///< every rest phase ended by its criterion, not by its cap
-  bool ended_early = false;            ///< the run left `RunOptions::cutoff`: the later readings were not taken
-  std::optional<double> energy_error;  ///< unexplained energy over energy put in; none without `StepOptions::ledger`
-  double asleep_share = 0;             ///< of the particle steps after the fill; `StepOptions::sleep`
+  bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
+  bool ended_early = false;  ///< the run left `RunOptions::cutoff`: the later readings were not taken
+  std::optional<double>
+      energy_error;         ///< unexplained energy over energy put in; none without `StepOptions::energy_balance`
+  double asleep_share = 0;  ///< of the particle steps after the fill; `StepOptions::sleep`
 };
 
 struct CurvePoint {

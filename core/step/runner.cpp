@@ -23,9 +23,9 @@ double largest_change(const std::vector<double>& before, const std::vector<doubl
   return largest;
 }
 
-// Unexplained energy over the energy put in beyond which a run is invalid. The ledger of a slump at the default step
-// closes to a thousandth, all over the admissible box to half a hundredth; an unstable step creates many times what was
-// put in.
+// Unexplained energy over the energy put in beyond which a run is invalid. The energy balance of a slump at the default
+// step closes to a thousandth, all over the admissible box to half a hundredth; an unstable step creates many times
+// what was put in.
 constexpr double kEnergyTolerance = 0.02;
 constexpr std::int64_t kStepsPerAudit = 8 * Stepper::kLedgerInterval;
 
@@ -34,13 +34,13 @@ constexpr double kStillFlowing = 0.1;  // of the mean radius
 
 }  // namespace
 
-Runner::Runner(World& world, const RunOptions& options, Posture posture)
-    : world_(world), options_(options), posture_(std::move(posture)), stepper_(world, options.steps) {
+Runner::Runner(World& world, const RunOptions& options, RestMeasure rest_measure)
+    : world_(world), options_(options), rest_measure_(std::move(rest_measure)), stepper_(world, options.steps) {
   summary_.particles = world.particles.count();
   summary_.settled = true;
 }
 
-Journal::Wait Runner::state() {
+RunCheckpoint::Wait Runner::state() {
   StateWriter visible, rest;
   seen(visible);
   if (write_own_) write_own_(visible);
@@ -48,7 +48,7 @@ Journal::Wait Runner::state() {
   return {visible.take(), rest.take()};
 }
 
-void Runner::recall(const Journal::Wait& left) {
+void Runner::recall(const RunCheckpoint::Wait& left) {
   const Fixtures fixtures(world_);
   StateReader visible(left.seen), rest(left.hidden);
   seen(visible);
@@ -72,24 +72,24 @@ void Runner::check_progress(double longest_s, double cap_s) const {
   demand(progress_.end <= world_.time + longest_s + rounding && progress_.cap == cap_s && progress_.waited >= 0 &&
              progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= options_.rest.windows,
          "the wait that was under way is another one");
-  demand(cap_s == 0 || progress_.before.size() == posture_(world_.particles).size(),
-         "the posture that was seen is of another specimen");
+  demand(cap_s == 0 || progress_.before.size() == rest_measure_(world_.particles).size(),
+         "the rest_measure that was seen is of another specimen");
 }
 
 template <class Body>
 std::optional<Failure> Runner::journaled(const Body& wait) {
-  Journal* const journal = options_.journal.get();
-  if (!journal) return wait(false);
-  if (const Journal::Wait* ended = journal->next_ended()) {
+  RunCheckpoint* const checkpoint = options_.checkpoint.get();
+  if (!checkpoint) return wait(false);
+  if (const RunCheckpoint::Wait* ended = checkpoint->next_ended()) {
     recall(*ended);
-    last_ended_ = journal->told() - 1;
+    last_ended_ = checkpoint->told() - 1;
     return {};
   }
-  const auto interrupted = journal->take_interrupted();
+  const auto interrupted = checkpoint->take_interrupted();
   if (interrupted) recall(*interrupted);
   demand(is_whole_, "a wait that the run goes on from left too little");
   if (auto problem = wait(interrupted.has_value())) return problem;
-  last_ended_ = journal->add(state(), last_ended_);
+  last_ended_ = checkpoint->add(state(), last_ended_);
   return {};
 }
 
@@ -109,7 +109,8 @@ PhaseLeft Runner::left(const Phase& phase) const {
 
 std::optional<Failure> Runner::tell(const Phase& phase) {
   if (stepper_.has_failed()) return {};  // the next step says so; no run can go on from here
-  if (options_.journal && world_.step % kStepsPerPulse == 0 && options_.journal->due()) options_.journal->keep(state());
+  if (options_.checkpoint && world_.step % kStepsPerPulse == 0 && options_.checkpoint->due())
+    options_.checkpoint->keep(state());
   if (options_.pulse && world_.step % kStepsPerPulse == 0 &&
       !options_.pulse({phase.name, world_.time, world_.step, &world_, 0, left(phase)}))
     return stopped_in(phase.name);
@@ -121,9 +122,9 @@ Failure Runner::stopped_in(std::string_view phase) const {
   return {FailureReason::stopped, std::string(phase), world_.step, world_.time, -1, 0, 0, "the run was asked to stop"};
 }
 
-std::optional<Failure> Runner::look(const Moment& moment) {
+std::optional<Failure> Runner::look(const Snapshot& snapshot) {
   next_watch_ = world_.time + options_.watch_interval_s;
-  return options_.watch(moment) ? std::nullopt : std::optional(stopped_in(moment.phase));
+  return options_.watch(snapshot) ? std::nullopt : std::optional(stopped_in(snapshot.phase));
 }
 
 std::optional<Failure> Runner::show(std::string_view phase) {
@@ -173,12 +174,12 @@ double Runner::energy_error() const {
   double mass = 0;
   for (std::int32_t i = 0; i < world_.particles.count(); ++i) mass += world_.particles.mass(i);
   const double least = 0.01 * mass * kGravity * world_.reference_radius;
-  const Ledger& ledger = stepper_.ledger();
-  return ledger.error() / std::max(ledger.put_in(), least);
+  const EnergyBalance& energy_balance = stepper_.energy_balance();
+  return energy_balance.error() / std::max(energy_balance.put_in(), least);
 }
 
 std::optional<Failure> Runner::audit(std::string_view phase) {
-  if (!options_.steps.ledger) return {};
+  if (!options_.steps.energy_balance) return {};
   const double error = energy_error();
   if (std::fabs(error) < kEnergyTolerance) return {};
   return Failure{
@@ -205,13 +206,13 @@ Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway
   if (midway)
     check_progress(criterion.window_s, cap_s);
   else
-    progress_ = {.before = posture_(world_.particles), .cap = cap_s};
+    progress_ = {.before = rest_measure_(world_.particles), .cap = cap_s};
   for (bool begun = midway; progress_.waited < cap_s; progress_.waited += criterion.window_s, begun = false) {
     if (!begun) progress_.end = world_.time + criterion.window_s;
     wait.failure = advance(phase);
     wait.done = phase.done && phase.done(world_);
     if (wait.failure || wait.done) return wait;
-    const std::vector<double> now = posture_(world_.particles);
+    const std::vector<double> now = rest_measure_(world_.particles);
     wait.change = largest_change(progress_.before, now);
     const bool is_calm = mean_speed(world_.particles) < slow && wait.change < criterion.change_over_radius * radius;
     progress_.calm = is_calm ? progress_.calm + 1 : 0;
@@ -251,7 +252,7 @@ std::optional<Failure> Runner::settle_now(const Phase& phase, double cap_s, bool
 
 const RunSummary& Runner::summary() {
   summary_.simulated_s = world_.time;
-  if (options_.steps.ledger) summary_.energy_error = energy_error();
+  if (options_.steps.energy_balance) summary_.energy_error = energy_error();
   summary_.asleep_share =
       static_cast<double>(asleep_steps_) / static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
   summary_.advised_step_s = stepper_.smallest_advised_step();

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/step/journal.h"
 #include "core/step/run.h"
+#include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
 #include "core/step/stepper.h"
 
@@ -22,14 +22,15 @@ struct Phase {
 };
 
 /// Lengths of a specimen that stay where they are once it is at rest [m]: the rig's word.
-using Posture = std::function<std::vector<double>(const Particles&)>;
+using RestMeasure = std::function<std::vector<double>(const Particles&)>;
 
 /// Runs a world through the phases of a test, watched by the caller, until each phase's own end.
 ///
-/// The specimen is at rest when its grains are slow and no length of its posture changes any more (`RestCriterion`).
+/// The specimen is at rest when its grains are slow and no length of its rest measure changes any more
+/// (`RestCriterion`).
 class Runner {
  public:
-  Runner(World& world, const RunOptions& options, Posture posture);
+  Runner(World& world, const RunOptions& options, RestMeasure rest_measure);
 
   /// Steps for `duration_s`, or until the phase is done.
   std::optional<Failure> run(const Phase& phase, double duration_s);
@@ -48,8 +49,8 @@ class Runner {
   std::optional<Failure> show(std::string_view phase);
 
   /// What the caller changes while a wait of this runner is under way: part of the state of a run that may be
-  /// interrupted (`Journal`). To be called before the first wait, once; the parts have to outlive it. `sound`: whether
-  /// they can be those of this test, when they were read.
+  /// interrupted (`RunCheckpoint`). To be called before the first wait, once; the parts have to outlive it. `sound`:
+  /// whether they can be those of this test, when they were read.
   template <class... Parts>
   void remember(std::function<bool()> sound, Parts&... parts) {
     write_own_ = [&parts...](StateWriter& state) { state(parts...); };
@@ -66,9 +67,9 @@ class Runner {
   void changed() { stepper_.forget_lists(); }
 
   const RunSummary& summary();
-  const Ledger& ledger() const { return stepper_.ledger(); }
-  /// The run goes on from where another one ended, whose ledger this is.
-  void follow(const Ledger& before) { stepper_.follow(before); }
+  const EnergyBalance& energy_balance() const { return stepper_.energy_balance(); }
+  /// The run goes on from where another one ended, whose energy balance this is.
+  void follow(const EnergyBalance& before) { stepper_.follow(before); }
 
  private:
   struct Wait {
@@ -82,7 +83,7 @@ class Runner {
     double end = 0;                ///< of the run, or the window of a wait for rest [s]
     double waited = 0;             ///< before this window [s]
     int calm = 0;                  ///< windows in a row
-    std::vector<double> before{};  ///< posture at the beginning of the window
+    std::vector<double> before{};  ///< rest measure at the beginning of the window
     double cap = 0;                ///< of a wait for rest [s]; 0: the wait is not for rest
     template <class Archive>
     void serialize(Archive& archive) {
@@ -90,11 +91,11 @@ class Runner {
     }
   };
   /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before
-  /// that (`Journal`).
+  /// that (`RunCheckpoint`).
   template <class Body>
   std::optional<Failure> journaled(const Body& wait);
-  Journal::Wait state();
-  void recall(const Journal::Wait& left);
+  RunCheckpoint::Wait state();
+  void recall(const RunCheckpoint::Wait& left);
   void check_progress(double longest_s, double cap_s) const;
   /// What a rig sees of the world, and changes of it.
   template <class Archive>
@@ -116,22 +117,22 @@ class Runner {
   Wait wait_for_rest(const Phase& phase, double cap_s, bool midway, const std::function<bool(const World&)>& free = {});
   std::optional<Failure> settle_now(const Phase& phase, double cap_s, bool midway);
   std::optional<Failure> tell(const Phase& phase);
-  std::optional<Failure> look(const Moment& moment);
+  std::optional<Failure> look(const Snapshot& snapshot);
   PhaseLeft left(const Phase& phase) const;
   Failure stopped_in(std::string_view phase) const;
-  /// Energy created over energy put in, as of the ledger's last look.
+  /// Energy created over energy put in, as of the last look of the energy balance.
   double energy_error() const;
   std::optional<Failure> audit(std::string_view phase);
 
   World& world_;
   const RunOptions& options_;
-  Posture posture_;
+  RestMeasure rest_measure_;
   Stepper stepper_;
   RunSummary summary_;
   double next_watch_ = 0;
   std::int64_t asleep_steps_ = 0;  ///< of a grain
   Progress progress_;
-  std::optional<std::size_t> last_ended_;  ///< wait in the journal
+  std::optional<std::size_t> last_ended_;  ///< wait in the checkpoint
   bool is_whole_ = true;                   ///< all of what was recalled last is there, and the run can go on from it
   std::function<void(StateWriter&)> write_own_;
   std::function<void(StateReader&)> read_own_;

@@ -49,7 +49,7 @@ void Sleepers::take_place(const World& world) {
   chosen_.assign(blocks, false);
   woken_.assign(blocks, false);
   asleep_.assign(blocks, 0);
-  if (heat_.size() < blocks) heat_.resize(blocks);
+  if (dissipation_.size() < blocks) dissipation_.resize(blocks);
 }
 
 void Sleepers::check_state(const World& world, bool listed) const {
@@ -59,7 +59,7 @@ void Sleepers::check_state(const World& world, bool listed) const {
   if (!listed) return;  // the rest is made anew
   demand(calm_.size() == grains && held_[0].size() == world.particles.load.size() &&
              held_[1].size() == held_[0].size() && energy_.size() >= blocks && chosen_.size() == blocks &&
-             woken_.size() == blocks && asleep_.size() == blocks && heat_.size() >= blocks,
+             woken_.size() == blocks && asleep_.size() == blocks && dissipation_.size() >= blocks,
          "the sleepers are of another number of grains");
   for (const std::vector<Load>& held : held_)
     for (const Load& load : held)
@@ -80,8 +80,8 @@ void Sleepers::fall_asleep(World& world, std::size_t block) {
     if (calm < kLooks || calm == kAsleep) continue;
     calm = kAsleep;
     const Velocity& velocity = particles.velocity[i];
-    heat_[block] += 0.5 / velocity.inverse_mass * dot(velocity.linear, velocity.linear) +
-                    0.5 / velocity.inverse_inertia * dot(velocity.angular, velocity.angular);
+    dissipation_[block] += 0.5 / velocity.inverse_mass * dot(velocity.linear, velocity.linear) +
+                           0.5 / velocity.inverse_inertia * dot(velocity.angular, velocity.angular);
     set_velocity(particles, i, {}, {});
   }
 }
@@ -151,13 +151,13 @@ std::int64_t Sleepers::count() const {
   return std::accumulate(asleep_.begin(), asleep_.end(), std::int64_t{0});
 }
 
-void Sleepers::enter(Ledger& ledger) const {
-  ledger.stored += total(energy_, EnergySums::stored);
-  ledger.heat_normal += total(energy_, EnergySums::normal_damping);
-  ledger.heat_sliding += total(energy_, EnergySums::sliding);
-  ledger.heat_rolling += total(energy_, EnergySums::rolling);
-  ledger.heat_bridges += total(energy_, EnergySums::bridges);
-  ledger.heat_sleep = std::accumulate(heat_.begin(), heat_.end(), 0.0);
+void Sleepers::enter(EnergyBalance& energy_balance) const {
+  energy_balance.stored += total(energy_, EnergySums::stored);
+  energy_balance.dissipation_normal += total(energy_, EnergySums::normal_damping);
+  energy_balance.dissipation_sliding += total(energy_, EnergySums::sliding);
+  energy_balance.dissipation_rolling += total(energy_, EnergySums::rolling);
+  energy_balance.dissipation_bridges += total(energy_, EnergySums::bridges);
+  energy_balance.dissipation_sleep = std::accumulate(dissipation_.begin(), dissipation_.end(), 0.0);
 }
 
 }  // namespace pastefit

@@ -3,20 +3,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/step/energy_balance.h"
 #include "core/step/kernels.h"
-#include "core/step/ledger.h"
 #include "core/world/world.h"
 
 namespace pastefit {
 
 /// Grains at rest, and what is saved by their resting. A grain falls asleep, when its block's pairs are chosen, if for
 /// some hundred steps it has been slower than a thousandth of sqrt(g R), with less than 5 % of its weight left over by
-/// its contacts. It then stands still; what its speed held becomes heat. A pair of two sleepers is dormant: it stays in
-/// its block's lists with its memory, but what it exerts, which does not change, is computed once, at the choice, and
-/// held. The pairs of a sleeper with walls and with grains that are awake act as ever; if with what is held they leave
-/// over more than 20 % of its weight, it wakes in the same step with the right force. Until the pairs of its block are
-/// chosen anew, the dormant ones are computed in every step. So whatever reaches a sleeper wakes it: a grain that lands
-/// or leaves, a wall that moves, another gravity.
+/// its contacts. It then stands still; what its speed held is dissipated. A pair of two sleepers is dormant: it stays
+/// in its block's lists with its memory, but what it exerts, which does not change, is computed once, at the choice,
+/// and held. The pairs of a sleeper with walls and with grains that are awake act as ever; if with what is held they
+/// leave over more than 20 % of its weight, it wakes in the same step with the right force. Until the pairs of its
+/// block are chosen anew, the dormant ones are computed in every step. So whatever reaches a sleeper wakes it: a grain
+/// that lands or leaves, a wall that moves, another gravity.
 ///
 /// Limits: no weight, no sleep. A grain that only a dashpot holds up (constant-torque rolling on a slope) creeps as
 /// long as it is awake: asleep it would start to roll, wakes at once, and creeps on from rest.
@@ -40,7 +40,7 @@ class Sleepers {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(calm_, held_[0], held_[1], energy_, chosen_, woken_, asleep_, heat_);
+    archive(calm_, held_[0], held_[1], energy_, chosen_, woken_, asleep_, dissipation_);
   }
 
   /// Throws `BadState` unless what was read is of this world; `listed`: its blocks are those of the world as it is.
@@ -49,8 +49,8 @@ class Sleepers {
   bool is_asleep(std::int32_t identity) const { return calm_[identity] == kAsleep; }
   /// Of all blocks in the last step.
   std::int64_t count() const;
-  /// What they have turned into heat and what dormant pairs store.
-  void enter(Ledger& ledger) const;
+  /// What they have dissipated and what dormant pairs store.
+  void enter(EnergyBalance& energy_balance) const;
 
  private:
   static constexpr std::uint8_t kAsleep = 255;
@@ -64,7 +64,7 @@ class Sleepers {
   std::vector<char> chosen_;
   std::vector<char> woken_;           ///< blocks that have grains awake among dormant pairs
   std::vector<std::int32_t> asleep_;  ///< of each block
-  std::vector<double> heat_;          ///< by block
+  std::vector<double> dissipation_;   ///< by block
 };
 
 }  // namespace pastefit

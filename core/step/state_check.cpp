@@ -88,25 +88,25 @@ void check_grains(const List& list, const Ends& ends) {
 
 void check_memory(const ContactList& list, std::int32_t k) {
   const Contact contact = list.contact(k);
-  const float numbers[] = {contact.root_radius, contact.root_mass,           contact.damper,
-                           contact.drag,        contact.root_contact_radius, contact.bridge};
+  const float numbers[] = {contact.sqrt_radius, contact.sqrt_mass,           contact.damper,
+                           contact.drag,        contact.sqrt_contact_radius, contact.bridge};
   demand(all_possible(numbers) && all_possible(contact.slip) && all_possible(contact.roll), "a contact is not finite");
 }
 
 void check_candidates(const Block& block, const Ends& ends) {
-  std::array<std::int32_t, Candidates::kinds> kept{};
+  std::array<std::int32_t, NeighbourList::kinds> kept{};
   demand(block.candidates.is_of(ends.end - ends.begin), "the candidates are of other grains");
-  block.candidates.each(ends.begin, [&](Candidates::Pair pair, std::int32_t, std::int32_t) {
-    demand(pair.kept() < Candidates::kinds && pair.grain() >= ends.begin && pair.grain() < ends.next_end,
+  block.candidates.each(ends.begin, [&](NeighbourList::Pair pair, std::int32_t, std::int32_t) {
+    demand(pair.kept() < NeighbourList::kinds && pair.grain() >= ends.begin && pair.grain() < ends.next_end,
            "a candidate is of a grain that its block does not have");
     ++kept[pair.kept()];
   });
   const ContactList& contacts = block.contacts;
   const BridgeList& bridges = block.bridges;
   const bool fits =
-      kept[Candidates::touching] <= contacts.near && kept[Candidates::near] <= contacts.awake - contacts.near &&
-      kept[Candidates::dormant] <= contacts.count - contacts.awake && kept[Candidates::bridge] <= bridges.awake &&
-      kept[Candidates::dormant_bridge] <= bridges.count - bridges.awake;
+      kept[NeighbourList::touching] <= contacts.near && kept[NeighbourList::near] <= contacts.awake - contacts.near &&
+      kept[NeighbourList::dormant] <= contacts.count - contacts.awake && kept[NeighbourList::bridge] <= bridges.awake &&
+      kept[NeighbourList::dormant_bridge] <= bridges.count - bridges.awake;
   demand(fits, "more candidates are kept than the lists have");
 }
 

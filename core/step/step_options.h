@@ -17,16 +17,16 @@ struct StepOptions {
   double skin = 0.8;                   ///< skin of the candidate list over the mean radius
   bool sleep = false;                  ///< grains at rest sleep (core/step/sleepers.h): another heap, the same readings
   int threads = 1;                     ///< that share the work of a step; the bits do not depend on it
-  /// Energy is accounted for (core/step/ledger.h), and a run that makes or loses some of it fails. Without: the same
-  /// motion, bit for bit, and only the other kinds of failure are seen.
-  bool ledger = true;
+  /// Energy is accounted for (core/step/energy_balance.h), and a run that makes or loses some of it fails. Without: the
+  /// same motion, bit for bit, and only the other kinds of failure are seen.
+  bool energy_balance = true;
   const KernelTable* kernels = nullptr;  ///< empty: the widest this processor runs
   StageClock* clock = nullptr;           ///< what the stages of a step take; with one thread only
 };
 
 /// When a specimen counts as at rest: the root mean square speed of its grains is below a bound, and no length of its
-/// posture (`Runner`) has changed by more than a share of a radius, in so many windows in a row. A stiff heap swings
-/// for long like a jelly; that moves no reading by more than these bounds.
+/// rest measure (`Runner`) has changed by more than a share of a radius, in so many windows in a row. A stiff heap
+/// swings for long like a jelly; that moves no reading by more than these bounds.
 struct RestCriterion {
   double window_s = 0.05;
   int windows = 2;

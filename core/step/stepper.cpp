@@ -40,11 +40,11 @@ double stiffest_grain(const Particles& particles) {
 
 /// What the overlaps of all contacts hold [J].
 double elastic_energy(const World& world) {
-  const auto held = [&](const PairConstants& pair, double root_radius, double overlap) {
+  const auto held = [&](const PairConstants& pair, double sqrt_radius, double overlap) {
     return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
-      const Press<double> press = law.at(pair, root_radius, std::max(overlap, 0.0), 0.0);
-      double energy = law.energy(pair, root_radius * root_radius, press, overlap);
-      if constexpr (law.adheres) energy += law.surface(pair, root_radius * root_radius, press.contact_radius);
+      const NormalForce<double> normal_force = law.at(pair, sqrt_radius, std::max(overlap, 0.0), 0.0);
+      double energy = law.energy(pair, sqrt_radius * sqrt_radius, normal_force, overlap);
+      if constexpr (law.adheres) energy += law.surface(pair, sqrt_radius * sqrt_radius, normal_force.contact_radius);
       return energy;
     });
   };
@@ -54,15 +54,15 @@ double elastic_energy(const World& world) {
       const std::int32_t i = block.contacts.first(k), j = block.contacts.second(k);
       if (i == j) continue;  // padding
       const Motion &a = world.particles.motion[i], &b = world.particles.motion[j];
-      const double overlap = a.radius + b.radius - norm(world.domain.way(a.position, b.position));
-      sum += held(world.grain_pair, block.contacts.root_radius(k), overlap);
+      const double overlap = a.radius + b.radius - norm(world.domain.minimum_image(a.position, b.position));
+      sum += held(world.grain_pair, block.contacts.sqrt_radius(k), overlap);
     }
   for (const Block& block : world.pairs.blocks)
     for (std::size_t w = 0; w < block.walls.size(); ++w)
       for (std::int32_t k = 0; k < block.walls[w].count; ++k) {
         const Motion& grain = world.particles.motion[block.walls[w].contacts.first(k)];
         const double overlap = grain.radius - nearest(world.walls[w].shape, grain.position).distance;
-        sum += held(world.walls[w].pair, block.walls[w].contacts.root_radius(k), overlap);
+        sum += held(world.walls[w].pair, block.walls[w].contacts.sqrt_radius(k), overlap);
       }
   return sum;
 }
@@ -73,10 +73,10 @@ Stepper::Stepper(World& world, const StepOptions& options)
     : world_(world),
       options_(options),
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
-      team_(options.threads),
+      pool_(options.threads),
       sleepers_(options.sleep ? std::make_optional<Sleepers>() : std::nullopt),
-      lists_(world, options.skin * world.reference_radius, team_, sleepers_ ? &*sleepers_ : nullptr, options.clock),
-      wall_batches_(team_.size()) {
+      lists_(world, options.skin * world.reference_radius, pool_, sleepers_ ? &*sleepers_ : nullptr, options.clock),
+      wall_batches_(pool_.size()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
     smallest_radius_ = std::min(smallest_radius_, world.particles.motion[i].radius);
@@ -87,8 +87,8 @@ Stepper::Stepper(World& world, const StepOptions& options)
 
 std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& drive) {
   if (auto problem = maintain_lists()) return problem;
-  // All forces before any grain moves: for the first step, which follows from them, and for the ledger. Else a block is
-  // moved while it is in a cache: a tenth faster in a bed too large for it.
+  // All forces before any grain moves: for the first step, which follows from them, and for the energy_balance. Else a
+  // block is moved while it is in a cache: a tenth faster in a bed too large for it.
   const bool first = dt_ == 0, forces_first = first || looks_at_energy();
   double dt = first ? 0 : next_step();
   compute_forces(forces_first ? std::nullopt : std::make_optional(dt));
@@ -105,11 +105,11 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
     return failure(FailureReason::step_collapse, -1, dt, kSmallestShare * time_step_.first(),
                    "the stable time step shrinks without end; take softer grains, less cohesion or a slower lift");
   if (drive) drive(world_, dt);
-  if (options_.ledger) {
+  if (options_.energy_balance) {
     account_walls(dt);
     look_at_energy(dt);
   }
-  if (forces_first) team_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) { move_block(b, dt); });
+  if (forces_first) pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) { move_block(b, dt); });
   note_moved();
   for (Wall& wall : world_.walls) move(wall, dt);
   world_.time += dt;
@@ -163,10 +163,10 @@ void Stepper::compute_forces(std::optional<double> dt) {
   wall_shares_.assign(blocks * world_.walls.size(), {});
   moved_.assign(blocks, {});
   in_two_rounds(
-      team_, static_cast<int>(blocks), [&](int b, int) { act_on_pairs(b); },
+      pool_, static_cast<int>(blocks), [&](int b, int) { act_on_pairs(b); },
       [&](int b, int member) {
         act_on_walls(b, member);
-        if (sleepers_ && sleepers_->balance(world_, b)) lists_.note_strayed(b);
+        if (sleepers_ && sleepers_->balance(world_, b)) lists_.note_exceeded(b);
         if (dt) move_block(b, *dt);
       });
   add_up_walls();
@@ -180,7 +180,7 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
   task.pair = pair;
   task.dt = dt_;
   task.energy = &energy_[block];
-  task.energies = looks_at_energy() ? Energies::all : options_.ledger ? Energies::heat : Energies::none;
+  task.energies = looks_at_energy() ? Energies::all : options_.energy_balance ? Energies::dissipation : Energies::none;
   return task;
 }
 
@@ -294,12 +294,12 @@ void Stepper::account_walls(double dt) {
   for (const Wall& wall : world_.walls) {
     const double before = dot(wall.force, wall.velocity_before) + dot(wall.torque, wall.angular_velocity_before);
     const double after = dot(wall.force, wall.velocity) + dot(wall.torque, wall.angular_velocity);
-    ledger_.work_of_walls -= 0.5 * (dt_ * before + dt * after);
-    ledger_.effort_of_walls += 0.5 * (dt_ * std::fabs(before) + dt * std::fabs(after));
+    energy_balance_.work_of_walls -= 0.5 * (dt_ * before + dt * after);
+    energy_balance_.effort_of_walls += 0.5 * (dt_ * std::fabs(before) + dt * std::fabs(after));
   }
 }
 
-/// What the contacts and bridges of a wall hold now [J]. They are asked in a step of no length, whose memory is thrown
+/// What the contacts and bridges of a wall hold now [J]. They are asked in a step of no length, whose history is thrown
 /// away.
 double Stepper::held_by(std::size_t w) {
   const Wall& wall = world_.walls[w];
@@ -318,11 +318,11 @@ double Stepper::held_by(std::size_t w) {
 }
 
 void Stepper::take_away_last_wall() {
-  if (options_.ledger) {
+  if (options_.energy_balance) {
     const double held = held_by(world_.walls.size() - 1);
-    ledger_.stored -= held;
-    ledger_.work_of_walls -= held;
-    ledger_.effort_of_walls += std::fabs(held);
+    energy_balance_.stored -= held;
+    energy_balance_.work_of_walls -= held;
+    energy_balance_.effort_of_walls += std::fabs(held);
   }
   world_.walls.pop_back();
   forget_lists();
@@ -333,7 +333,7 @@ void Stepper::look_at_energy(double dt) {
   const Particles& particles = world_.particles;
   const double half_kick = 0.25 * (dt_ + dt);
   if (!looks_at_energy()) return;
-  ledger_.kinetic = ledger_.height = 0;
+  energy_balance_.kinetic = energy_balance_.height = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {
     const Motion& motion = particles.motion[i];
     const Load& load = particles.load[i];
@@ -342,36 +342,36 @@ void Stepper::look_at_energy(double dt) {
     Vec3 v = velocity.linear + (half_kick / m) * vector_of(load.force);
     v.z -= half_kick * world_.gravity;
     const Vec3 w = velocity.angular + (half_kick / inertia) * vector_of(load.torque);
-    ledger_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
-    ledger_.height += m * world_.gravity * motion.position.z;
+    energy_balance_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
+    energy_balance_.height += m * world_.gravity * motion.position.z;
   }
-  ledger_.stored = total(energy_, EnergySums::stored);
-  ledger_.heat_normal = total(energy_, EnergySums::normal_damping);
-  ledger_.heat_sliding = total(energy_, EnergySums::sliding);
-  ledger_.heat_rolling = total(energy_, EnergySums::rolling);
-  ledger_.heat_bridges = total(energy_, EnergySums::bridges);
-  if (sleepers_) sleepers_->enter(ledger_);
+  energy_balance_.stored = total(energy_, EnergySums::stored);
+  energy_balance_.dissipation_normal = total(energy_, EnergySums::normal_damping);
+  energy_balance_.dissipation_sliding = total(energy_, EnergySums::sliding);
+  energy_balance_.dissipation_rolling = total(energy_, EnergySums::rolling);
+  energy_balance_.dissipation_bridges = total(energy_, EnergySums::bridges);
+  if (sleepers_) sleepers_->enter(energy_balance_);
   if (looked_) return;
   looked_ = true;
-  ledger_.start = ledger_.mechanical() + ledger_.heat() - ledger_.work_of_walls;
-  ledger_.start_height = ledger_.height;
-  if (ledger_.earlier_put_in > 0) return;
-  ledger_.start_kinetic = ledger_.kinetic;
-  ledger_.start_elastic = elastic_energy(world_);
+  energy_balance_.start = energy_balance_.mechanical() + energy_balance_.dissipation() - energy_balance_.work_of_walls;
+  energy_balance_.start_height = energy_balance_.height;
+  if (energy_balance_.earlier_put_in > 0) return;
+  energy_balance_.start_kinetic = energy_balance_.kinetic;
+  energy_balance_.start_elastic = elastic_energy(world_);
 }
 
-void Stepper::follow(const Ledger& before) {
-  ledger_.earlier_error = before.error();
-  ledger_.earlier_put_in = before.put_in();
+void Stepper::follow(const EnergyBalance& before) {
+  energy_balance_.earlier_error = before.error();
+  energy_balance_.earlier_put_in = before.put_in();
 }
 
 void Stepper::move_block(int b, double dt) {
   const Timed timed(options_.clock, StageClock::move);
   Particles& particles = world_.particles;
   const Block& block = world_.pairs.blocks[b];
-  moved_[b] = kernels_.move({particles.motion.data(), particles.velocity.data(), particles.load.data(), lists_.rooms(),
+  moved_[b] = kernels_.move({particles.motion.data(), particles.velocity.data(), particles.load.data(), lists_.bounds(),
                              block.grains, block.grains_end, dt, 0.5 * (dt_ + dt), world_.gravity, world_.drag});
-  if (moved_[b].strayed) lists_.note_strayed(b);
+  if (moved_[b].exceeded) lists_.note_exceeded(b);
 }
 
 /// What the moved grains of all blocks have in common; the dummies' loads are used up like theirs.
@@ -382,7 +382,7 @@ void Stepper::note_moved() {
   for (const Moved& moved : moved_) {
     fastest_square = std::max(fastest_square, moved.fastest_square);
     stiffest_ = std::max(stiffest_, moved.stiffest);
-    ledger_.heat_drag += moved.heat_drag;
+    energy_balance_.dissipation_drag += moved.dissipation_drag;
     if (moved.runaway >= 0) runaway_ = moved.runaway;
   }
   fastest_ = std::sqrt(fastest_square);

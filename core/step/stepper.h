@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/result.h"
+#include "core/step/energy_balance.h"
 #include "core/step/kernels.h"
-#include "core/step/ledger.h"
 #include "core/step/lists.h"
 #include "core/step/time_step.h"
 #include "core/world/world.h"
@@ -41,15 +41,15 @@ class Stepper {
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
   /// As of the last step that was a multiple of `kLedgerInterval`.
-  const Ledger& ledger() const { return ledger_; }
-  /// The run goes on from where another one ended, whose ledger this is.
-  void follow(const Ledger& before);
+  const EnergyBalance& energy_balance() const { return energy_balance_; }
+  /// The run goes on from where another one ended, whose energy balance this is.
+  void follow(const EnergyBalance& before);
   static constexpr std::int64_t kLedgerInterval = 32;
-  /// For `Journal`: all but the world. The rest is scratch, or follows from the test.
+  /// For `RunCheckpoint`: all but the world. The rest is scratch, or follows from the test.
   template <class Archive>
   void serialize(Archive& archive) {
     if (sleepers_) archive(*sleepers_);
-    archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, time_step_, energy_, ledger_, looked_);
+    archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, time_step_, energy_, energy_balance_, looked_);
   }
   /// Throws `BadState` unless what was read is of the world as it is.
   void check_state() const;
@@ -80,14 +80,14 @@ class Stepper {
   double held_by(std::size_t wall);
   void move_block(int block, double dt);
   void note_moved();
-  bool looks_at_energy() const { return options_.ledger && world_.step % kLedgerInterval == 0; }
+  bool looks_at_energy() const { return options_.energy_balance && world_.step % kLedgerInterval == 0; }
   void look_at_energy(double dt);
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
   World& world_;
   StepOptions options_;
   const KernelTable& kernels_;
-  Team team_;
+  ThreadPool pool_;
   std::optional<Sleepers> sleepers_;  ///< where grains may sleep
   Lists lists_;
 
@@ -99,11 +99,11 @@ class Stepper {
   double smallest_radius_ = 0, smallest_mass_ = 0;
   TimeStep time_step_;
   std::vector<EnergySums> energy_;               ///< of each block
-  std::vector<Column<WallBatch>> wall_batches_;  ///< of each member of the team: of a block's contacts with a wall
+  std::vector<Column<WallBatch>> wall_batches_;  ///< of each member of the pool: of a block's contacts with a wall
   std::vector<WallShare> wall_shares_;           ///< of each block, for each wall
   std::vector<Moved> moved_;
-  Ledger ledger_;
-  bool looked_ = false;  ///< the ledger has its start
+  EnergyBalance energy_balance_;
+  bool looked_ = false;  ///< the energy balance has its start
 };
 
 }  // namespace pastefit

@@ -21,35 +21,35 @@ double level_below(double step) {
   return std::ldexp(std::floor(mantissa * 2 * kLevelsPerOctave) / (2 * kLevelsPerOctave), octave);
 }
 
-double stability_limit(const Pace& pace) {
-  return pace.stiffest > 0 ? std::sqrt(2 / pace.stiffest) : 1e300;
+double stability_limit(const StabilityLimits& limits) {
+  return limits.stiffest > 0 ? std::sqrt(2 / limits.stiffest) : 1e300;
 }
 
-double impact_limit(const World& world, const Pace& pace) {
+double impact_limit(const World& world, const StabilityLimits& limits) {
   double loss = world.grain_pair.lost_share;
   for (const Wall& wall : world.walls) loss = std::min(loss, wall.pair.lost_share);
-  const double mass = 0.5 * pace.smallest_mass, radius = 0.5 * pace.smallest_radius;
-  const double speed = std::max(pace.fastest, kSlowest);
+  const double mass = 0.5 * limits.smallest_mass, radius = 0.5 * limits.smallest_radius;
+  const double speed = std::max(limits.fastest, kSlowest);
   const PairConstants& pair = world.grain_pair;
   const double shortest = with_law(NormalLaws{}, acting(world.normal, pair),
                                    [&](auto law) { return law.collision_time(pair, radius, mass, speed); });
   return std::cbrt(std::max(loss, kLeastLoss)) * shortest;
 }
 
-double bridge_limit(const World& world, const Pace& pace) {
+double bridge_limit(const World& world, const StabilityLimits& limits) {
   const PairConstants& pair = world.grain_pair;
   if (world.attraction == BridgeShape::none || pair.rupture_gap <= 0) return 1e300;
-  const double scale = pace.smallest_radius / world.reference_radius;
+  const double scale = limits.smallest_radius / world.reference_radius;
   const double gap = pair.rupture_gap * scale;
-  const double escape = std::sqrt(2 * pair.bridge_c * scale * scale * gap / (0.5 * pace.smallest_mass));
-  return gap / std::clamp(pace.fastest, kSlowest, std::max(kSlowest, kFastCrossing * escape));
+  const double escape = std::sqrt(2 * pair.bridge_c * scale * scale * gap / (0.5 * limits.smallest_mass));
+  return gap / std::clamp(limits.fastest, kSlowest, std::max(kSlowest, kFastCrossing * escape));
 }
 
 }  // namespace
 
-double advised_step(const World& world, const Pace& pace, const StepOptions& options) {
-  return std::min({options.safety * stability_limit(pace), impact_limit(world, pace) / options.impact_resolution,
-                   bridge_limit(world, pace) / options.bridge_resolution});
+double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options) {
+  return std::min({options.safety * stability_limit(limits), impact_limit(world, limits) / options.impact_resolution,
+                   bridge_limit(world, limits) / options.bridge_resolution});
 }
 
 bool TimeStep::is_sound() const {

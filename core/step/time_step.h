@@ -6,7 +6,7 @@
 namespace pastefit {
 
 /// What limits the step of a scene.
-struct Pace {
+struct StabilityLimits {
   double smallest_radius = 0;  ///< [m]
   double smallest_mass = 0;    ///< [kg]
   double fastest = 0;          ///< [m/s]
@@ -21,7 +21,7 @@ struct Pace {
 ///   stays the same small share of the energy that the collision loses;
 ///   bridges: none is crossed in fewer than bridge_resolution steps. A grain that is ten times as fast as a bridge can
 ///   make it feels a hundredth of its energy there; beyond that the step does not follow the speed any more.
-double advised_step(const World& world, const Pace& pace, const StepOptions& options);
+double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options);
 
 /// The step a run takes: as advised, but constant for long. A step that follows the stiffness of a contact up and down
 /// creates energy in every collision (14 % of what a slump puts in, in one case of the stress test). So it takes one of

@@ -5,16 +5,16 @@
 namespace pastefit {
 
 /// Pairs are kept and worked on in batches of this many, each value of a batch a cache line: a kernel reads one stream
-/// of memory, and whole lines of it. Lists end with pairs of the dummy grain with itself.
+/// of history, and whole lines of it. Lists end with pairs of the dummy grain with itself.
 inline constexpr int kBatch = 16;
 
 /// Pairs that touch or may touch before the next selection, 56 bytes a pair. What they remember from step to step is
-/// explained with `Memory` in core/laws/meeting.h.
+/// explained with `ContactHistory` in core/laws/contact_kinematics.h.
 struct alignas(64) ContactBatch {
   std::int32_t i[kBatch], j[kBatch];             ///< j unused with a wall
-  float root_radius[kBatch], root_mass[kBatch];  ///< of the effective radius and mass
+  float sqrt_radius[kBatch], sqrt_mass[kBatch];  ///< of the effective radius and mass
   float slip[3][kBatch], roll[3][kBatch];
-  float root_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];
+  float sqrt_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];
 };
 
 /// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need

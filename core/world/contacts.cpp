@@ -24,14 +24,14 @@ Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j) 
   const double ra = particles.motion[i].radius, rb = particles.motion[j].radius;
   const double lightness_a = particles.velocity[i].inverse_mass, lightness_b = particles.velocity[j].inverse_mass;
   Contact contact;
-  contact.root_radius = static_cast<float>(std::sqrt(i == j ? ra : ra * rb / (ra + rb)));
-  contact.root_mass = static_cast<float>(std::sqrt(1 / (i == j ? lightness_a : lightness_a + lightness_b)));
+  contact.sqrt_radius = static_cast<float>(std::sqrt(i == j ? ra : ra * rb / (ra + rb)));
+  contact.sqrt_mass = static_cast<float>(std::sqrt(1 / (i == j ? lightness_a : lightness_a + lightness_b)));
   return contact;
 }
 
 void ContactList::pad(std::int32_t dummy) {
   Contact nothing;
-  nothing.root_radius = std::sqrt(kNoSize);
+  nothing.sqrt_radius = std::sqrt(kNoSize);
   while (count % kBatch != 0) add(dummy, dummy, nothing);
 }
 

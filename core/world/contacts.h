@@ -12,9 +12,9 @@ namespace pastefit {
 
 /// A contact taken out of its batch; what it remembers is zero for a pair that has met only now.
 struct Contact {
-  float root_radius = 0, root_mass = 1;
+  float sqrt_radius = 0, sqrt_mass = 1;
   float slip[3] = {}, roll[3] = {};
-  float root_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
+  float sqrt_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
 
   /// The same seen from the other grain: vectors change their sign.
   Contact turned() const;
@@ -80,9 +80,9 @@ class ContactList : public BatchList<ContactBatch> {
   Contact contact(std::int32_t k) const;
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
-  float root_radius(std::int32_t k) const { return batches[k / kBatch].root_radius[k % kBatch]; }
+  float sqrt_radius(std::int32_t k) const { return batches[k / kBatch].sqrt_radius[k % kBatch]; }
   float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
-  bool touched(std::int32_t k) const { return batches[k / kBatch].root_contact_radius[k % kBatch] > 0; }
+  bool touched(std::int32_t k) const { return batches[k / kBatch].sqrt_contact_radius[k % kBatch] > 0; }
   /// Whether it is more than two grains that have met only now.
   bool remembers(std::int32_t k) const { return touched(k) || bridge(k) > 0; }
 };
@@ -103,13 +103,13 @@ inline void ContactList::add(std::int32_t i, std::int32_t j, const Contact& cont
   ContactBatch& batch = next();
   batch.i[lane] = i;
   batch.j[lane] = j;
-  batch.root_radius[lane] = contact.root_radius;
-  batch.root_mass[lane] = contact.root_mass;
+  batch.sqrt_radius[lane] = contact.sqrt_radius;
+  batch.sqrt_mass[lane] = contact.sqrt_mass;
   for (int c = 0; c < 3; ++c) {
     batch.slip[c][lane] = contact.slip[c];
     batch.roll[c][lane] = contact.roll[c];
   }
-  batch.root_contact_radius[lane] = contact.root_contact_radius;
+  batch.sqrt_contact_radius[lane] = contact.sqrt_contact_radius;
   batch.damper[lane] = contact.damper;
   batch.drag[lane] = contact.drag;
   batch.bridge[lane] = contact.bridge;
@@ -119,13 +119,13 @@ inline Contact ContactList::contact(std::int32_t k) const {
   const ContactBatch& batch = batches[k / kBatch];
   const int lane = k % kBatch;
   Contact contact;
-  contact.root_radius = batch.root_radius[lane];
-  contact.root_mass = batch.root_mass[lane];
+  contact.sqrt_radius = batch.sqrt_radius[lane];
+  contact.sqrt_mass = batch.sqrt_mass[lane];
   for (int c = 0; c < 3; ++c) {
     contact.slip[c] = batch.slip[c][lane];
     contact.roll[c] = batch.roll[c][lane];
   }
-  contact.root_contact_radius = batch.root_contact_radius[lane];
+  contact.sqrt_contact_radius = batch.sqrt_contact_radius[lane];
   contact.damper = batch.damper[lane];
   contact.drag = batch.drag[lane];
   contact.bridge = batch.bridge[lane];

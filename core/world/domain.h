@@ -18,9 +18,9 @@ struct Domain {
 
   bool repeats() const { return period > 0; }
 
-  /// The way from one place to the nearest image of another, of places less than one and a half periods apart [m].
+  /// The vector from one place to the nearest image of another, of places less than one and a half periods apart [m].
   template <class Real>
-  PASTEFIT_INLINE BasicVec3<Real> way(const BasicVec3<Real>& from, const BasicVec3<Real>& to) const {
+  PASTEFIT_INLINE BasicVec3<Real> minimum_image(const BasicVec3<Real>& from, const BasicVec3<Real>& to) const {
     return shortest(to - from);
   }
   template <class Real>

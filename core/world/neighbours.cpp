@@ -67,18 +67,18 @@ class Remembered {
   }
 
   /// Puts the pair's memory into the block's lists, and returns into which of them.
-  Candidates::Kept recall(std::int32_t i, std::int32_t j, Block& block) const {
+  NeighbourList::Kept recall(std::int32_t i, std::int32_t j, Block& block) const {
     const std::int32_t p = met_[j];
-    if (p < first_[i] || p >= first_[i + 1]) return Candidates::nowhere;
+    if (p < first_[i] || p >= first_[i + 1]) return NeighbourList::nowhere;
     const Known& known = known_[p];
     const Block& old = blocks_[known.block];
     if (known.bridge) {
       block.bridges.add(i, j, 0, old.bridges.bridge(known.place));
-      return Candidates::bridge;
+      return NeighbourList::bridge;
     }
     const Contact contact = old.contacts.contact(known.place);
     block.contacts.add(i, j, known.turned ? contact.turned() : contact);
-    return Candidates::touching;
+    return NeighbourList::touching;
   }
 
  private:
@@ -163,7 +163,8 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
   if (domain.repeats())
     for (std::int32_t i = 0; i < n; ++i) particles.motion[i].position = domain.put_back(particles.motion[i].position);
   const double largest = largest_of(particles);
-  const double farthest = std::max({reach.formation_gap, reach.rupture_gap, reach.tear_gap}) / reach.reference_radius;
+  const double farthest =
+      std::max({reach.formation_gap, reach.rupture_gap, reach.pull_off_gap}) / reach.reference_radius;
   const Cells cells(particles, domain, 2 * largest + farthest * largest + skin);
   const Sorted sorted = sort_by_cell(particles, cells);
   const std::vector<std::int32_t>& first = sorted.first;
@@ -176,7 +177,7 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
   Remembered remembered(old, new_place);
   Vicinity vicinity(particles, domain, farthest, skin);
-  Candidates listed;  // copied to the blocks, which take no more memory than they need
+  NeighbourList listed;  // copied to the blocks, which take no more memory than they need
   auto block = pairs.blocks.begin();
   std::int32_t cell = 0;
   for (std::int32_t z = 0; z < cells.layers(); ++z)
@@ -195,7 +196,9 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
             block->contacts.reserve(std::prev(block)->contacts.count);
           }
           remembered.turn_to(i);
-          const auto list = [&](std::int32_t j) { listed.add(Candidates::Pair(j, remembered.recall(i, j, *block))); };
+          const auto list = [&](std::int32_t j) {
+            listed.add(NeighbourList::Pair(j, remembered.recall(i, j, *block)));
+          };
           vicinity.find(i, i + 1 - first[cell], list);
           listed.end_grain();
         }

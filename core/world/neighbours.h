@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/team.h"
-#include "core/world/candidates.h"
+#include "core/thread_pool.h"
 #include "core/world/contacts.h"
 #include "core/world/domain.h"
+#include "core/world/neighbour_list.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
@@ -25,7 +25,7 @@ struct WallContacts {
 /// lie in the same block or in the next: blocks of the same parity can be worked on at the same time.
 struct Block {
   std::int32_t grains = 0, grains_end = 0;
-  Candidates candidates;
+  NeighbourList candidates;
   ContactList contacts;
   BridgeList bridges;
   std::vector<WallContacts> walls;  ///< one for each wall of the world
@@ -49,8 +49,8 @@ struct Pairs {
 /// odd number after both of its neighbours. One member alone goes to and fro, so that what two blocks share stays in a
 /// cache; sums have the same order.
 template <class Work>
-void in_two_rounds(Team& team, int blocks, const Work& work) {
-  if (team.size() == 1) {
+void in_two_rounds(ThreadPool& pool, int blocks, const Work& work) {
+  if (pool.size() == 1) {
     for (int even = 0; even <= blocks; even += 2) {
       if (even < blocks) work(even, 0);
       if (even > 0) work(even - 1, 0);
@@ -58,14 +58,14 @@ void in_two_rounds(Team& team, int blocks, const Work& work) {
     return;
   }
   for (const int first : {0, 1})
-    team.each((blocks + 1 - first) / 2, [&](int task, int member) { work(2 * task + first, member); });
+    pool.each((blocks + 1 - first) / 2, [&](int task, int member) { work(2 * task + first, member); });
 }
 
 /// The same, and `finish(block, member)` for every block as soon as it and the one before it have been worked on: no
 /// pair touches its grains any more.
 template <class Work, class Finish>
-void in_two_rounds(Team& team, int blocks, const Work& work, const Finish& finish) {
-  in_two_rounds(team, blocks, [&](int block, int member) {
+void in_two_rounds(ThreadPool& pool, int blocks, const Work& work, const Finish& finish) {
+  in_two_rounds(pool, blocks, [&](int block, int member) {
     work(block, member);
     if (block == 0) finish(0, member);
     if (block % 2 == 0) return;
@@ -78,7 +78,7 @@ void in_two_rounds(Team& team, int blocks, const Work& work, const Finish& finis
 struct AttractionReach {
   double formation_gap = 0;  ///< a bridge may form within it [m]
   double rupture_gap = 0;    ///< a living bridge acts within it [m]
-  double tear_gap = 0;       ///< grains that have touched may stay in contact within it [m]
+  double pull_off_gap = 0;   ///< grains that have touched may stay in contact within it [m]
   double reference_radius = 1;
 };
 

@@ -34,7 +34,7 @@ struct alignas(32) Load {
 };
 
 /// Where a grain may be while the lists of its block hold: no farther from here than this. 16 bytes. Hot.
-struct alignas(16) Room {
+struct alignas(16) DisplacementBound {
   float from[3] = {};  ///< [m]
   float distance = 0;  ///< [m]
 };

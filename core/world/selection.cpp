@@ -17,8 +17,8 @@ double size_scale(double r1, double r2, double reference_radius) {
 }
 
 /// Gap at which a contact is torn apart at the latest. It grows less than the size: with its cube root for JKR.
-double longest_hold(double tear_gap, double size_scale) {
-  return tear_gap * std::max(size_scale, 1.0);
+double longest_hold(double pull_off_gap, double size_scale) {
+  return pull_off_gap * std::max(size_scale, 1.0);
 }
 
 }  // namespace
@@ -34,40 +34,40 @@ void Selection::pad(std::int32_t dummy) {
 }
 
 Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
-                     Selection& chosen, const AttractionReach& reach, const Leeway& leeway) {
+                     Selection& chosen, const AttractionReach& reach, const DisplacementBounds& bounds) {
   chosen.clear();
   const bool attracts = reach.rupture_gap > 0;
   const double forming = std::min(reach.formation_gap, reach.rupture_gap);
   // The next of each list, as the candidates come.
-  std::array<std::int32_t, Candidates::kinds> next{};
-  next[Candidates::near] = block.contacts.near;
-  next[Candidates::dormant] = block.contacts.awake;
-  next[Candidates::dormant_bridge] = block.bridges.awake;
+  std::array<std::int32_t, NeighbourList::kinds> next{};
+  next[NeighbourList::near] = block.contacts.near;
+  next[NeighbourList::dormant] = block.contacts.awake;
+  next[NeighbourList::dormant_bridge] = block.bridges.awake;
   Deepest deepest;
-  const auto choose = [&](Candidates::Pair& candidate, std::int32_t i, std::int32_t ahead) {
+  const auto choose = [&](NeighbourList::Pair& candidate, std::int32_t i, std::int32_t ahead) {
     __builtin_prefetch(&particles.motion[ahead]);
-    __builtin_prefetch(&leeway.way[ahead]);
-    const Candidates::Kept kept = candidate.kept();
+    __builtin_prefetch(&bounds.way[ahead]);
+    const NeighbourList::Kept kept = candidate.kept();
     const std::int32_t j = candidate.grain(), place = next[kept]++;
-    const bool contact = kept >= Candidates::touching && kept <= Candidates::dormant;
+    const bool contact = kept >= NeighbourList::touching && kept <= NeighbourList::dormant;
     const Motion &a = particles.motion[i], &b = particles.motion[j];
-    const Vec3 between = domain.way(a.position, b.position);
+    const Vec3 between = domain.minimum_image(a.position, b.position);
     const double square = dot(between, between), touch = a.radius + b.radius;
-    double near = touch + leeway.way[i] + leeway.way[j];
-    if (reach.tear_gap > 0 && contact && block.contacts.touched(place))
-      near += longest_hold(reach.tear_gap, size_scale(a.radius, b.radius, reach.reference_radius));
+    double near = touch + bounds.way[i] + bounds.way[j];
+    if (reach.pull_off_gap > 0 && contact && block.contacts.touched(place))
+      near += longest_hold(reach.pull_off_gap, size_scale(a.radius, b.radius, reach.reference_radius));
     const bool is_near = square < near * near;
-    candidate.keep(Candidates::nowhere);
+    candidate.keep(NeighbourList::nowhere);
     if (!is_near && !attracts) return;
-    const float alive = contact                       ? block.contacts.bridge(place)
-                        : kept == Candidates::nowhere ? 0
-                                                      : block.bridges.bridge(place);
-    const bool dormant = leeway.own[i] == 0 && leeway.own[j] == 0;
+    const float alive = contact                          ? block.contacts.bridge(place)
+                        : kept == NeighbourList::nowhere ? 0
+                                                         : block.bridges.bridge(place);
+    const bool dormant = bounds.own[i] == 0 && bounds.own[j] == 0;
     if (!is_near) {
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
       if (square >= range * range) return;
-      candidate.keep(dormant ? Candidates::dormant_bridge : Candidates::bridge);
+      candidate.keep(dormant ? NeighbourList::dormant_bridge : NeighbourList::bridge);
       (dormant ? chosen.dormant_bridges : chosen.bridges).add(i, j, static_cast<float>(scale), alive);
       return;
     }
@@ -75,8 +75,8 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
     pair.bridge = alive;
     const double smaller = std::min(a.radius, b.radius), deeper = touch - deepest.overlap * smaller;
     if (square < deeper * deeper) deepest = {(touch - std::sqrt(square)) / smaller, i};
-    const bool met = square < touch * touch || pair.root_contact_radius > 0;
-    candidate.keep(dormant ? Candidates::dormant : met ? Candidates::touching : Candidates::near);
+    const bool met = square < touch * touch || pair.sqrt_contact_radius > 0;
+    candidate.keep(dormant ? NeighbourList::dormant : met ? NeighbourList::touching : NeighbourList::near);
     (dormant ? chosen.dormant : met ? chosen.contacts : chosen.near).add(i, j, pair);
   };
   block.candidates.each(block.grains, choose);
@@ -91,7 +91,8 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
 }
 
 void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
-                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway) {
+                    Selection& selection, const AttractionReach& reach, const DisplacementBounds& bounds,
+                    double wall_bound) {
   // Both lists are in the order of the grains: one pass merges memory into the new list.
   const ContactList& contacts = touching.contacts;
   ContactList& chosen = selection.at_wall;
@@ -105,8 +106,8 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
       const double scale = grain.radius / reach.reference_radius;
       const bool bridged = known && contacts.bridge(old) > 0;
       const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
-      const double hold = known && contacts.touched(old) ? longest_hold(wall.pair.tear_gap, scale) : 0.0;
-      const double margin = leeway.way[i] + wall_leeway;
+      const double hold = known && contacts.touched(old) ? longest_hold(wall.pair.pull_off_gap, scale) : 0.0;
+      const double margin = bounds.way[i] + wall_bound;
       const double range = grain.radius + std::max(gap * scale, hold) + margin;
       if (is_surely_beyond(shape, grain.position, range)) continue;
       if (nearest_on(shape, grain.position).distance >= range) continue;

@@ -8,9 +8,9 @@
 namespace pastefit {
 
 /// How far every grain may move before the acting pairs of its block are chosen anew, and from where. Where all is slow
-/// the lists are tight; a grain near a fast one may be hit and has as much leeway as that.
-struct Leeway {
-  std::vector<Room> rooms;
+/// the lists are tight; a grain near a fast one may be hit and has as large a bound as that.
+struct DisplacementBounds {
+  std::vector<DisplacementBound> bounds;
   std::vector<float> way;  ///< how far each grain may still go from where it is, across its room if need be [m]
   std::vector<float> own;  ///< what each grain by itself would be given; nothing, if it is asleep [m]
 };
@@ -21,7 +21,7 @@ struct Deepest {
   std::int32_t grain = -1;
 };
 
-/// Lists in the making, for one member of a team at a time; kept so that nothing is allocated in a steady scene.
+/// Lists in the making, for one member of a pool at a time; kept so that nothing is allocated in a steady scene.
 struct Selection {
   ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
   BridgeList bridges, dormant_bridges;
@@ -34,11 +34,12 @@ struct Selection {
 /// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
 /// for padding.
 Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
-                     Selection& selection, const AttractionReach& reach, const Leeway& leeway);
+                     Selection& selection, const AttractionReach& reach, const DisplacementBounds& bounds);
 
-/// Lists the block's grains that touch a wall or may do so while they stay in their rooms, and the wall within its
-/// leeway [m].
+/// Lists the block's grains that touch a wall or may do so while they stay in their bounds, and the wall within its
+/// displacement bound [m].
 void select_at_wall(const Particles& particles, const Wall& wall, const Block& block, WallContacts& touching,
-                    Selection& selection, const AttractionReach& reach, const Leeway& leeway, double wall_leeway);
+                    Selection& selection, const AttractionReach& reach, const DisplacementBounds& bounds,
+                    double wall_bound);
 
 }  // namespace pastefit

@@ -64,7 +64,7 @@ void Contact::set_elastic(const Law& law, double e, double nu, double restitutio
 
 void Contact::set_friction(double friction) {
   friction_ = friction;
-  // With the spring's own push, the share x of the repulsion, in two rounds as in `act`.
+  // With the spring's own normal force, the share x of the repulsion, in two rounds as in `act`.
   const double x = std::min(friction * friction / (6 * tangential_ratio_), 0.25);
   slip_limit_ = friction * (1 + x * (1 + x) * (1 + x));
 }
@@ -100,12 +100,12 @@ void Contact::set_attraction(const Law& law, double share, double shells) {
 }
 
 /// Forms and ruptures the bridge; its pull [N], none while the bodies overlap.
-double Contact::attraction(double overlap, double scale, Memory& memory) const {
+double Contact::attraction(double overlap, double scale, ContactHistory& history) const {
   if (bridge_ == Bridge::none) return 0;
   const double gap = -overlap / scale;
-  if (gap <= formation_gap_) memory.bridge = 1;
-  if (gap > rupture_gap_) memory.bridge = 0;
-  if (memory.bridge == 0 || overlap > 0) return 0;
+  if (gap <= formation_gap_) history.bridge = 1;
+  if (gap > rupture_gap_) history.bridge = 0;
+  if (history.bridge == 0 || overlap > 0) return 0;
   switch (bridge_) {
     case Bridge::polynomial:
       return scale * scale * ((a_ * gap - b_) * gap + c_);
@@ -122,15 +122,15 @@ double Contact::cohesion(double overlap, double scale) const {
   return scale * scale * (cohesion_ + left * touch_excess_);
 }
 
-Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance) const {
+ContactForce Contact::act(const ContactKinematics& m, ContactHistory& history, double dt, double advance) const {
   const double scale = size_scale(m.radius);
-  const double pull = attraction(m.overlap, scale, memory);
-  Action action;
+  const double pull = attraction(m.overlap, scale, history);
+  ContactForce contact_force;
   if (m.overlap <= 0) {
-    memory.slip = memory.roll = {};
-    memory.contact_radius = 0;
-    action.force = pull * m.normal;
-    return action;
+    history.slip = history.roll = {};
+    history.contact_radius = 0;
+    contact_force.force = pull * m.normal;
+    return contact_force;
   }
   const double contact_radius = std::sqrt(m.radius * m.overlap);
   const double stiffness_n = normal_stiffness_ * contact_radius, stiffness_t = tangential_ratio_ * stiffness_n;
@@ -141,30 +141,31 @@ Action Contact::act(const Meeting& m, Memory& memory, double dt, double advance)
   const double braked_n = 1 / (1 + 0.25 * dt * damping_n / m.mass);
   const double braked_t = 1 / (1 + 0.25 * 3.5 * dt * damping_t / m.mass);
   const double approach = dot(m.velocity, m.normal);
-  double push = repulsion + braked_n * damping_n * approach - cohesion(m.overlap, scale) - pull;
-  const double pressed = friction_of_total_ ? std::max(push, 0.0) : repulsion;
+  double normal_force = repulsion + braked_n * damping_n * approach - cohesion(m.overlap, scale) - pull;
+  const double pressed = friction_of_total_ ? std::max(normal_force, 0.0) : repulsion;
 
   // The spring holds what friction allows of the repulsion. Its energy grows with the overlap: it pushes, too.
   const Vector sliding = m.velocity - approach * m.normal;
-  Vector slip = carried(memory.slip, m.normal, m.twist * advance) + advance * sliding;
+  Vector slip = carried(history.slip, m.normal, m.twist * advance) + advance * sliding;
   slip = cap(stiffness_t * norm(slip), slip_limit_ * repulsion) * slip;
-  const double slip_push = 0.25 * stiffness_t * dot(slip, slip) / m.overlap;
+  const double slip_normal_force = 0.25 * stiffness_t * dot(slip, slip) / m.overlap;
   const Vector drag = stiffness_t * slip + damping_t * braked_t * sliding;
-  // Its push is part of the load that limits friction: two rounds.
+  // Its normal force is part of the load that limits friction: two rounds.
   double kept = cap(norm(drag), friction_ * pressed);
-  for (int round = 0; round < 2; ++round) kept = cap(norm(drag), friction_ * (pressed + kept * kept * slip_push));
-  memory.slip = kept * slip;
-  action.traction = -kept * drag;
-  push += kept * kept * slip_push;
-  action.force = action.traction - push * m.normal;
-  const double softened = std::min(1.0, memory.contact_radius / contact_radius);
-  roll(m, pressed + kept * kept * slip_push, softened, braked_n, dt, advance, memory, action);
-  memory.contact_radius = contact_radius;
-  return action;
+  for (int round = 0; round < 2; ++round)
+    kept = cap(norm(drag), friction_ * (pressed + kept * kept * slip_normal_force));
+  history.slip = kept * slip;
+  contact_force.tangential_force = -kept * drag;
+  normal_force += kept * kept * slip_normal_force;
+  contact_force.force = contact_force.tangential_force - normal_force * m.normal;
+  const double softened = std::min(1.0, history.contact_radius / contact_radius);
+  roll(m, pressed + kept * kept * slip_normal_force, softened, braked_n, dt, advance, history, contact_force);
+  history.contact_radius = contact_radius;
+  return contact_force;
 }
 
-void Contact::roll(const Meeting& m, double load, double softened, double braked, double dt, double advance,
-                   Memory& memory, Action& action) const {
+void Contact::roll(const ContactKinematics& m, double load, double softened, double braked, double dt, double advance,
+                   ContactHistory& history, ContactForce& contact_force) const {
   const double limit = rolling_friction_ * load * m.radius;
   const Vector rolling = m.spin - dot(m.spin, m.normal) * m.normal;
   if (rolling_ == Rolling::spring_dashpot) {
@@ -172,18 +173,18 @@ void Contact::roll(const Meeting& m, double load, double softened, double braked
     const double lever = rolling_friction_ * m.radius;
     const double stiffness_n = normal_stiffness_ * std::sqrt(m.radius * m.overlap);
     const double stiffness = 2.25 * stiffness_n * lever * lever;
-    const Vector turn = softened * carried(memory.roll, m.normal, m.twist * advance) + advance * rolling;
+    const Vector turn = softened * carried(history.roll, m.normal, m.twist * advance) + advance * rolling;
     const double kept = cap(stiffness * norm(turn), limit);
     const double dashpot = kept < 1 ? 0
                                     : 0.6 * std::sqrt(1.4 * 2.25) * rolling_friction_ *
                                           std::sqrt(stiffness_n * m.mass) * m.radius * m.radius * braked;
-    memory.roll = kept * turn;
-    action.moment = -stiffness * memory.roll - dashpot * rolling;
+    history.roll = kept * turn;
+    contact_force.moment = -stiffness * history.roll - dashpot * rolling;
   } else if (rolling_ == Rolling::constant_torque) {
     // Near rest a dashpot that takes a tenth of a grain's spin in a step; the torque's sign would alternate.
     const double gentle = 0.08 * m.smaller_radius * m.smaller_radius * m.mass / dt;
     const double speed = norm(rolling);
-    action.moment = -(speed * gentle > limit ? limit / speed : gentle) * rolling;
+    contact_force.moment = -(speed * gentle > limit ? limit / speed : gentle) * rolling;
   }
 }
 

@@ -43,7 +43,7 @@ std::string read_wall_law(const std::vector<std::string>& words, WallLaw& wall);
 std::string read_hinge(const std::vector<std::string>& words, Hinge& hinge);
 
 /// What a contact remembers; numbers only, because it travels between processors as such.
-struct Memory {
+struct ContactHistory {
   Vector slip;                ///< tangential displacement [m]
   Vector roll;                ///< relative rotation across the normal [rad]
   double contact_radius = 0;  ///< sqrt(R* d) at the last step [m]; 0: the bodies did not touch
@@ -52,12 +52,12 @@ struct Memory {
   static constexpr int size = 8;  ///< numbers
   bool empty() const { return contact_radius == 0 && bridge == 0; }
   /// The same contact seen from the other body.
-  Memory turned() const { return {-1.0 * slip, -1.0 * roll, contact_radius, bridge}; }
+  ContactHistory turned() const { return {-1.0 * slip, -1.0 * roll, contact_radius, bridge}; }
 };
-static_assert(sizeof(Memory) == Memory::size * sizeof(double));
+static_assert(sizeof(ContactHistory) == ContactHistory::size * sizeof(double));
 
 /// Two bodies seen from their contact; i is a grain, j a grain or a wall.
-struct Meeting {
+struct ContactKinematics {
   Vector normal;       ///< unit vector from i to j
   double overlap = 0;  ///< > 0 bodies interpenetrate, < 0 a gap [m]
   Vector velocity;     ///< of i relative to j at the contact, spins included [m/s]
@@ -68,14 +68,15 @@ struct Meeting {
   double smaller_radius = 0;
 };
 
-/// On body i; body j gets the opposite. The torque of the traction is lever * normal x traction on both.
-struct Action {
-  Vector force;     ///< [N]
-  Vector traction;  ///< tangential part of it [N]
-  Vector moment;    ///< rolling resistance [N m]
+/// On body i; body j gets the opposite. The torque of the tangential force is lever * normal x tangential force on
+/// both.
+struct ContactForce {
+  Vector force;             ///< [N]
+  Vector tangential_force;  ///< tangential part of it [N]
+  Vector moment;            ///< rolling resistance [N m]
 };
 
-/// A law between two surfaces: forces and memory of one contact.
+/// A law between two surfaces: forces and history of one contact.
 class Contact {
  public:
   Contact() = default;
@@ -93,17 +94,17 @@ class Contact {
   /// Mindlin spring 8 G* sqrt(R* d), which pushes along the normal as its energy grows with the overlap, with the
   /// friction limit on spring and damper together, rolling resistance.
   /// Gap: the bridge's attraction, if it lives. It forms at the formation gap and lives until the rupture gap.
-  Action act(const Meeting& meeting, Memory& memory, double dt, double advance) const;
+  ContactForce act(const ContactKinematics& kinematics, ContactHistory& history, double dt, double advance) const;
 
  private:
   void set_elastic(const Law& law, double e, double nu, double restitution);
   void set_friction(double friction);
   void set_attraction(const Law& law, double share, double shells);
   double size_scale(double effective_radius) const { return size_per_radius_ * effective_radius; }
-  double attraction(double overlap, double scale, Memory& memory) const;
+  double attraction(double overlap, double scale, ContactHistory& history) const;
   double cohesion(double overlap, double scale) const;
-  void roll(const Meeting& meeting, double load, double softened, double braked, double dt, double advance,
-            Memory& memory, Action& action) const;
+  void roll(const ContactKinematics& kinematics, double load, double softened, double braked, double dt, double advance,
+            ContactHistory& history, ContactForce& contact_force) const;
 
   enum class Rolling { none, spring_dashpot, constant_torque } rolling_ = Rolling::none;
   enum class Bridge { none, polynomial, exponential, capillary } bridge_ = Bridge::none;

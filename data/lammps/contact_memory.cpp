@@ -48,8 +48,8 @@ int ContactMemory::pack_exchange(int grain, double* buffer) {
   buffer[n++] = static_cast<double>(entries.size());
   for (const Entry& entry : entries) {
     buffer[n++] = static_cast<double>(entry.key);
-    std::memcpy(buffer + n, &entry.memory, sizeof entry.memory);
-    n += Memory::size;
+    std::memcpy(buffer + n, &entry.history, sizeof entry.history);
+    n += ContactHistory::size;
   }
   return n;
 }
@@ -60,8 +60,8 @@ int ContactMemory::unpack_exchange(int grain, double* buffer) {
   entries.resize(static_cast<std::size_t>(buffer[n++]));
   for (Entry& entry : entries) {
     entry.key = static_cast<tagint>(buffer[n++]);
-    std::memcpy(static_cast<void*>(&entry.memory), buffer + n, sizeof entry.memory);
-    n += Memory::size;
+    std::memcpy(static_cast<void*>(&entry.history), buffer + n, sizeof entry.history);
+    n += ContactHistory::size;
   }
   return n;
 }

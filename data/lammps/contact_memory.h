@@ -8,7 +8,7 @@
 namespace pastefit_lammps {
 
 /// What grains remember of their contacts, kept with each grain: it moves to another processor, and into restart files,
-/// with it. Each memory has a key: the ID of the other grain, or the number of the wall's face.
+/// with it. Each history has a key: the ID of the other grain, or the number of the wall's face.
 class ContactMemory : public LAMMPS_NS::Fix {
  public:
   ContactMemory(LAMMPS_NS::LAMMPS* lammps, int words, char** word);
@@ -28,7 +28,7 @@ class ContactMemory : public LAMMPS_NS::Fix {
  protected:
   struct Entry {
     LAMMPS_NS::tagint key;
-    Memory memory;
+    ContactHistory history;
   };
   /// Called before the entries are read.
   virtual void bring_up_to_date() {}
@@ -38,7 +38,7 @@ class ContactMemory : public LAMMPS_NS::Fix {
   std::vector<std::vector<Entry>> of_grain_;
 
  private:
-  static constexpr int kEntrySize = 1 + Memory::size;
+  static constexpr int kEntrySize = 1 + ContactHistory::size;
 };
 
 }  // namespace pastefit_lammps

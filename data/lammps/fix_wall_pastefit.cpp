@@ -55,7 +55,7 @@ void FixWallPastefit::post_force(int) {
   }
 }
 
-Memory& FixWallPastefit::entry(int grain, std::size_t n, int face) {
+ContactHistory& FixWallPastefit::entry(int grain, std::size_t n, int face) {
   auto& entries = of_grain_[grain];
   const auto found = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(std::min(n, entries.size())),
                                   entries.end(), [&](const Entry& one) { return one.key == face; });
@@ -64,16 +64,16 @@ Memory& FixWallPastefit::entry(int grain, std::size_t n, int face) {
   } else {
     std::swap(*found, entries[n]);
   }
-  return entries[n].memory;
+  return entries[n].history;
 }
 
-void FixWallPastefit::meet(int i, int n, double advance, Memory& memory) {
+void FixWallPastefit::meet(int i, int n, double advance, ContactHistory& history) {
   const auto& contact = region_->contact[n];
   if (contact.r <= 0) error->one(FLERR, std::string("fix wall/pastefit: a grain's centre lies in the wall"));
   const Vector to_wall = Vector{-contact.delx, -contact.dely, -contact.delz};
   double wall_velocity[3] = {0, 0, 0};
   if (region_->dynamic_check()) region_->velocity_contact(wall_velocity, atom->x[i], n);
-  Meeting m;
+  ContactKinematics m;
   m.normal = 1 / contact.r * to_wall;
   m.smaller_radius = m.radius = atom->radius[i];
   m.mass = atom->rmass[i];
@@ -82,11 +82,11 @@ void FixWallPastefit::meet(int i, int n, double advance, Memory& memory) {
   m.spin = vector(atom->omega[i]);
   m.velocity = vector(atom->v[i]) - vector(wall_velocity) + cross(lever * m.spin, m.normal);
   m.twist = 0.5 * dot(m.spin, m.normal);
-  const Action action = contact_.act(m, memory, update->dt, advance);
-  add(atom->f[i], action.force);
-  add(atom->torque[i], lever * cross(m.normal, action.traction) + action.moment);
-  add(load_, -1.0 * action.force);
-  add(load_ + 3, -1.0 * cross(vector(atom->x[i]) + to_wall, action.force) - action.moment);
+  const ContactForce contact_force = contact_.act(m, history, update->dt, advance);
+  add(atom->f[i], contact_force.force);
+  add(atom->torque[i], lever * cross(m.normal, contact_force.tangential_force) + contact_force.moment);
+  add(load_, -1.0 * contact_force.force);
+  add(load_ + 3, -1.0 * cross(vector(atom->x[i]) + to_wall, contact_force.force) - contact_force.moment);
 }
 
 double FixWallPastefit::compute_vector(int component) {

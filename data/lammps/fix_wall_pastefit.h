@@ -27,9 +27,9 @@ class FixWallPastefit : public ContactMemory {
   double compute_vector(int component) override;
 
  private:
-  void meet(int grain, int contact, double advance, Memory& memory);
+  void meet(int grain, int contact, double advance, ContactHistory& history);
   /// The entry of a face of the wall, found or new, moved to place `n` of the grain's entries.
-  Memory& entry(int grain, std::size_t n, int face);
+  ContactHistory& entry(int grain, std::size_t n, int face);
 
   std::string region_id_;
   LAMMPS_NS::Region* region_ = nullptr;

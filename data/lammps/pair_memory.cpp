@@ -16,7 +16,7 @@ void PairMemory::pre_exchange() {
   announce_size();
 }
 
-/// With newton off the processor of the other grain has the pair as well, and keeps its own memory of it.
+/// With newton off the processor of the other grain has the pair as well, and keeps its own history of it.
 void PairMemory::bring_up_to_date() {
   if (!ahead_) return;
   ahead_ = false;
@@ -25,11 +25,11 @@ void PairMemory::bring_up_to_date() {
   for (int ii = 0; ii < list_->inum; ++ii) {
     const int i = list_->ilist[ii];
     for (int jj = 0; jj < list_->numneigh[i]; ++jj) {
-      const Memory& memory = of_pair_[first_[ii] + static_cast<std::size_t>(jj)];
-      if (memory.empty()) continue;
+      const ContactHistory& history = of_pair_[first_[ii] + static_cast<std::size_t>(jj)];
+      if (history.empty()) continue;
       const int j = list_->firstneigh[i][jj] & NEIGHMASK;
-      of_grain_[i].push_back({id_of[j], memory});
-      if (j < atom->nlocal) of_grain_[j].push_back({id_of[i], memory.turned()});
+      of_grain_[i].push_back({id_of[j], history});
+      if (j < atom->nlocal) of_grain_[j].push_back({id_of[i], history.turned()});
     }
   }
 }
@@ -44,7 +44,7 @@ void PairMemory::post_neighbor() {
       of_pair_.emplace_back();
       const tagint other = atom->tag[list_->firstneigh[i][jj] & NEIGHMASK];
       for (const Entry& entry : of_grain_[i])
-        if (entry.key == other) of_pair_.back() = entry.memory;
+        if (entry.key == other) of_pair_.back() = entry.history;
     }
   }
   of_pair_.emplace_back();  // rows without neighbours begin somewhere, too

@@ -4,8 +4,8 @@
 
 namespace pastefit_lammps {
 
-/// Memory of grains' contacts with each other: one for each pair of the neighbour list while a list lasts, kept with
-/// the grains from one list to the next. Pair style pastefit makes it; nobody names it in a script.
+/// ContactHistory of grains' contacts with each other: one for each pair of the neighbour list while a list lasts, kept
+/// with the grains from one list to the next. Pair style pastefit makes it; nobody names it in a script.
 class PairMemory : public ContactMemory {
  public:
   static constexpr const char* kStyle = "PASTEFIT/MEMORY";
@@ -20,7 +20,7 @@ class PairMemory : public ContactMemory {
 
   void follow(const LAMMPS_NS::NeighList* list) { list_ = list; }
   /// Memories of the pairs of the ii-th row of the list, in the order of its neighbours; whoever asks may change them.
-  Memory* row(int ii) {
+  ContactHistory* row(int ii) {
     ahead_ = true;
     return &of_pair_[first_[ii]];
   }
@@ -29,7 +29,7 @@ class PairMemory : public ContactMemory {
   void bring_up_to_date() override;
 
   const LAMMPS_NS::NeighList* list_ = nullptr;
-  std::vector<Memory> of_pair_;
+  std::vector<ContactHistory> of_pair_;
   std::vector<std::size_t> first_;  ///< of each row
   bool ahead_ = false;              ///< pairs know more than the grains' entries
 };

@@ -35,8 +35,8 @@ PairPastefit::PairPastefit(LAMMPS_NS::LAMMPS* lammps) : Pair(lammps) {
 PairPastefit::~PairPastefit() {
   if (memory_ && modify->find_fix(kMemoryId) >= 0) modify->delete_fix(kMemoryId);
   if (!allocated) return;
-  memory->destroy(setflag);
-  memory->destroy(cutsq);
+  history->destroy(setflag);
+  history->destroy(cutsq);
 }
 
 void PairPastefit::settings(int words, char** word) {
@@ -50,8 +50,8 @@ void PairPastefit::coeff(int words, char** word) {
     error->all(FLERR, std::string("pair style pastefit has one law for all grains: pair_coeff * *"));
   const int types = atom->ntypes + 1;
   if (!allocated) {
-    memory->create(setflag, types, types, "pair:setflag");
-    memory->create(cutsq, types, types, "pair:cutsq");
+    history->create(setflag, types, types, "pair:setflag");
+    history->create(cutsq, types, types, "pair:cutsq");
     allocated = 1;
   }
   for (int i = 1; i < types; ++i)
@@ -93,12 +93,12 @@ void PairPastefit::compute(int eflag, int vflag) {
     const int i = list->ilist[ii];
     const Vector at = vector(atom->x[i]);
     const double radius = atom->radius[i];
-    Memory* memories = memory_->row(ii);
+    ContactHistory* memories = memory_->row(ii);
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
       const Vector between = vector(atom->x[j]) - at;
       const double other = atom->radius[j];
-      Meeting m;
+      ContactKinematics m;
       m.radius = radius * other / (radius + other);
       const double square = dot(between, between), farthest = radius + other + contact_.reach(m.radius);
       if (square > farthest * farthest) {
@@ -116,17 +116,17 @@ void PairPastefit::compute(int eflag, int vflag) {
       m.twist = 0.5 * dot(spin_i + spin_j, m.normal);
       m.mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
       m.smaller_radius = std::min(radius, other);
-      const Action action = contact_.act(m, memories[jj], dt, advance);
-      const Vector turning = cross(m.normal, action.traction);
-      add(atom->f[i], action.force);
-      add(atom->torque[i], lever_i * turning + action.moment);
+      const ContactForce contact_force = contact_.act(m, memories[jj], dt, advance);
+      const Vector turning = cross(m.normal, contact_force.tangential_force);
+      add(atom->f[i], contact_force.force);
+      add(atom->torque[i], lever_i * turning + contact_force.moment);
       if (j < atom->nlocal) {
-        add(atom->f[j], -1.0 * action.force);
-        add(atom->torque[j], lever_j * turning - action.moment);
+        add(atom->f[j], -1.0 * contact_force.force);
+        add(atom->torque[j], lever_j * turning - contact_force.moment);
       }
       if (evflag)
-        ev_tally_xyz(i, j, atom->nlocal, 0, 0, 0, action.force.x, action.force.y, action.force.z, -between.x,
-                     -between.y, -between.z);
+        ev_tally_xyz(i, j, atom->nlocal, 0, 0, 0, contact_force.force.x, contact_force.force.y, contact_force.force.z,
+                     -between.x, -between.y, -between.z);
     }
   }
 }

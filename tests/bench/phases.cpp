@@ -16,15 +16,15 @@ std::vector<PhaseCost> phases_of(const std::string& scene, double radius_m, int 
     double last_time = 0;
     RunOptions options;
     options.watch_interval_s = 1e-3;
-    options.watch = [&](const Moment& moment) {
-      auto phase = std::ranges::find(phases, moment.phase, &PhaseCost::phase);
-      if (phase == phases.end()) phase = phases.insert(phases.end(), PhaseCost{std::string(moment.phase), 0, 0});
+    options.watch = [&](const Snapshot& snapshot) {
+      auto phase = std::ranges::find(phases, snapshot.phase, &PhaseCost::phase);
+      if (phase == phases.end()) phase = phases.insert(phases.end(), PhaseCost{std::string(snapshot.phase), 0, 0});
       const std::clock_t now = std::clock();
       // Every world has a clock of its own that begins at 0.
-      phase->simulated_s += (moment.time_s - (moment.time_s < last_time ? 0 : last_time)) / packings;
+      phase->simulated_s += (snapshot.time_s - (snapshot.time_s < last_time ? 0 : last_time)) / packings;
       phase->cpu_s += static_cast<double>(now - last) / CLOCKS_PER_SEC / packings;
       last = now;
-      last_time = moment.time_s;
+      last_time = snapshot.time_s;
       return true;
     };
     (void)simulate(test, options);

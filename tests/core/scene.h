@@ -60,7 +60,7 @@ class Scene {
     while (world.time < duration) problem = stepper_->step({});
   }
 
-  const Ledger& ledger() const { return stepper_->ledger(); }
+  const EnergyBalance& energy_balance() const { return stepper_->energy_balance(); }
 
   /// Grain by the order in which it was added.
   const Motion& motion(int identity) const { return world.particles.motion[place(identity)]; }

@@ -130,7 +130,7 @@ StressCase case_at(const UnitPoint& u, int number) {
 
   // Softer grains than carry the attraction are no admissible test.
   constexpr double kMostSqueezed = 0.0999;
-  const double softness = std::pow(squeeze(contact, radius) / kMostSqueezed, 1.5);
+  const double softness = std::pow(resting_overlap(contact, radius) / kMostSqueezed, 1.5);
   if (softness > 1) contact.youngs_modulus_pa *= softness;
 
   test.mould_wall = {1e9, 0.3, contact.restitution, 0.5 * u[wall_friction], 0.1 * u[rolling_friction], 0};

@@ -14,7 +14,7 @@ struct StressResult {
 };
 
 /// Markdown: ends in all; ends by region of the box (rows: ranges; columns: ends); failures by reason and phase with a
-/// case to repeat each; the ledger and the cost of the runs; defects with their numbers.
+/// case to repeat each; the energy balance and the cost of the runs; defects with their numbers.
 void write_report(std::ostream& out, const std::vector<StressResult>& results);
 
 }  // namespace pastefit

@@ -38,27 +38,27 @@ class Witness {
  public:
   explicit Witness(const StressCase& stress) : stress_(stress) {}
 
-  void look(const Moment& moment) {
+  void look(const Snapshot& snapshot) {
     if (!complaint_.empty()) return;
-    const Particles& grains = moment.world->particles;
-    const bool filling = moment.phase.starts_with("fill");
+    const Particles& grains = snapshot.world->particles;
+    const bool filling = snapshot.phase.starts_with("fill");
     if (!filling && count_ == 0) {
       count_ = grains.count();
       over_rim_.resize(count_);
     }
-    if (!filling && grains.count() != count_) return complain(moment, "the number of grains changed");
+    if (!filling && grains.count() != count_) return complain(snapshot, "the number of grains changed");
     for (std::int32_t i = 0; i < grains.count(); ++i) {
       const Motion& grain = grains.motion[i];
       if (!std::isfinite(norm(grain.position)))
-        return complain(moment, "a position is not a number", grains.identity[i]);
+        return complain(snapshot, "a position is not a number", grains.identity[i]);
       if (grain.position.z < (filling ? 0 : -kGround))
-        return complain(moment, "a grain's centre is below the floor or ground", grains.identity[i]);
+        return complain(snapshot, "a grain's centre is below the floor or ground", grains.identity[i]);
       if (filling) continue;
       // What is squeezed out over the rim may run down outside.
       const auto who = static_cast<std::size_t>(grains.identity[i]);
       if (grain.position.z > stress_.test.mould.height_m - 3 * grain.radius) over_rim_[who] = true;
-      if (moment.phase == "step1.relax" && !over_rim_[who] && outside_mould(grain.position))
-        return complain(moment, "a grain's centre is outside the standing mould", grains.identity[i]);
+      if (snapshot.phase == "step1.relax" && !over_rim_[who] && outside_mould(grain.position))
+        return complain(snapshot, "a grain's centre is outside the standing mould", grains.identity[i]);
     }
   }
 
@@ -73,8 +73,8 @@ class Witness {
     return p.x * p.x + p.y * p.y > inner * inner;
   }
 
-  void complain(const Moment& moment, const char* what, std::int32_t grain = -1) {
-    complaint_ = std::string(what) + " (" + std::string(moment.phase) + ", t = " + number(moment.time_s) +
+  void complain(const Snapshot& snapshot, const char* what, std::int32_t grain = -1) {
+    complaint_ = std::string(what) + " (" + std::string(snapshot.phase) + ", t = " + number(snapshot.time_s) +
                  " s, grain " + std::to_string(grain) + ")";
   }
 
@@ -116,7 +116,7 @@ std::string fault_of(const Outcome& outcome, const StressCase& stress) {
   const double tall = 1e3 * test.mould.height_m, radius = 1e3 * test.grains.largest_m;
   const double diagonal = 1e3 * std::numbers::sqrt2 * test.table_length_m;
   const std::vector<std::string> names = observable_names(test);
-  const double squeezed = filling_of(test).squeeze;
+  const double squeezed = filling_of(test).resting_overlap;
   // Where one of two drops has left nothing on the plate there is no heap to read.
   const bool left_the_table = outcome.observables.find("step2.spilled_share").value_or(0) >= 0.5;
   if (outcome.observables.all().size() != names.size() && !left_the_table) return "readings are missing";
@@ -165,8 +165,8 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
   Witness witness(stress);
   RunOptions options;
   options.step_limit = bounds.steps;
-  options.watch = [&](const Moment& moment) {
-    witness.look(moment);
+  options.watch = [&](const Snapshot& snapshot) {
+    witness.look(snapshot);
     return cpu_seconds() - start < bounds.cpu_s;
   };
   if (const auto failure = stress.searched ? too_soft(stress.test, options) : std::nullopt) {

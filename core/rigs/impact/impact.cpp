@@ -68,11 +68,11 @@ class ImpactRun {
     for (std::int64_t step = 0; !last; ++step) {
       last = (world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0) || rebound_is_over();
       const double most_s = std::max(0.0, test_.duration_s - world_.time);
-      const Moment moment{"impact", world_.time, world_.step, &world_, 0, {0, most_s}};
-      bool goes_on = !options.pulse || step % kStepsPerPulse != 0 || options.pulse(moment);
+      const Snapshot snapshot{"impact", world_.time, world_.step, &world_, 0, {0, most_s}};
+      bool goes_on = !options.pulse || step % kStepsPerPulse != 0 || options.pulse(snapshot);
       if (options.watch && world_.time >= next_watch_) {
         next_watch_ = world_.time + options.watch_interval_s;
-        goes_on = options.watch(moment) && goes_on;
+        goes_on = options.watch(snapshot) && goes_on;
       }
       if (!goes_on)
         outcome.failure = Failure{FailureReason::stopped, "", step, world_.time, -1, 0, 0, "the run was asked to stop"};

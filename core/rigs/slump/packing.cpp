@@ -22,9 +22,9 @@ constexpr double kScoopSpeed = 1.0;  // [m/s]
 constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
 constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
 
-// Frictions and steps of squeeze that packings are poured at; candidates between them share one.
+// Frictions and steps of resting overlap that packings are poured at; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
-constexpr double kSqueezeStep = 0.005;
+constexpr double kRestingOverlapStep = 0.005;
 // [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
 // hard that the column rises by 1 % when it is taken off.
 constexpr double kScrape = 0.7;
@@ -169,7 +169,7 @@ double poured_grains(const SlumpTest& test) {
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)
     volume += sphere_volume_m3(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
-  return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).squeeze, 3);
+  return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).resting_overlap, 3);
 }
 
 double grain_density(const SlumpTest& test, const Packing& packing) {
@@ -184,16 +184,17 @@ Filling filling_of(const SlumpTest& test) {
   const int half_octaves = static_cast<int>(std::lround(2 * std::log2(test.contact.youngs_modulus_pa)));
   const int octaves = half_octaves >= 0 ? half_octaves / 2 : (half_octaves - 1) / 2;
   filling.youngs_modulus_pa = std::ldexp(half_octaves == 2 * octaves ? 1.0 : std::numbers::sqrt2, octaves);
-  filling.squeeze = kSqueezeStep * std::round(squeeze(test.contact, test.grains.radius_m) / kSqueezeStep);
+  filling.resting_overlap =
+      kRestingOverlapStep * std::round(resting_overlap(test.contact, test.grains.radius_m) / kRestingOverlapStep);
   return filling;
 }
 
 std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& asked) {
   RunOptions options = asked;
-  // A fixed step, sleep and the ledger are meant for the test; the packing is always the same.
+  // A fixed step, sleep and the energy balance are meant for the test; the packing is always the same.
   options.steps.fixed_step_s.reset();
-  options.steps.sleep = options.steps.ledger = false;
-  const double swelling = options.own_fill ? 1 : 1 + filling_of(test).squeeze;
+  options.steps.sleep = options.steps.energy_balance = false;
+  const double swelling = options.own_fill ? 1 : 1 + filling_of(test).resting_overlap;
   SlumpTest poured = test;
   poured.grains = enlarged(test.grains, 1 / swelling);
   auto packing = std::make_shared<Packing>();

@@ -25,11 +25,11 @@ struct Packing {
 /// their packings.
 ///
 /// Attraction presses soft grains into each other until it is balanced, and a packing poured without it would shrink
-/// from the mould when it acts. So smaller grains are poured, by one plus `squeeze`: where they touch, the candidate's
-/// own grains overlap as much as they will.
+/// from the mould when it acts. So smaller grains are poured, by one plus `resting_overlap`: where they touch, the
+/// candidate's own grains overlap as much as they will.
 struct Filling {
   double friction = 0;           ///< while it is poured: the candidate's, rounded down, since a looser fill would sink
-  double squeeze = 0;            ///< rounded
+  double resting_overlap = 0;    ///< rounded
   double youngs_modulus_pa = 0;  ///< rounded to half an octave
   auto operator<=>(const Filling&) const = default;
 };

@@ -18,7 +18,7 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 /// One fall of the plate under a heap.
 class Drop {
  public:
-  Drop(const SlumpTest& test, World world, const Ledger& before, const RunOptions& options)
+  Drop(const SlumpTest& test, World world, const EnergyBalance& before, const RunOptions& options)
       : test_(test), world_(std::move(world)), runner_(world_, options, posture_of_heap), table_(world_.walls[kTable]) {
     runner_.follow(before);
     runner_.remember([] { return true; }, stopped_);
@@ -91,7 +91,7 @@ class Drop {
 
 }  // namespace
 
-Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& ruler, const Ledger& before,
+Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& ruler, const EnergyBalance& before,
                    const RunOptions& options) {
   Outcome mean;
   mean.run.settled = true;
@@ -100,9 +100,9 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
   for (int side = 0; side < kSides; ++side) {
     RunOptions of_side = options;
     if (options.watch)
-      of_side.watch = [&](Moment moment) {
-        moment.drop = side;
-        return options.watch(moment);
+      of_side.watch = [&](Snapshot snapshot) {
+        snapshot.drop = side;
+        return options.watch(snapshot);
       };
     Drop drop(test, world, before, of_side);
     mean.failure = drop.run();

@@ -2,7 +2,7 @@
 
 #include "core/rigs/slump/ruler.h"
 #include "core/rigs/slump/slump_test.h"
-#include "core/step/ledger.h"
+#include "core/step/energy_balance.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -13,8 +13,8 @@ namespace pastefit {
 /// after step 2. So the heap is dropped twice, with the hinge on one side and on the opposite one, and readings are
 /// means: the tilt goes out of the sag whatever share of it is left, and the sag's noise falls to a third.
 /// `world`: the heap at rest, the plate as its wall `table`. `ruler`: that of its step 1.
-/// `before`: the ledger of step 1, which the drops go on with.
-Outcome drop_plate(const SlumpTest& test, const World& world, const Ruler& ruler, const Ledger& before,
+/// `before`: the energy balance of step 1, which the drops go on with.
+Outcome drop_plate(const SlumpTest& test, const World& world, const Ruler& ruler, const EnergyBalance& before,
                    const RunOptions& options);
 
 }  // namespace pastefit

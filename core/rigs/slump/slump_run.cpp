@@ -51,7 +51,7 @@ class MouldLift {
 
   const World& world() const { return world_; }
   const Ruler& ruler() const { return ruler_; }
-  const Ledger& ledger() const { return runner_.ledger(); }
+  const EnergyBalance& energy_balance() const { return runner_.energy_balance(); }
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
@@ -145,7 +145,7 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
     ended_early = lift.is_unwanted(outcome.observables);
   }
   if (test.drop && !outcome.failure && !ended_early) {
-    const Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.ledger(), options);
+    const Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options);
     outcome.failure = drops.failure;
     outcome.run = together(outcome.run, drops.run);
     for (const Observable& reading : drops.observables.all()) outcome.observables.set(reading.name, reading.value);

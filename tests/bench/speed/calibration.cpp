@@ -41,13 +41,13 @@ class WatchedEngine {
   Outcome run(const SlumpTest& test, const RunOptions& asked) {
     RunOptions options = asked;
     double below_since = -1, far_below_since = -1;
-    options.watch = [&](const Moment& moment) {
-      if (moment.world && !moment.phase.starts_with("fill")) {
-        const double depth = target_m_ - highest_point(moment.world->particles);
+    options.watch = [&](const Snapshot& snapshot) {
+      if (snapshot.world && !snapshot.phase.starts_with("fill")) {
+        const double depth = target_m_ - highest_point(snapshot.world->particles);
         if (below_since < 0 && depth > kBelow + test.grains.radius_m) below_since = thread_seconds();
         if (far_below_since < 0 && depth > kFarBelow) far_below_since = thread_seconds();
       }
-      return !asked.watch || asked.watch(moment);
+      return !asked.watch || asked.watch(snapshot);
     };
     const double start = thread_seconds();
     Outcome outcome = simulate(test, options);

@@ -186,12 +186,12 @@ SceneResult measure_steps(Scene scene, const MeasureOptions& options, const Scra
   const BedSize size = make_bed(bed_file, [&] { return fill(scene); });
 
   std::vector<Contender> contenders(1);
-  contenders[0].result.name = options.ledger ? "ours with ledger" : "ours";
+  contenders[0].result.name = options.energy_balance ? "ours with energy balance" : "ours";
   if (!options.kernels.empty()) contenders[0].result.name += ", " + options.kernels;
   contenders[0].result.time_step_s = kSceneStep;
   contenders[0].run = [&](TimedEngine& engine) {
     run_ours_in_child(engine, [&]() -> Json {
-      const OurRun run = run_ours(scene, read_bed(bed_file), options.ledger, kernels_called(options.kernels));
+      const OurRun run = run_ours(scene, read_bed(bed_file), options.energy_balance, kernels_called(options.kernels));
       Json said{{"seconds", run.seconds},
                 {"advised_step_s", run.advised_step_s},
                 {"contacts_per_grain", run.contacts},

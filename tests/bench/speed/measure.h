@@ -12,16 +12,16 @@ namespace pastefit {
 /// How to measure.
 struct MeasureOptions {
   bool peers = false;
-  int repeats = 3;         ///< of every engine, in turn; the median counts
-  double patience_s = 60;  ///< an engine whose run took longer is not run again
-  int steps = 0;           ///< timed steps instead of the scene's own; 0: its own
-  bool ledger = false;     ///< our engine keeps its ledger of energy; no peer keeps one
-  std::string kernels{};   ///< instruction set of our engine's kernels where steps are timed; empty: the widest
+  int repeats = 3;              ///< of every engine, in turn; the median counts
+  double patience_s = 60;       ///< an engine whose run took longer is not run again
+  int steps = 0;                ///< timed steps instead of the scene's own; 0: its own
+  bool energy_balance = false;  ///< our engine keeps its energy balance; no peer keeps one
+  std::string kernels{};        ///< instruction set of our engine's kernels where steps are timed; empty: the widest
 };
 
 /// One engine's runs of a scene.
 struct TimedEngine {
-  std::string name;                                   ///< as in `Peer`, or "ours", or "ours with ledger"
+  std::string name;                                   ///< as in `Peer`, or "ours", or "ours with energy balance"
   std::string laws;                                   ///< peers only
   std::vector<double> seconds;                        ///< of the processor, each run
   double peak_bytes = 0;                              ///< largest resident set of the process

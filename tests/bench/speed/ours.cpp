@@ -43,11 +43,11 @@ World world_of(const Scene& scene, Bed&& given) {
   return world;
 }
 
-OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger, const KernelTable& kernels) {
+OurRun run_ours(const Scene& scene, Bed&& bed, bool energy_balance, const KernelTable& kernels) {
   World world = world_of(scene, std::move(bed));
   StepOptions options;
   options.fixed_step_s = kSceneStep;
-  options.ledger = ledger;
+  options.energy_balance = energy_balance;
   options.kernels = &kernels;
   OurRun run;
   options.clock = &run.stages;

@@ -20,11 +20,11 @@ struct OurRun {
 };
 
 /// Steps the scene as every engine does: at `kSceneStep`, the warm steps first, then the timed ones.
-/// `ledger`: of energy; no other engine keeps one, and the search's candidates keep none either.
+/// `energy_balance`: of energy; no other engine keeps one, and the search's candidates keep none either.
 /// `kernels`: those of an instruction set that this processor has.
 /// The bed is used up, so that its memory does not count as the engine's.
 /// Errors: throws std::runtime_error if the run fails.
-OurRun run_ours(const Scene& scene, Bed&& bed, bool ledger, const KernelTable& kernels);
+OurRun run_ours(const Scene& scene, Bed&& bed, bool energy_balance, const KernelTable& kernels);
 
 /// The scene's world at rest, ready to be stepped.
 World world_of(const Scene& scene, Bed&& bed);

@@ -55,7 +55,8 @@ struct Counted {
   }
 };
 
-/// What the pair kernel does besides the law: from two grains to a meeting, and from an action to two loads.
+/// What the pair kernel does besides the law: from two grains to their kinematics, and from a contact force to two
+/// loads.
 void count_geometry() {
   using Vector = BasicVec3<Counted>;
   const Vector p{}, v{}, w{};
@@ -160,18 +161,20 @@ MachineLimits measure_machine() {
 ContactCost cost_of_contact(bool cohesive) {
   Counted::simple = Counted::roots = Counted::divisions = 0;
   count_geometry();
-  const Meeting<Counted> meeting{};
-  Memory<Counted> memory{};
+  const ContactKinematics<Counted> kinematics{};
+  ContactHistory<Counted> history{};
   const auto pair = in_lanes<Counted>(grain_pair(scene_material(cohesive), kSceneRadius));
   if (cohesive)
-    act<Hertz, PolynomialAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
+    act<Hertz, PolynomialAttraction, SpringDashpotRolling>(pair, kinematics, history, Counted(kSceneStep),
+                                                           Energies::dissipation);
   else
-    act<Hertz, NoAttraction, SpringDashpotRolling>(pair, meeting, memory, Counted(kSceneStep), Energies::heat);
+    act<Hertz, NoAttraction, SpringDashpotRolling>(pair, kinematics, history, Counted(kSceneStep),
+                                                   Energies::dissipation);
   ContactCost cost;
   cost.additions_multiplications = Counted::simple;
   cost.roots_divisions = Counted::roots + Counted::divisions;
-  // Columns of Contacts: two indices, three constants, and the memory, which goes back too.
-  cost.bytes_streamed = 2 * sizeof(std::int32_t) + 3 * sizeof(float) + 2 * sizeof(Memory<float>);
+  // Columns of Contacts: two indices, three constants, and the history, which goes back too.
+  cost.bytes_streamed = 2 * sizeof(std::int32_t) + 3 * sizeof(float) + 2 * sizeof(ContactHistory<float>);
   cost.bytes_gathered = 2 * (sizeof(Motion) + 2 * sizeof(Load));
   return cost;
 }
@@ -183,7 +186,7 @@ double Roofline::share_of_limit() const {
 Roofline measure_roofline() {
   Roofline r;
   r.scene = "box-100k";
-  const SceneResult box = measure(r.scene, {.ledger = true});
+  const SceneResult box = measure(r.scene, {.energy_balance = true});
   if (!box.ours().measured()) throw std::runtime_error(box.ours().problem);
   double contacts = 0;
   for (const auto& [name, value] : box.ours().notes)

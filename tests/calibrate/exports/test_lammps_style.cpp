@@ -70,21 +70,22 @@ Vec3 of(const style::Vector& v) {
 template <class Attraction, class Rolling>
 double difference(const PairConstants& pair, const style::Contact& contact, double small, double large) {
   const double radius = small * large / (small + large), mass = 0.003;
-  Memory<double> memory{};
-  style::Memory other{};
+  ContactHistory<double> history{};
+  style::ContactHistory other{};
   double largest = 0, worst = 0;
   for (Motion motion; motion.time < 0.1; motion.time += kStep) {
-    const Meeting<double> meeting{
+    const ContactKinematics<double> kinematics{
         of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
         std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
-    const auto action = act<Hertz, Attraction, Rolling>(pair, meeting, memory, kStep, Energies::none);
-    const Vec3 force = action.traction - action.push * meeting.normal;
+    const auto contact_force = act<Hertz, Attraction, Rolling>(pair, kinematics, history, kStep, Energies::none);
+    const Vec3 force = contact_force.tangential_force - contact_force.normal_force * kinematics.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
                                      mass, std::min(small, large)},
                                     other, kStep, kStep);
     largest = std::max(largest, norm(force));
-    worst = std::max({worst, norm(force - of(theirs.force)), norm(action.moment - of(theirs.moment)) / kGrainRadius});
-    CHECK(memory.bridge == other.bridge);
+    worst = std::max(
+        {worst, norm(force - of(theirs.force)), norm(contact_force.moment - of(theirs.moment)) / kGrainRadius});
+    CHECK(history.bridge == other.bridge);
   }
   return worst / largest;
 }

@@ -15,8 +15,8 @@ TEST_CASE("the sketch of a slump test is its heap as it came to rest") {
   Sketcher sketcher;
   RunOptions options;
   options.watch_interval_s = 0.002;
-  options.watch = [&](const Moment& moment) {
-    sketcher.see(test, moment);
+  options.watch = [&](const Snapshot& snapshot) {
+    sketcher.see(test, snapshot);
     return true;
   };
   const Outcome outcome = simulate(test, options);

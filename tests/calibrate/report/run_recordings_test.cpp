@@ -12,8 +12,8 @@ Outcome simulated(const Test& test, RunRecordings& looks) {
   const RunObserver::Watch watch = looks.begin(test);
   RunOptions options;
   options.watch_interval_s = looks.interval_s();
-  options.watch = [&](const Moment& moment) {
-    watch(moment);
+  options.watch = [&](const Snapshot& snapshot) {
+    watch(snapshot);
     return true;
   };
   options.packing = prepare(test, options);

@@ -109,7 +109,7 @@ TEST_CASE("a film begins a part where the grains are other ones, and its clock g
   World two = world_of({{0, 0, 0}, {0, 0, 1}}), one = world_of({{0, 0, 0}});
   for (const double time : {0.0, 0.02, 0.04}) recorder.add({"fill.pour", time, 0, &two});
   for (const double time : {0.0, 0.02}) recorder.add({"step1.lift", time, 0, &one});
-  Moment second_drop{"step2.rest", 0.04, 0, &one};
+  Snapshot second_drop{"step2.rest", 0.04, 0, &one};
   second_drop.drop = 1;
   recorder.add(second_drop);
   const RunRecording film = std::move(recorder).film();

@@ -92,11 +92,11 @@ TEST_CASE("grains that their own attraction would press through each other fail 
   CHECK(store.size() == 4);
 }
 
-TEST_CASE("a candidate that is tried out keeps no ledger of energy, one that is evaluated does") {
+TEST_CASE("a candidate that is tried out keeps no energy_balance of energy, one that is evaluated does") {
   Laboratory laboratory;
   auto store = laboratory.store();
   std::atomic<int> kept = 0;
-  laboratory.twist = [&](const SlumpTest&, const RunOptions& run, Outcome&) { kept += run.steps.ledger; };
+  laboratory.twist = [&](const SlumpTest&, const RunOptions& run, Outcome&) { kept += run.steps.energy_balance; };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   (void)objective.try_out(std::vector<UnitPoint>{at(0.5, 0.5)}, kPackings);
   CHECK(laboratory.runs == 2);

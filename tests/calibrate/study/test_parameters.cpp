@@ -134,17 +134,17 @@ TEST_CASE("default values lie in their admissible range, and names are unique") 
   }
 }
 
-/// Calls `look(law)` with every law of a list.
-template <class... Laws, class Look>
-void each(TypeList<Laws...>, const Look& look) {
-  (look(Laws{}), ...);
+/// Calls `visit(law)` with every law of a list.
+template <class... Laws, class Visitor>
+void each(TypeList<Laws...>, const Visitor& visit) {
+  (visit(Laws{}), ...);
 }
 
-template <class Look>
-void each_law(const Look& look) {
-  each(NormalLaws{}, look);
-  each(Attractions{}, look);
-  each(RollingLaws{}, look);
+template <class Visitor>
+void each_law(const Visitor& visit) {
+  each(NormalLaws{}, visit);
+  each(Attractions{}, visit);
+  each(RollingLaws{}, visit);
 }
 
 TEST_CASE("a law asks for the parameters that it names and for no others, and every one is a parameter") {

@@ -22,15 +22,15 @@ std::vector<Pass> passes_of(const auto& test) {
   std::vector<Pass> passes;
   RunOptions options;
   options.watch_interval_s = 0;  // every step
-  options.watch = [&](const Moment& moment) {
-    if (passes.empty() || passes.back().phase != moment.phase || moment.time_s < passes.back().last_s)
-      passes.push_back({std::string(moment.phase), moment.time_s});
+  options.watch = [&](const Snapshot& snapshot) {
+    if (passes.empty() || passes.back().phase != snapshot.phase || snapshot.time_s < passes.back().last_s)
+      passes.push_back({std::string(snapshot.phase), snapshot.time_s});
     Pass& pass = passes.back();
-    pass.step_s = std::max(pass.step_s, moment.time_s - pass.last_s);
-    pass.last_s = moment.time_s;
-    pass.earliest_s = std::max(pass.earliest_s, moment.time_s + moment.left.least_s);
-    pass.latest_s = std::min(pass.latest_s, moment.time_s + moment.left.most_s);
-    pass.widest_s = std::max(pass.widest_s, moment.left.most_s - moment.left.least_s);
+    pass.step_s = std::max(pass.step_s, snapshot.time_s - pass.last_s);
+    pass.last_s = snapshot.time_s;
+    pass.earliest_s = std::max(pass.earliest_s, snapshot.time_s + snapshot.left.least_s);
+    pass.latest_s = std::min(pass.latest_s, snapshot.time_s + snapshot.left.most_s);
+    pass.widest_s = std::max(pass.widest_s, snapshot.left.most_s - snapshot.left.least_s);
     return true;
   };
   const Outcome outcome = simulate(test, options);

@@ -295,10 +295,10 @@ TEST_CASE("a contact that sticks is kept while its grains are listed anew") {
   Scene scene(model);
   scene.grain({0, 0, 0}, {1, 0, 0}).grain({0.02 - 1e-6, 0, 0}, {1, 0, 0});
   scene.run(1e-7, 1e-7);
-  const double gap = 0.9 * scene.world.grain_pair.tear_gap;
+  const double gap = 0.9 * scene.world.grain_pair.pull_off_gap;
   scene.world.particles.motion[1].position.x = scene.world.particles.motion[0].position.x + 0.02 + gap;
   scene.run(0.2, 1e-5);
-  CHECK(norm(scene.motion(1).position - scene.motion(0).position) < 0.02 + scene.world.grain_pair.tear_gap);
+  CHECK(norm(scene.motion(1).position - scene.motion(0).position) < 0.02 + scene.world.grain_pair.pull_off_gap);
 }
 
 TEST_CASE("AVX2 and AVX-512 give the same bits, SSE2 the same collision") {

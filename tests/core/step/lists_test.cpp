@@ -44,8 +44,8 @@ TEST_CASE("a pair that may still meet stays listed while it moves apart, whichev
   grains.motion[kOne].position.x += closer;
   grains.motion[kOther].position.x -= closer;
   for (const std::int32_t i : {kOne, kOther}) set_velocity(grains, i, {kOwn / (kStep * kSteps), 0, 0}, {});
-  Team team(1);
-  Lists lists(world, 0.8 * kSize, team, nullptr);
+  ThreadPool pool(1);
+  Lists lists(world, 0.8 * kSize, pool, nullptr);
   lists.update(kStep, 0, 0);
   REQUIRE(world.pairs.blocks.size() >= 2);
   const std::int32_t one = place_of(world, kOne), other = place_of(world, kOther);
@@ -58,7 +58,7 @@ TEST_CASE("a pair that may still meet stays listed while it moves apart, whichev
   grains.motion[other].position.x += 0.55 * kOwn;
   const std::int32_t stray = world.pairs.blocks[1].grains + 1000;
   grains.motion[stray].position.z += 0.1 * kSize;
-  lists.note_strayed(1);
+  lists.note_exceeded(1);
   lists.update(kStep, 0, 0);
   REQUIRE(place_of(world, kOne) == one);  // nothing was sorted anew
   CHECK(is_listed(world.pairs.blocks[0], one, other));

@@ -77,11 +77,11 @@ struct Bed {
     const double end = world.time + duration;
     while (world.time < end) REQUIRE_FALSE(stepper->step({}));
   }
-  /// The ledger of this very moment, but for the steps to its next look.
-  const Ledger& looked_at() {
+  /// The energy balance of this very moment, but for the steps to its next look.
+  const EnergyBalance& looked_at() {
     do REQUIRE_FALSE(stepper->step({}));
     while (world.step % Stepper::kLedgerInterval != 1);
-    return stepper->ledger();
+    return stepper->energy_balance();
   }
   /// Runs until all grains sleep, for `longest` at most.
   bool fall_asleep(double longest) {
@@ -175,7 +175,7 @@ TEST_CASE("a settled bed sleeps wholly, stays where it is, and weighs on its flo
     CHECK(largest_distance(bed.places(), awake.places()) < kLayers * give_of_a_sleeper(bed));
     const double carried = -bed.world.walls[kFloor].force.z;
     CHECK(carried == Approx(-awake.world.walls[kFloor].force.z).epsilon(0.01));
-    CHECK(bed.stepper->ledger().heat_sleep > 0);
+    CHECK(bed.stepper->energy_balance().dissipation_sleep > 0);
     CHECK(std::fabs(bed.looked_at().error()) < 1e-3 * bed.weight() * kRadius);
   }
 }
@@ -190,12 +190,12 @@ TEST_CASE("pairs wake with exactly the memory they fell asleep with") {
     const auto after = memory_of(bed.world);
     int touching = 0;
     for (const auto& [pair, memory] : before) {
-      if (memory.root_contact_radius == 0) continue;
+      if (memory.sqrt_contact_radius == 0) continue;
       ++touching;
       REQUIRE(after.contains(pair));
       const Contact& now = after.at(pair);
       CHECK(now.bridge == memory.bridge);
-      CHECK(now.root_contact_radius == Approx(memory.root_contact_radius));
+      CHECK(now.sqrt_contact_radius == Approx(memory.sqrt_contact_radius));
       for (int c = 0; c < 3; ++c) {
         CHECK(now.slip[c] == Approx(memory.slip[c]).margin(1e-9 * kRadius));
         CHECK(now.roll[c] == Approx(memory.roll[c]).margin(1e-9));
@@ -224,8 +224,8 @@ TEST_CASE("a grain that falls on a sleeping bed wakes what it reaches, and all e
       fewest = std::min(fewest, bed.stepper->sleeping());
     }
     places[sleep] = bed.places();
-    const Ledger& ledger = bed.looked_at();
-    CHECK(std::fabs(ledger.error()) < 3e-3 * ledger.put_in());
+    const EnergyBalance& energy_balance = bed.looked_at();
+    CHECK(std::fabs(energy_balance.error()) < 3e-3 * energy_balance.put_in());
     if (!sleep) continue;
     INFO(before << " slept before, at least " << fewest << " then, " << bed.stepper->sleeping() << " at the end");
     CHECK(before > bed.world.particles.count() / 2);
@@ -246,8 +246,8 @@ TEST_CASE("a wall that moves wakes the bed on it and carries it along") {
       bed.world.walls[kFloor].velocity = {0, 0, 0.02};
       bed.run(0.1);
       rise[sleep] = bed.mean_height() - before;
-      const Ledger& ledger = bed.looked_at();
-      error[sleep] = ledger.error() / ledger.put_in();
+      const EnergyBalance& energy_balance = bed.looked_at();
+      error[sleep] = energy_balance.error() / energy_balance.put_in();
       CHECK(bed.stepper->sleeping() == 0);
     }
     INFO((sticky ? "sticky" : "dry"));
@@ -283,7 +283,7 @@ TEST_CASE("a grain that lands wakes the sleepers it hits and leaves those it doe
   }
   CHECK(most >= 40);
   CHECK(fewest_after == 38);
-  CHECK(std::fabs(stepper.ledger().error()) < 1e-3 * stepper.ledger().put_in());
+  CHECK(std::fabs(stepper.energy_balance().error()) < 1e-3 * stepper.energy_balance().put_in());
 }
 
 TEST_CASE("a two-step slump test reads the same with sleep and without, dry and as paste", "[campaign]") {

@@ -13,7 +13,7 @@
 
 #include "core/random.h"
 #include "core/rigs/slump/slump_test.h"
-#include "core/step/journal.h"
+#include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
 
 namespace pastefit {
@@ -38,8 +38,8 @@ World world_in_the_midst() {
   RunOptions options;
   std::optional<World> world;
   int seen = 0;
-  options.pulse = [&](const Moment& moment) {
-    if (moment.phase == "step1.lift" && ++seen == 3) world = *moment.world;
+  options.pulse = [&](const Snapshot& snapshot) {
+    if (snapshot.phase == "step1.lift" && ++seen == 3) world = *snapshot.world;
     return !world;
   };
   (void)simulate(heap(), options);
@@ -118,19 +118,19 @@ std::vector<Forgery> forgeries() {
       {"a candidate beyond the last grain",
        [](World& w) {
          bool first = true;
-         w.pairs.blocks[0].candidates.each(0, [&](Candidates::Pair& pair, std::int32_t, std::int32_t) {
-           if (std::exchange(first, false)) pair = Candidates::Pair(500'000'000);
+         w.pairs.blocks[0].candidates.each(0, [&](NeighbourList::Pair& pair, std::int32_t, std::int32_t) {
+           if (std::exchange(first, false)) pair = NeighbourList::Pair(500'000'000);
          });
        }},
       {"candidates in no list that there is",
        [](World& w) {
          w.pairs.blocks[0].candidates.each(
-             0, [](Candidates::Pair& pair, std::int32_t, std::int32_t) { pair.keep(Candidates::kinds); });
+             0, [](NeighbourList::Pair& pair, std::int32_t, std::int32_t) { pair.keep(NeighbourList::kinds); });
        }},
       {"more candidates kept than the lists have",
        [](World& w) {
          w.pairs.blocks[0].candidates.each(
-             0, [](Candidates::Pair& pair, std::int32_t, std::int32_t) { pair.keep(Candidates::touching); });
+             0, [](NeighbourList::Pair& pair, std::int32_t, std::int32_t) { pair.keep(NeighbourList::touching); });
        }},
       {"a wall that touches more than it lists", [](World& w) { touching_of(w).count = 1'000'000; }},
       {"a wall that touches a grain beyond the last",
@@ -164,9 +164,9 @@ std::string state_in_the_midst(const RunOptions& how, int pulses) {
   RunOptions options = how;
   std::string kept;
   int seen = 0;
-  options.journal =
-      std::make_shared<Journal>([&] { return seen == pulses - 1; }, [&](const std::string& state) { kept = state; });
-  options.pulse = [&](const Moment&) { return ++seen < pulses; };
+  options.checkpoint = std::make_shared<RunCheckpoint>([&] { return seen == pulses - 1; },
+                                                       [&](const std::string& state) { kept = state; });
+  options.pulse = [&](const Snapshot&) { return ++seen < pulses; };
   (void)simulate(heap(), options);
   REQUIRE(kept.size() > 10'000);
   return kept;
@@ -178,11 +178,11 @@ enum class Answer { refused, failed, went_on };
 Answer answer_to(const std::string& state, const RunOptions& how) {
   RunOptions options = how;
   int seen = 0;
-  options.pulse = [&](const Moment&) { return ++seen < 3; };
+  options.pulse = [&](const Snapshot&) { return ++seen < 3; };
   try {
-    options.journal = std::make_shared<Journal>([] { return false; }, [](const std::string&) {}, state);
+    options.checkpoint = std::make_shared<RunCheckpoint>([] { return false; }, [](const std::string&) {}, state);
     const Outcome outcome = simulate(heap(), options);
-    if (!options.journal->is_told()) return Answer::refused;
+    if (!options.checkpoint->is_told()) return Answer::refused;
     return outcome.failure && outcome.failure->reason != FailureReason::stopped ? Answer::failed : Answer::went_on;
   } catch (const BadState&) {
     return Answer::refused;

@@ -29,7 +29,7 @@ Scene in_slice(const ContactModel& model, double period = kSlice) {
 }
 
 double apart_in_slice(const Vec3& a, const Vec3& b, double period) {
-  return norm(Domain{period}.way(a, b));
+  return norm(Domain{period}.minimum_image(a, b));
 }
 
 /// So many grains in a slice of ten radii, on a lattice, moving this way and that.
@@ -48,14 +48,14 @@ void add_crowd(Scene& scene, int layers, double shift, int across = 4) {
 
 TEST_CASE("the way between two grains of a slice is the shortest, whichever of their images is asked for") {
   const Domain slice{kSlice};
-  CHECK(slice.way(Vec3{0.095, 0, 0}, Vec3{0.005, 0.01, 0}).x == Approx(0.01));
-  CHECK(slice.way(Vec3{0.005, 0, 0}, Vec3{0.095, 0.01, 0}).x == Approx(-0.01));
-  CHECK(slice.way(Vec3{-0.02, 0, 0}, Vec3{0.11, 0, 0}).x == Approx(0.03));
+  CHECK(slice.minimum_image(Vec3{0.095, 0, 0}, Vec3{0.005, 0.01, 0}).x == Approx(0.01));
+  CHECK(slice.minimum_image(Vec3{0.005, 0, 0}, Vec3{0.095, 0.01, 0}).x == Approx(-0.01));
+  CHECK(slice.minimum_image(Vec3{-0.02, 0, 0}, Vec3{0.11, 0, 0}).x == Approx(0.03));
   CHECK(slice.put_back({0.27, 1, 2}).x == Approx(0.07));
   CHECK(slice.put_back({-0.27, 1, 2}).x == Approx(0.03));
   CHECK(slice.put_back({0.07, 1, 2}).x == 0.07);
   const Vec3 there{0.7, 0.2, 0.1}, here{0.1, 0, 0};
-  CHECK(Domain{}.way(here, there).x == (there - here).x);
+  CHECK(Domain{}.minimum_image(here, there).x == (there - here).x);
 }
 
 TEST_CASE("a grain that leaves a slice on one side hits one on the other, as two grains do that meet anywhere") {
@@ -90,13 +90,13 @@ TEST_CASE("every pair of a slice is listed once, however few cells it is wide") 
     int near = 0;
     for (std::size_t i = 0; i < centres.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (norm(slice.way(slice.put_back(centres[i]), slice.put_back(centres[j]))) < reach) ++near;
+        if (norm(slice.minimum_image(slice.put_back(centres[i]), slice.put_back(centres[j]))) < reach) ++near;
     Particles particles = make_particles(centres, std::vector<double>(centres.size(), radius), 2500);
     Pairs pairs;
     rebuild(particles, slice, pairs, 0, AttractionReach{}, skin);
     int listed = 0;
     for (const Block& block : pairs.blocks)
-      block.candidates.each(block.grains, [&](Candidates::Pair pair, std::int32_t i, std::int32_t) {
+      block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i, std::int32_t) {
         const std::int32_t j = pair.grain();
         CHECK(i < j);
         CHECK(apart_in_slice(particles.motion[i].position, particles.motion[j].position, period) < 1.0001 * reach);
@@ -116,14 +116,14 @@ TEST_CASE("a contact remembers its slip when it is carried through the seam agai
   const auto pair_of = [&](Scene scene) {
     scene.grain({0.03, 0, 0}, {speed, 0.002, 0}, {0, 0, 0.6}).grain({0.0499, 0, 0}, {speed, -0.002, 0}, {0, 0.3, 0.4});
     scene.run(duration, step);
-    const Vec3 way = scene.world.domain.way(scene.motion(0).position, scene.motion(1).position);
+    const Vec3 way = scene.world.domain.minimum_image(scene.motion(0).position, scene.motion(1).position);
     const Vec3 slower = scene.velocity(1) - scene.velocity(0);
     const Contact kept = scene.world.pairs.blocks[0].contacts.contact(0);
     const bool turned = scene.world.particles.identity[scene.world.pairs.blocks[0].contacts.first(0)] != 0;
     const Contact contact = turned ? kept.turned() : kept;
     return std::vector<double>{
         way.x,    way.y,           way.z,           slower.x,        slower.y,
-        slower.z, contact.slip[0], contact.slip[1], contact.slip[2], contact.root_contact_radius};
+        slower.z, contact.slip[0], contact.slip[1], contact.slip[2], contact.sqrt_contact_radius};
   };
   const std::vector<double> round = pair_of(in_slice(model)), straight = pair_of(Scene(model));
   REQUIRE(std::fabs(straight[6]) + std::fabs(straight[7]) > 1e-10);

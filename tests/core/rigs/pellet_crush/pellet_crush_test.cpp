@@ -40,10 +40,10 @@ TEST_CASE("what platen and floor push a pellet with is its weight and its change
   std::vector<Seen> seen;
   RunOptions options;
   options.watch_interval_s = 0;
-  options.watch = [&](const Moment& moment) {
-    if (moment.phase != "crush") return true;
-    const World& world = *moment.world;
-    Seen now{moment.time_s, 0, 0, 0, world.walls.back().force.z};
+  options.watch = [&](const Snapshot& snapshot) {
+    if (snapshot.phase != "crush") return true;
+    const World& world = *snapshot.world;
+    Seen now{snapshot.time_s, 0, 0, 0, world.walls.back().force.z};
     for (std::int32_t i = 0; i < world.particles.count(); ++i) {
       now.momentum += world.particles.mass(i) * world.particles.velocity[i].linear.z;
       now.weight += world.particles.mass(i) * kGravity;

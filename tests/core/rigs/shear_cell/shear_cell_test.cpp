@@ -35,13 +35,13 @@ TEST_CASE("the bed carries the lid's load while it is sheared, and passes on fro
   double duration = 0, before = 0, on_lid = 0, on_base = 0, along_lid = 0, weight = 0, height = 0, rise = 0;
   RunOptions options;
   options.watch_interval_s = 0;
-  options.watch = [&](const Moment& moment) {
-    if (moment.phase != "shear") return true;
-    const World& world = *moment.world;
+  options.watch = [&](const Snapshot& snapshot) {
+    if (snapshot.phase != "shear") return true;
+    const World& world = *snapshot.world;
     weight = 0;
     for (std::int32_t i = 0; i < world.particles.count(); ++i) weight += world.particles.mass(i) * kGravity;
-    const double dt = before > 0 ? moment.time_s - before : 0;
-    before = moment.time_s;
+    const double dt = before > 0 ? snapshot.time_s - before : 0;
+    before = snapshot.time_s;
     duration += dt;
     const double now = std::get<Plane>(world.walls[4].shape).point.z;
     if (height > 0) rise += now - height;

@@ -52,8 +52,8 @@ SlumpTest jkr_test() {
 /// At the last moment watched; 0 if the run failed.
 std::uint64_t hash_of_run(const SlumpTest& test, RunOptions options = {}) {
   std::uint64_t hash = 0;
-  options.watch = [&](const Moment& moment) {
-    hash = hash_of(moment.world->particles);
+  options.watch = [&](const Snapshot& snapshot) {
+    hash = hash_of(snapshot.world->particles);
     return true;
   };
   return simulate(test, options).failure ? 0 : hash;
@@ -155,11 +155,11 @@ TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {
   CHECK(hash_of_sleeping_floor(3) == alone);
 }
 
-TEST_CASE("without the ledger of energy a run has the same bits, and says that it kept none") {
+TEST_CASE("without the energy_balance of energy a run has the same bits, and says that it kept none") {
   SlumpTest test = sticky_test();
   test.drop = DropPlate{};
   RunOptions without;
-  without.steps.ledger = false;
+  without.steps.energy_balance = false;
   const std::uint64_t kept = hash_of_run(test);
   REQUIRE(kept != 0);
   CHECK(hash_of_run(test, without) == kept);

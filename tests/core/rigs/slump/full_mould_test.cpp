@@ -70,7 +70,7 @@ TEST_CASE("what is lifted fills the mould, whatever the strength and the frictio
         const Packing full = full_mould(test, *poured);
         REQUIRE_FALSE(full.failure);
         Packing as_poured = *poured;
-        for (double& radius : as_poured.radii) radius = test.grains.radius_m / (1 + filling_of(test).squeeze);
+        for (double& radius : as_poured.radii) radius = test.grains.radius_m / (1 + filling_of(test).resting_overlap);
         const Stand before = stand_of(test, as_poured), now = stand_of(test, full);
         const Mould& mould = test.mould;
         volume += ((now.height - before.height) / mould.height_m -
@@ -101,10 +101,10 @@ TEST_CASE("what is lifted stays as high as it was struck off when lid and drag a
         return mean_height(world.particles, test.grains.radius_m, {0, 0, 2 * test.mould.top_radius_m - 0.016});
       };
       options.watch_interval_s = 0.25;
-      options.watch = [&](const Moment& moment) {
-        if (moment.phase != "step1.lift") return true;
-        (moment.time_s == 0 ? highest_mean : mean) = surface(*moment.world);
-        return moment.time_s == 0;
+      options.watch = [&](const Snapshot& snapshot) {
+        if (snapshot.phase != "step1.lift") return true;
+        (snapshot.time_s == 0 ? highest_mean : mean) = surface(*snapshot.world);
+        return snapshot.time_s == 0;
       };
       (void)simulate(test, options);
       INFO("strength " << strength << " Pa, friction " << friction << ": " << highest_mean << " m, then " << mean);
@@ -121,8 +121,8 @@ TEST_CASE(
       const SlumpTest test = paste(strength, friction);
       Particles heap;
       RunOptions options;
-      options.watch = [&](const Moment& moment) {
-        if (moment.phase == "step1.rest") heap = moment.world->particles;
+      options.watch = [&](const Snapshot& snapshot) {
+        if (snapshot.phase == "step1.rest") heap = snapshot.world->particles;
         return true;
       };
       const Outcome outcome = simulate(test, options);

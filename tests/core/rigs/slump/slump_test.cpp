@@ -54,8 +54,8 @@ TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
   for (const SlumpTest& test : {small_test(0), small_test(30), wide}) {
     std::int64_t poured = 0;
     RunOptions options;
-    options.watch = [&](const Moment& moment) {
-      poured = moment.world->particles.count();
+    options.watch = [&](const Snapshot& snapshot) {
+      poured = snapshot.world->particles.count();
       return false;
     };
     (void)fill_mould(test, options);
@@ -88,8 +88,8 @@ TEST_CASE("with a fixed wait the phases last as long whatever the heap does") {
   options.packing = fill_mould(test);
   std::vector<std::pair<std::string, double>> begun;
   options.watch_interval_s = 1e-4;
-  options.watch = [&](const Moment& moment) {
-    if (begun.empty() || begun.back().first != moment.phase) begun.emplace_back(moment.phase, moment.time_s);
+  options.watch = [&](const Snapshot& snapshot) {
+    if (begun.empty() || begun.back().first != snapshot.phase) begun.emplace_back(snapshot.phase, snapshot.time_s);
     return true;
   };
   const Outcome outcome = simulate(test, options);
@@ -221,8 +221,8 @@ TEST_CASE("a heap does not differ from its own outline, and another one does by 
   SlumpTest test = small_test(1);
   Outline side;
   RunOptions options;
-  options.watch = [&](const Moment& moment) {
-    if (moment.phase == "step1.rest") side = outline(moment.world->particles, test.grains.radius_m);
+  options.watch = [&](const Snapshot& snapshot) {
+    if (snapshot.phase == "step1.rest") side = outline(snapshot.world->particles, test.grains.radius_m);
     return true;
   };
   REQUIRE_FALSE(simulate(test, options).failure);
@@ -238,7 +238,7 @@ TEST_CASE("a heap does not differ from its own outline, and another one does by 
 
 TEST_CASE("a run that is asked to stop ends as stopped") {
   RunOptions options;
-  options.watch = [](const Moment& moment) { return moment.time_s < 0.1; };
+  options.watch = [](const Snapshot& snapshot) { return snapshot.time_s < 0.1; };
   const Outcome outcome = simulate(small_test(0), options);
   REQUIRE(outcome.failure);
   CHECK(outcome.failure->reason == FailureReason::stopped);

@@ -1,4 +1,4 @@
-#include "core/step/journal.h"
+#include "core/step/run_checkpoint.h"
 
 #include <utility>
 
@@ -6,7 +6,8 @@
 
 namespace pastefit {
 
-Journal::Journal(std::function<bool()> due, std::function<void(const std::string&)> keep, std::string_view state)
+RunCheckpoint::RunCheckpoint(std::function<bool()> due, std::function<void(const std::string&)> keep,
+                             std::string_view state)
     : due_(std::move(due)), keep_(std::move(keep)) {
   if (state.empty()) return;
   StateReader reader(state);
@@ -15,21 +16,21 @@ Journal::Journal(std::function<bool()> due, std::function<void(const std::string
   demand(!interrupted_->hidden.empty(), "the wait that was under way left nothing");
 }
 
-const Journal::Wait* Journal::next_ended() {
+const RunCheckpoint::Wait* RunCheckpoint::next_ended() {
   return interrupted_ && told_ < ended_.size() ? &ended_[told_++] : nullptr;
 }
 
-std::optional<Journal::Wait> Journal::take_interrupted() {
+std::optional<RunCheckpoint::Wait> RunCheckpoint::take_interrupted() {
   return std::exchange(interrupted_, std::nullopt);
 }
 
-std::size_t Journal::add(Wait ended, std::optional<std::size_t> before) {
+std::size_t RunCheckpoint::add(Wait ended, std::optional<std::size_t> before) {
   if (before) ended_[*before].hidden.clear();
   ended_.push_back(std::move(ended));
   return ended_.size() - 1;
 }
 
-void Journal::keep(Wait under_way) {
+void RunCheckpoint::keep(Wait under_way) {
   StateWriter state;
   state(ended_, under_way);
   keep_(state.take());

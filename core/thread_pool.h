@@ -11,14 +11,14 @@ namespace pastefit {
 /// because a step has several of them and lasts less than it takes to wake a sleeping thread.
 ///
 /// Requirement on the work: tasks write to different places, and what they add up is combined in the order of the
-/// tasks, not of the threads; then every size of the team gives the same bits.
-class Team {
+/// tasks, not of the threads; then every size of the pool gives the same bits.
+class ThreadPool {
  public:
   /// Of so many members, or as many as the system has threads for.
-  explicit Team(int size = 1);
-  ~Team();
-  Team(const Team&) = delete;
-  Team& operator=(const Team&) = delete;
+  explicit ThreadPool(int size = 1);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int size() const { return static_cast<int>(helpers_.size()) + 1; }
 

@@ -17,8 +17,8 @@ ContactModel soft(double restitution, double friction, RollingModel rolling) {
   return model;
 }
 
-/// Ledger after an oblique collision of two spinning grains, 700 (or, finer, 7000) steps.
-Ledger after_collision(const ContactModel& model, double dt) {
+/// EnergyBalance after an oblique collision of two spinning grains, 700 (or, finer, 7000) steps.
+EnergyBalance after_collision(const ContactModel& model, double dt) {
   World world;
   set_contact_model(world, model, 0.01);
   world.gravity = 0;
@@ -28,22 +28,23 @@ Ledger after_collision(const ContactModel& model, double dt) {
   options.fixed_step_s = dt;
   Stepper stepper(world, options);
   for (int n = 0; n < static_cast<int>(0.028 / dt); ++n) REQUIRE_FALSE(stepper.step({}));
-  return stepper.ledger();
+  return stepper.energy_balance();
 }
 
 }  // namespace
 
-TEST_CASE("the ledger of an oblique collision closes, whatever takes the energy") {
+TEST_CASE("the energy_balance of an oblique collision closes, whatever takes the energy") {
   for (const double e : {1.0, 0.3})
     for (const double mu : {0.0, 0.5})
       for (const RollingModel rolling :
            {RollingModel::none, RollingModel::spring_dashpot, RollingModel::constant_torque}) {
-        const Ledger ledger = after_collision(soft(e, mu, rolling), 4e-6);
+        const EnergyBalance energy_balance = after_collision(soft(e, mu, rolling), 4e-6);
         INFO("restitution " << e << " friction " << mu << " rolling " << static_cast<int>(rolling));
-        CHECK(std::fabs(ledger.error()) < 1e-4 * ledger.start_kinetic);
-        CHECK((ledger.heat_normal > 1e-3 * ledger.start_kinetic) == (e < 1));
-        CHECK((ledger.heat_sliding > 1e-4 * ledger.start_kinetic) == (mu > 0));
-        CHECK((ledger.heat_rolling > 1e-4 * ledger.start_kinetic) == (rolling != RollingModel::none));
+        CHECK(std::fabs(energy_balance.error()) < 1e-4 * energy_balance.start_kinetic);
+        CHECK((energy_balance.dissipation_normal > 1e-3 * energy_balance.start_kinetic) == (e < 1));
+        CHECK((energy_balance.dissipation_sliding > 1e-4 * energy_balance.start_kinetic) == (mu > 0));
+        CHECK((energy_balance.dissipation_rolling > 1e-4 * energy_balance.start_kinetic) ==
+              (rolling != RollingModel::none));
       }
 }
 
@@ -54,10 +55,10 @@ TEST_CASE("the energy of grains that stick is accounted for, whether they part a
       model.normal = NormalLaw::jkr;
       model.surface_energy_j_m2 = gamma;
       model.friction_basis = basis;
-      const Ledger ledger = after_collision(model, 4e-6);
+      const EnergyBalance energy_balance = after_collision(model, 4e-6);
       INFO("surface energy " << gamma << " friction of the " << (basis == FrictionBasis::total ? "total" : "elastic"));
-      CHECK(ledger.heat_bridges > 0);
-      CHECK(std::fabs(ledger.error()) < 2e-3 * ledger.put_in());
+      CHECK(energy_balance.dissipation_bridges > 0);
+      CHECK(std::fabs(energy_balance.error()) < 2e-3 * energy_balance.put_in());
     }
 }
 
@@ -69,10 +70,10 @@ TEST_CASE("the energy of an oblique collision is accounted for by DMT and SJKR")
       model.surface_energy_j_m2 = 5;
       model.cohesion_energy_density_pa = 1e5;
       model.friction_basis = basis;
-      const Ledger ledger = after_collision(model, 4e-6);
+      const EnergyBalance energy_balance = after_collision(model, 4e-6);
       INFO("law " << static_cast<int>(law) << " friction of the "
                   << (basis == FrictionBasis::total ? "total" : "elastic"));
-      CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
+      CHECK(std::fabs(energy_balance.error()) < 1e-3 * energy_balance.put_in());
     }
 }
 
@@ -88,11 +89,11 @@ TEST_CASE("DMT's and SJKR's attraction gives what it takes: elastic grains part 
     scene.run(0.02, dt);
     // DMT's force is there all at once: up to a step's way of it may be missed, at each end of the contact.
     const double jump = law == NormalLaw::dmt ? 4 * std::numbers::pi * 20 * 0.005 : 0;
-    const double allowed = 1e-5 * scene.ledger().put_in() + jump * 0.2 * dt;
+    const double allowed = 1e-5 * scene.energy_balance().put_in() + jump * 0.2 * dt;
     INFO("law " << static_cast<int>(law));
     CHECK(scene.motion(1).position.x > 0.0101);
-    CHECK(std::fabs(std::pow(scene.velocity(1).x / 0.1, 2) - 1) * scene.ledger().start_kinetic < allowed);
-    CHECK(std::fabs(scene.ledger().error()) < allowed);
+    CHECK(std::fabs(std::pow(scene.velocity(1).x / 0.1, 2) - 1) * scene.energy_balance().start_kinetic < allowed);
+    CHECK(std::fabs(scene.energy_balance().error()) < allowed);
   }
 }
 
@@ -107,12 +108,12 @@ TEST_CASE("what DMT's and SJKR's overlaps hold at the start is that of their str
     scene.run(0.02, 1e-5);
     const double hertz = 8.0 / 15 * (2e6 / (2 * (1 - 0.09))) * std::sqrt(0.005) * std::pow(0.0005, 2.5);
     INFO("law " << static_cast<int>(law));
-    CHECK(scene.ledger().put_in() == Approx(hertz).epsilon(0.01));
-    CHECK(std::fabs(scene.ledger().error()) < 1e-3 * scene.ledger().put_in());
+    CHECK(scene.energy_balance().put_in() == Approx(hertz).epsilon(0.01));
+    CHECK(std::fabs(scene.energy_balance().error()) < 1e-3 * scene.energy_balance().put_in());
   }
 }
 
-TEST_CASE("the ledger's error falls with the square of the step") {
+TEST_CASE("the energy_balance's error falls with the square of the step") {
   const ContactModel model = soft(0.3, 0.5, RollingModel::none);
   const double coarse = std::fabs(after_collision(model, 4e-5).error());
   const double fine = std::fabs(after_collision(model, 4e-6).error());
@@ -123,10 +124,10 @@ TEST_CASE("what overlaps hold at the start counts as put in") {
   Scene scene(soft(0.3, 0.5, RollingModel::none));
   scene.grain({0, 0, 0}).grain({0.0195, 0, 0});
   scene.run(0.02, 1e-5);
-  const Ledger& ledger = scene.ledger();
+  const EnergyBalance& energy_balance = scene.energy_balance();
   const double hertz = 8.0 / 15 * (2e6 / (2 * (1 - 0.09))) * std::sqrt(0.005) * std::pow(0.0005, 2.5);
-  CHECK(ledger.put_in() == Approx(hertz).epsilon(0.01));
-  CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
+  CHECK(energy_balance.put_in() == Approx(hertz).epsilon(0.01));
+  CHECK(std::fabs(energy_balance.error()) < 1e-3 * energy_balance.put_in());
 }
 
 TEST_CASE(
@@ -146,10 +147,10 @@ TEST_CASE(
   const double touch = std::cbrt(4.0);
   const double bound =
       -scale * (2.0 / 15 * std::pow(touch, 10) - 4.0 / 3 * std::pow(touch, 7) + 2 * std::pow(touch, 4) - 0.8);
-  const Ledger& ledger = scene.ledger();
+  const EnergyBalance& energy_balance = scene.energy_balance();
   CHECK(strain > 0);
-  CHECK(ledger.put_in() == Approx(strain + bound).epsilon(0.01));
-  CHECK(std::fabs(ledger.error()) < 1e-3 * ledger.put_in());
+  CHECK(energy_balance.put_in() == Approx(strain + bound).epsilon(0.01));
+  CHECK(std::fabs(energy_balance.error()) < 1e-3 * energy_balance.put_in());
 }
 
 TEST_CASE("constant torque does not spin up a small grain among large ones") {
@@ -183,10 +184,10 @@ TEST_CASE("a bridge that forms across a gap spends the work it takes to part it"
   options.fixed_step_s = 1e-6;
   Stepper stepper(world, options);
   for (int n = 0; n < 20000; ++n) REQUIRE_FALSE(stepper.step({}));
-  const Ledger& ledger = stepper.ledger();
+  const EnergyBalance& energy_balance = stepper.energy_balance();
   const auto antiderivative = [](double d) { return 2e4 * d * d * d / 3 + 80 * d * d / 2 + 0.1 * d; };
-  CHECK(ledger.heat_bridges == Approx(antiderivative(-0.0008) - antiderivative(-0.002)).epsilon(1e-3));
-  CHECK(std::fabs(ledger.error()) < 2e-3 * ledger.put_in());
+  CHECK(energy_balance.dissipation_bridges == Approx(antiderivative(-0.0008) - antiderivative(-0.002)).epsilon(1e-3));
+  CHECK(std::fabs(energy_balance.error()) < 2e-3 * energy_balance.put_in());
 }
 
 TEST_CASE("attraction across a gap does the work its law promises, for every shape") {
@@ -204,10 +205,10 @@ TEST_CASE("attraction across a gap does the work its law promises, for every sha
     options.fixed_step_s = 1e-6;
     Stepper stepper(world, options);
     for (int n = 0; n < 12000; ++n) REQUIRE_FALSE(stepper.step({}));
-    const Ledger& ledger = stepper.ledger();
+    const EnergyBalance& energy_balance = stepper.energy_balance();
     INFO("shape " << static_cast<int>(shape));
-    CHECK(ledger.stored == Approx(0).margin(1e-12));
-    CHECK(ledger.kinetic < 0.9999 * ledger.start_kinetic);
-    CHECK(std::fabs(ledger.error()) < 1e-4 * ledger.start_kinetic);
+    CHECK(energy_balance.stored == Approx(0).margin(1e-12));
+    CHECK(energy_balance.kinetic < 0.9999 * energy_balance.start_kinetic);
+    CHECK(std::fabs(energy_balance.error()) < 1e-4 * energy_balance.start_kinetic);
   }
 }

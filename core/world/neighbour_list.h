@@ -12,7 +12,7 @@ namespace pastefit {
 
 /// Pairs near enough that they may meet before the list is made again, of a run of grains: one grain after the other,
 /// so that a pair need not name its first one. 4 bytes a pair.
-class Candidates {
+class NeighbourList {
  public:
   /// In which of its block's lists a pair is kept, in all of them in the order of the candidates.
   enum Kept : std::uint32_t { nowhere, touching, near, dormant, bridge, dormant_bridge, kinds };
@@ -38,15 +38,15 @@ class Candidates {
   /// Goes on to the next grain.
   void end_grain() { ends_.push_back(static_cast<std::int32_t>(pairs_.size())); }
 
-  /// Calls `look(pair, i, ahead)` for all pairs; the run begins with grain `first`. `ahead` is the second grain of the
+  /// Calls `visit(pair, i, ahead)` for all pairs; the run begins with grain `first`. `ahead` is the second grain of the
   /// pair some way after this one, or of the last: to be fetched in time.
-  template <class Look>
-  void each(std::int32_t first, const Look& look) {
-    each(*this, first, look);
+  template <class Visitor>
+  void each(std::int32_t first, const Visitor& visit) {
+    each(*this, first, visit);
   }
-  template <class Look>
-  void each(std::int32_t first, const Look& look) const {
-    each(*this, first, look);
+  template <class Visitor>
+  void each(std::int32_t first, const Visitor& visit) const {
+    each(*this, first, visit);
   }
   template <class Archive>
   void serialize(Archive& archive) {
@@ -58,14 +58,14 @@ class Candidates {
  private:
   static constexpr std::size_t kAhead = 12;
 
-  template <class Self, class Look>
-  static void each(Self& self, std::int32_t first, const Look& look) {
+  template <class Self, class Visitor>
+  static void each(Self& self, std::int32_t first, const Visitor& visit) {
     const std::size_t last = self.pairs_.size() - 1;
     std::int32_t i = first;
     std::size_t c = 0;
     for (const std::int32_t end : self.ends_) {
       for (; c < static_cast<std::size_t>(end); ++c)
-        look(self.pairs_[c], i, self.pairs_[std::min(c + kAhead, last)].grain());
+        visit(self.pairs_[c], i, self.pairs_[std::min(c + kAhead, last)].grain());
       ++i;
     }
   }

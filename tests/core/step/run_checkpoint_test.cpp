@@ -1,4 +1,4 @@
-#include "core/step/journal.h"
+#include "core/step/run_checkpoint.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
@@ -48,9 +48,9 @@ int sessions(const Test& test, RunOptions options, int pulses, int early, Outcom
   for (int session = 1;; ++session) {
     int seen = 0;
     std::string kept;
-    options.journal = std::make_shared<Journal>([&] { return seen == pulses - early; },
-                                                [&](const std::string& now) { kept = now; }, state);
-    options.pulse = [&](const Moment&) { return ++seen <= pulses; };
+    options.checkpoint = std::make_shared<RunCheckpoint>([&] { return seen == pulses - early; },
+                                                         [&](const std::string& now) { kept = now; }, state);
+    options.pulse = [&](const Snapshot&) { return ++seen <= pulses; };
     outcome = simulate(test, options);
     if (!outcome.failure || outcome.failure->reason != FailureReason::stopped) return session;
     REQUIRE_FALSE(kept.empty());
@@ -116,7 +116,8 @@ TEST_CASE("a run with fixed waits that is killed again and again, and goes on, h
 TEST_CASE("a state is asked for without changing the run") {
   RunOptions asked;
   int looks = 0, states = 0;
-  asked.journal = std::make_shared<Journal>([&] { return ++looks % 8 == 0; }, [&](const std::string&) { ++states; });
+  asked.checkpoint =
+      std::make_shared<RunCheckpoint>([&] { return ++looks % 8 == 0; }, [&](const std::string&) { ++states; });
   const Outcome one = simulate(cell()), other = simulate(cell(), asked);
   CHECK(states > 10);
   check_same(one, other);

@@ -7,26 +7,26 @@ namespace pastefit {
 
 /// Two bodies seen from their contact. Body i is a grain, body j a grain or a wall.
 template <class Real>
-struct Meeting {
+struct ContactKinematics {
   BasicVec3<Real> normal;    ///< unit vector from i to j
   Real overlap;              ///< d > 0: bodies interpenetrate; d < 0: gap
   BasicVec3<Real> velocity;  ///< of i relative to j at the contact point, spins included
   BasicVec3<Real> spin;      ///< w_i - w_j
   Real twist;                ///< mean spin about the normal: how fast the contact itself turns
   Real smaller_radius;       ///< of the two bodies' radii [m]
-  Real root_radius;          ///< sqrt(R*)
-  Real root_mass;            ///< sqrt(m*)
+  Real sqrt_radius;          ///< sqrt(R*)
+  Real sqrt_mass;            ///< sqrt(m*)
   Real inverse_mass;         ///< 1/m*
   Real neighbour_damping;    ///< sum of the damping rates of both bodies at the last step [1/s]
 };
 
 /// What a contact remembers.
 template <class Real>
-struct Memory {
+struct ContactHistory {
   BasicVec3<Real> slip;  ///< accumulated tangential displacement [m]
   BasicVec3<Real>
       roll;  ///< accumulated relative rotation across the normal [rad]; constant torque: the last torque [N m]
-  Real root_contact_radius;  ///< sqrt(a), a = sqrt(R* d), at the last step [m^(1/2)], 0 if the bodies did not touch
+  Real sqrt_contact_radius;  ///< sqrt(a), a = sqrt(R* d), at the last step [m^(1/2)], 0 if the bodies did not touch
   Real damper;               ///< normal damping force at the last step [N]
   Real drag;    ///< coefficient of the tangential damper at the last step, as far as friction let it act [N s/m]
   Real bridge;  ///< 1 while a liquid bridge lives, else 0
@@ -34,20 +34,21 @@ struct Memory {
 
 /// What a contact does to body i (body j gets the opposite), and what it means for the time step.
 template <class Real>
-struct Action {
-  Real push;                 ///< repulsion less attraction, along the normal [N]
-  BasicVec3<Real> traction;  ///< tangential force on i [N]; its torque is r' n x traction on both bodies
-  BasicVec3<Real> moment;    ///< rolling moment on i [N m]
-  Real damping;              ///< damping coefficient along the normal [N s/m]
-  // For the ledger: energy turned into heat in this step by each mechanism, and energy stored now [J].
-  Real heat_normal, heat_sliding, heat_rolling, heat_bridge, stored;
+struct ContactForce {
+  Real normal_force;  ///< repulsion less attraction, along the normal [N]
+  BasicVec3<Real>
+      tangential_force;    ///< tangential force on i [N]; its torque is r' n x tangential force on both bodies
+  BasicVec3<Real> moment;  ///< rolling moment on i [N m]
+  Real damping;            ///< damping coefficient along the normal [N s/m]
+  // For the energy balance: energy dissipated in this step by each mechanism, and energy stored now [J].
+  Real dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridge, stored;
   Real stiffness;  ///< largest stiffness, rotation counted [N/m]
 };
 
 /// How much of a contact's energies is asked for.
 enum class Energies {
-  none,  ///< nobody keeps a ledger
-  heat,  ///< all but the work that living bridges can still do
+  none,         ///< nobody keeps an energy balance
+  dissipation,  ///< all but the work that living bridges can still do
   all
 };
 

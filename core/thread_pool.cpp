@@ -1,4 +1,4 @@
-#include "core/team.h"
+#include "core/thread_pool.h"
 
 #include <system_error>
 
@@ -20,7 +20,7 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-Team::Team(int size) {
+ThreadPool::ThreadPool(int size) {
   try {
     for (int member = 1; member < size; ++member) helpers_.emplace_back([this, member] { help(member); });
   } catch (const std::system_error&) {
@@ -28,14 +28,14 @@ Team::Team(int size) {
   }
 }
 
-Team::~Team() {
+ThreadPool::~ThreadPool() {
   over_ = true;
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   for (std::thread& helper : helpers_) helper.join();
 }
 
-void Team::share() {
+void ThreadPool::share() {
   next_.store(0, std::memory_order_relaxed);
   busy_.store(static_cast<int>(helpers_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
@@ -45,7 +45,7 @@ void Team::share() {
     wait_for_change(busy_, busy);
 }
 
-void Team::help(int member) {
+void ThreadPool::help(int member) {
   for (std::uint32_t seen = 0;;) {
     wait_for_change(round_, seen);
     seen = round_.load(std::memory_order_acquire);
@@ -55,7 +55,7 @@ void Team::help(int member) {
   }
 }
 
-void Team::take_tasks(int member) {
+void ThreadPool::take_tasks(int member) {
   for (int task; (task = next_.fetch_add(1, std::memory_order_relaxed)) < tasks_;) call_(work_, task, member);
 }
 

@@ -14,9 +14,9 @@ namespace pastefit {
 /// leaves the world as it was left then. The wait in which the test was interrupted goes on in its midst. So a rig need
 /// not know of it, but for what its phases sum up step by step (`Runner::remember`).
 ///
-/// One journal serves one call of `simulate`. Requirements of a state: it is of the same test, options (but for
+/// One checkpoint serves one call of `simulate`. Requirements of a state: it is of the same test, options (but for
 /// `StepOptions::threads`), program and instruction set. Not covered: rigs without a `Runner` (impacts).
-class Journal {
+class RunCheckpoint {
  public:
   /// What a wait leaves behind, as bytes: what a rig can see, and what its runner needs to go on besides.
   struct Wait {
@@ -30,7 +30,8 @@ class Journal {
   /// `due`: whether a state is asked for, every `kStepsPerPulse` steps; `keep`: takes it. `state`: what `keep` was last
   /// given by the run that is to go on; empty for one that starts. Errors: throws `BadState` (core/step/state.h) where
   /// it is no state at all; the run that goes on does so where it is not one of this run.
-  Journal(std::function<bool()> due, std::function<void(const std::string& state)> keep, std::string_view state = {});
+  RunCheckpoint(std::function<bool()> due, std::function<void(const std::string& state)> keep,
+                std::string_view state = {});
 
   /// Whether all of the state was told: otherwise it was not one of the run that is over.
   bool is_told() const { return !interrupted_; }

@@ -1,4 +1,4 @@
-#include "core/world/candidates.h"
+#include "core/world/neighbour_list.h"
 
 #include <numeric>
 
@@ -6,12 +6,12 @@
 
 namespace pastefit {
 
-void Candidates::clear() {
+void NeighbourList::clear() {
   ends_.clear();
   pairs_.clear();
 }
 
-bool Candidates::is_of(std::int32_t grains) const {
+bool NeighbourList::is_of(std::int32_t grains) const {
   if (std::ssize(ends_) != grains || !std::ranges::is_sorted(ends_)) return false;
   return ends_.empty() ? pairs_.empty() : ends_.front() >= 0 && ends_.back() == std::ssize(pairs_);
 }

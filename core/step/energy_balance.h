@@ -1,0 +1,49 @@
+#pragma once
+
+namespace pastefit {
+
+/// Where the energy of a run is and went [J]. Heats and works are sums since the start of the run.
+///
+/// Balance: mechanical() - start = work_of_walls - dissipation(). What is left over, `error()`, is the integration's
+/// own: positive means that energy was created.
+struct EnergyBalance {
+  double kinetic = 0;  ///< translation and rotation, now
+  double stored = 0;   ///< Hertz, tangential and rolling springs less the work living bridges can still do, now
+  double height = 0;   ///< weight times height, now
+  double start = 0;    ///< mechanical() at the first look
+  double start_height = 0;
+  double start_kinetic = 0;
+  double start_elastic = 0;  ///< in overlaps at the first look
+  double earlier_error = 0;  ///< of the run that led to the world this one started from
+  double earlier_put_in = 0;
+
+  double dissipation_normal = 0;   ///< damping along the normal
+  double dissipation_sliding = 0;  ///< friction and tangential damping
+  double dissipation_rolling = 0;
+  double dissipation_bridges =
+      0;                         ///< bridges that formed across a gap, contacts that stick: work it takes to part them
+  double dissipation_drag = 0;   ///< of the phases that have drag
+  double dissipation_sleep = 0;  ///< speed that grains had when they fell asleep
+  double work_of_walls = 0;      ///< on the grains
+  double effort_of_walls = 0;    ///< the same without sign
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(kinetic, stored, height, start, start_height, start_kinetic, start_elastic, earlier_error, earlier_put_in);
+    archive(dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridges, dissipation_drag,
+            dissipation_sleep, work_of_walls, effort_of_walls);
+  }
+  double mechanical() const { return kinetic + stored + height; }
+  double dissipation() const {
+    return dissipation_normal + dissipation_sliding + dissipation_rolling + dissipation_bridges + dissipation_drag +
+           dissipation_sleep;
+  }
+  double error() const { return mechanical() + dissipation() - start - work_of_walls + earlier_error; }
+  /// What drove the run: fall, walls, speed and overlaps at the start, and attraction set free by bridges.
+  double put_in() const {
+    const double fall = start_height > height ? start_height - height : 0;
+    return fall + effort_of_walls + start_kinetic + start_elastic + dissipation_bridges + earlier_put_in;
+  }
+};
+
+}  // namespace pastefit
