@@ -151,16 +151,16 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   ordered_json out;
   out[std::string(laws.strength)] = {{"free", {laws.weakest, laws.strongest}}, {"scale", "log"}};
   if (bridge && both) {
-    // The shape of a tough bridge, of which heaps stand (tests/results/standing_heaps.md).
+    // Tough bridges, of which heaps stand, and grains that roll (tests/results/standing_heaps.md).
     out["rupture_force_ratio"] = fixed(0.5);
     out["curvature"] = fixed(-0.5);
   }
   if (bridge) {
-    out["rupture_gap_ratio"] = {{"free", {0.15, 1}}, {"scale", "log"}};
+    out["rupture_gap_ratio"] = {{"free", {both ? 0.4 : 0.15, 1}}, {"scale", "log"}};
     out["formation_ratio"] = fixed(both ? 0.3 : 1);
   }
-  out["friction"] = both ? free(0.05, 0.8) : fixed(0.15);
-  out["rolling_friction"] = both ? free(0, 1) : fixed(0.02);
+  out["friction"] = both ? ordered_json{{"free", {0.05, 0.8}}, {"scale", "log"}} : fixed(0.15);
+  out["rolling_friction"] = both ? free(0, 0.5) : fixed(0.02);
   return out;
 }
 

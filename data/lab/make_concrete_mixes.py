@@ -46,6 +46,7 @@ def number(value):
 
 def lab_file(row, kind):
     mix = int(row[0])
+    both = mix not in HEIGHT_FITTED
     amounts, slump_cm, flow_cm = [float(cell) for cell in row[1:8]], float(row[8]), float(row[9])
     return {
         "format": "pastefit-lab-1",
@@ -56,21 +57,22 @@ def lab_file(row, kind):
             "notes": "Slump and flow as in the source, in mm. The source states neither mould nor table: an Abrams cone "
                      "(200/100/300 mm) read at its centre is assumed. Density: sum of the seven amounts. "
                      "The source has no repeats: 7.5 mm is from ASTM C143-98, 21 mm as the 95 % limit between two "
-                     "results; 25 mm for the spread is an estimate. A slump that is reported did not "
-                     "shear off, or the standards would have had it repeated: a shift of the top of 0 +- 20 mm.",
+                     "results; 25 mm for the spread is an estimate."
+                     + ("" if both else " A slump that is reported did not shear off, or the standards would have had it "
+                                        "repeated: a shift of the top of 0 +- 20 mm."),
             "twin": False,
         },
         "apparatus": {"preset": "abrams"},
         "material": {"bulk_density_kg_m3": number(sum(amounts))},
-        "grains": {"distribution": "mono", "radius_mm": 8},
+        "grains": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10} if both
+        else {"distribution": "mono", "radius_mm": 8},
         "measurements": {
             "step1.height_mm": {
                 "value": number(MOULD_HEIGHT_MM - 10 * slump_cm),
                 "standard_deviation": HEIGHT_DEVIATION_MM,
             },
             "step1.spread_mm": {"value": number(10 * flow_cm), "standard_deviation": SPREAD_DEVIATION_MM},
-            "step1.lateral_shift_mm": {"value": 0, "standard_deviation": SHEAR_MM / 2},
-        },
+        } | ({} if both else {"step1.lateral_shift_mm": {"value": 0, "standard_deviation": SHEAR_MM / 2}}),
     }
 
 
@@ -85,21 +87,21 @@ def study_file(row, kind):
         "contact": {"formation": "film", "rolling_model": "spring_dashpot", "friction_basis": "total"},
         "parameters": {
             "strength_pa": {"free": [10 if both else 300, 40000], "scale": "log"},
-            "rupture_force_ratio": {"free": [0, 0.5]},
-            "curvature": {"free": [-0.5, 1]},
-            "rupture_gap_ratio": {"free": [0.15, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
-            "formation_ratio": {"free": [0, 1]},
-            "friction": {"free": [0.01, 0.8], "scale": "log"} if both else {"value": 0.15},
-            "rolling_friction": {"free": [0, 1]} if both else {"value": 0.02},
+            "rupture_force_ratio": {"value": 0.5} if both else {"free": [0, 0.5]},
+            "curvature": {"value": -0.5} if both else {"free": [-0.5, 1]},
+            "rupture_gap_ratio": {"free": [0.4, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
+            "formation_ratio": {"value": 0.3} if both else {"free": [0, 1]},
+            "friction": {"free": [0.05, 0.8], "scale": "log"} if both else {"value": 0.15},
+            "rolling_friction": {"free": [0, 0.5]} if both else {"value": 0.02},
         },
-        "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both), "step1.lateral_shift_mm": int(both)},
+        "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both)}
+        | ({} if both else {"step1.lateral_shift_mm": 0}),
     }
     if both:
         study["parameters"]["table_friction"] = {"free": [0.1, 1]}  # the source names no table
         study["tolerances"] = {
             "step1.height_mm": HEIGHT_DEVIATION_MM,
             "step1.spread_mm": SPREAD_DEVIATION_MM,
-            "step1.lateral_shift_mm": SHEAR_MM,
         }
     study["search"] = {
         "strategy": "default",
