@@ -1,17 +1,18 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
 namespace pastefit {
 
-/// A line by printf's rules, cut after 511 characters. Numbers and C strings only.
+/// A text by printf's rules. Numbers and C strings only.
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
-  std::array<char, 512> line{};
-  std::snprintf(line.data(), line.size(), pattern, values...);
-  return line.data();
+  const int length = std::snprintf(nullptr, 0, pattern, values...);
+  std::string text(length > 0 ? static_cast<std::size_t>(length) : 0, ' ');
+  std::snprintf(text.data(), text.size() + 1, pattern, values...);
+  return text;
 }
 
 }  // namespace pastefit

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/object_writer.h"
-#include "calibrate/card/card_versions.h"
+#include "calibrate/card/card_format.h"
 #include "calibrate/card/material_json.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/test.h"

@@ -180,8 +180,7 @@ nlohmann::ordered_json to_json(const Card& card);
 /// Whether the document says it is a card, of any version.
 bool is_card(const nlohmann::json& document);
 
-/// Reads what `to_json` of this or any earlier version wrote (`card_versions.h`).
-/// Errors: every fault at once, with its place; a card of a newer version.
+/// Reads what `to_json` wrote. Errors: every fault at once, with its place; a card of another version.
 Result<Card> card_from_json(const nlohmann::json& document);
 Result<Card> read_card(const std::filesystem::path& file);
 

@@ -4,7 +4,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_versions.h"
+#include "calibrate/card/card_format.h"
 #include "calibrate/card/material_json.h"
 #include "calibrate/card/two_forms.h"
 #include "calibrate/laboratory/names.h"
@@ -297,21 +297,19 @@ void read_rescaling(ObjectReader& reader, const json& document, Rescaling& step)
 }  // namespace
 
 Result<Card> card_from_json(const json& document) {
-  auto upgraded = upgraded_card(document);
-  if (!upgraded.ok()) return upgraded.faults();
+  Faults faults = card_format_faults(document);
+  if (!faults.empty()) return faults;
   Card card;
-  Faults faults;
-  const json& rest = upgraded.value();
   {
-    ObjectReader reader(rest, "", faults);
+    ObjectReader reader(document, "", faults);
     reader.known("format");
     reader.text("title", card.title, kRequired);
     reader.object("material", kRequired, [&](ObjectReader& material) { read_card_material(material, card.material); });
-    read_list(reader, rest, "tests", card.tests,
-              [material = object_in(rest, "material")](ObjectReader& test, const json& entry, CardTest& target) {
+    read_list(reader, document, "tests", card.tests,
+              [material = object_in(document, "material")](ObjectReader& test, const json& entry, CardTest& target) {
                 read_card_test(test, entry, material, target);
               });
-    check_names(reader, rest, card.tests);
+    check_names(reader, document, card.tests);
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);
@@ -321,9 +319,9 @@ Result<Card> card_from_json(const json& document) {
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
     reader.object("provenance", kRequired,
                   [&](ObjectReader& provenance) { read_card_provenance(provenance, card.provenance); });
-    read_inference(reader, rest, card.inference);
-    read_list(reader, rest, "rebaselined", card.rebaselined, read_rebaseline);
-    read_list(reader, rest, "rescaled", card.rescaled, read_rescaling);
+    read_inference(reader, document, card.inference);
+    read_list(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
+    read_list(reader, document, "rescaled", card.rescaled, read_rescaling);
   }
   for (CardTest& test : card.tests)
     for (CardObservable& observable : test.observables)

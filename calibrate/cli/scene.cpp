@@ -9,7 +9,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_versions.h"
+#include "calibrate/card/card_format.h"
 #include "calibrate/search/objective.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
@@ -222,13 +222,7 @@ std::optional<FoundScene> study_scene(const json& document, const Settings& sett
 
 std::optional<FoundScene> card_scene(const json& document, const Settings& settings, const std::string& name,
                                      const std::filesystem::path& file, Faults& faults) {
-  // Settings are of the form that this program writes, whatever version the card is of.
-  const auto upgraded = upgraded_card(document);
-  if (!upgraded.ok()) {
-    for (auto& fault : in_file(upgraded.faults(), file)) faults.push_back(std::move(fault));
-    return std::nullopt;
-  }
-  const auto card = read_with(upgraded.value(), settings, file, faults, card_from_json);
+  const auto card = read_with(document, settings, file, faults, card_from_json);
   if (!card.ok()) return std::nullopt;
   const auto place = chosen(card.value().tests, name, faults);
   if (!place) return std::nullopt;
@@ -256,7 +250,7 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),
-                    "\"pastefit-study-1\", a card (\"pastefit-card-1\" or later), \"pastefit-lab-1\", "
+                    "\"pastefit-study-1\", a card (\"pastefit-card-5\"), \"pastefit-lab-1\", "
                     "\"pastefit-rig-1\" or \"pastefit-impact-1\""});
   return std::nullopt;
 }

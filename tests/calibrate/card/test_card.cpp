@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_versions.h"
+#include "calibrate/card/card_format.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/report/summary.h"
@@ -191,7 +191,7 @@ TEST_CASE("the summary counts the packings that sheared off, with the mean with 
 }
 
 TEST_CASE("a card with a kind of test that this program does not know says so once, with its place") {
-  const auto file = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "tests/calibrate/card/versions/card-3-several.json";
+  const auto file = std::filesystem::path(PASTEFIT_SOURCE_DIR) / "tests/calibrate/card/several_tests.json";
   auto document = text_and_back(to_json(read_card(file).value()));
   document["tests"][1]["test"]["kind"] = "pellet_crush";
   const auto read = card_from_json(document);

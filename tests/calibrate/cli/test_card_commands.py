@@ -10,8 +10,8 @@ import xml.etree.ElementTree as xml
 
 from desk import coarse_card, SOURCE, Desk, run
 
-CARD = SOURCE / "tests/calibrate/card/versions/card-5.json"
-SEVERAL = CARD.with_name("card-3-several.json")
+CARD = SOURCE / "tests/calibrate/card/card.json"
+SEVERAL = CARD.with_name("several_tests.json")
 TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
