@@ -72,7 +72,7 @@ std::string reading_table(const std::vector<HeapReading>& readings, std::size_t 
   if (packings == 1) return out + "Card: one packing, error unknown.\n";
   if (packings < 1) return out;
   return out + format(
-                   "ReplicateVariance: standard deviation over the card's %zu packings. Noise: a heap of the\n"
+                   "Scatter: standard deviation over the card's %zu packings. Noise: a heap of the\n"
                    "card's material in another packing differs by less 95 times in 100.\n",
                    packings);
 }

@@ -155,7 +155,7 @@ CodedRecording coded(const RunRecording& film) {
 ordered_json recording_index(const RunRecording& film) {
   const Box box = box_of(film);
   ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}, {"most_pull_n", most_pull_n(film)}};
-  auto& parts = out["parts"] = ordered_json::array();
+  auto& parts = out["reels"] = ordered_json::array();
   for (const RecordingPart& part : film.parts) {
     ordered_json of_reel{{"grains", part.radii_m.size()}};
     ordered_json standing;

@@ -19,7 +19,7 @@ struct CodedRecording {
 CodedRecording coded(const RunRecording& film);
 
 /// What a page needs to know of a film before it reads the bytes:
-///     {"quantum_m", "low_m": [x, y, z], "most_pull_n", "parts": [{"grains", "frames": [{"time_s", "phase", "walls":
+///     {"quantum_m", "low_m": [x, y, z], "most_pull_n", "reels": [{"grains", "frames": [{"time_s", "phase", "walls":
 ///     [...]}]}]};
 /// "walls" is left out where they stand as in the frame before.
 nlohmann::ordered_json recording_index(const RunRecording& film);

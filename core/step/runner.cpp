@@ -73,7 +73,7 @@ void Runner::check_progress(double longest_s, double cap_s) const {
              progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= options_.rest.windows,
          "the wait that was under way is another one");
   demand(cap_s == 0 || progress_.before.size() == rest_measure_(world_.particles).size(),
-         "the rest_measure that was seen is of another specimen");
+         "the rest measure that was seen is of another specimen");
 }
 
 template <class Body>

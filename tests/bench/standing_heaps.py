@@ -6,8 +6,7 @@ usage: standing_heaps.py PROGRAM TABLE.csv [--mixes 79,57] [--seeds 1,2] [--grai
        standing_heaps.py --report TABLE.csv
 
 The study of mix 79 (data/studies) with the readings of other mixes. Grains: 8 mm, or evenly from 6 to 10 mm. Shape: all eight
-parameters free, or the shape of the bridge fixed at values that are tough (rupture force ratio 0.5, curvature -0.5, formation
-0.3). With --shift the top's shift is fitted to 0 within 40 mm and heaps that shear off are not counted (`rejected_share` 1), as the
+parameters free, or the shape of the bridge fixed as the study has it. With --shift the top's shift is fitted to 0 within 40 mm and heaps that shear off are not counted (`rejected_share` 1), as the
 studies had it before. Rows that stand in the table are not run again. Each material is simulated on packings 201 to 216, of which
 height and spread are those of the heaps that stand; core_s is the processor time of the calibration, page included.
 """
@@ -26,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Height and spread in mm: rows of I-Cheng Yeh's Concrete Slump Test (UCI, 2009), slump taken from the cone's 300 mm.
 MIXES = {"79": (137.5, 310), "57": (80, 400), "50": (85, 420), "29": (140, 260), "90": (155, 365), "66": (90, 510),
          "85": (65, 525), "74": (100, 380), "04": (270, 215)}
-TOUGH = {"rupture_force_ratio": 0.5, "curvature": -0.5, "formation_ratio": 0.3}
+FREE = {"rupture_force_ratio": {"free": [0, 0.5]}, "curvature": {"free": [-0.5, 1]}, "formation_ratio": {"free": [0, 1]}}
 GRAINS = {"mono": {"distribution": "mono", "radius_mm": 8},
           "spread": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10}}
 COLUMNS = ["mix", "seed", "grains", "shape", "shift", "status", "simulations", "core_s", "miss", "rejected", "heaps", "height",
@@ -49,8 +48,8 @@ def write_study(folder, mix, seed, options):
         study["tolerances"]["step1.lateral_shift_mm"] = 40
         if options.rejected_share is not None:
             study["search"]["rejected_share"] = 1
-    if options.shape == "fixed":
-        study["parameters"] |= {name: {"value": value} for name, value in TOUGH.items()}
+    if options.shape == "free":
+        study["parameters"] |= FREE
     study["search"]["seed"] = seed
     study["lab"] = "lab.json"
     (folder / "lab.json").write_text(json.dumps(lab))

@@ -118,9 +118,8 @@ int main(int argc, char** argv) {
   app.add_option("--steps", asked.steps, "timed steps: one number for all scenes, or one for each");
   app.add_option("--repeats", asked.options.repeats, "runs of every engine, in turn; the median counts (3)");
   app.add_option("--patience", asked.options.patience_s, "an engine that took longer is not run again [s] (60)");
-  app.add_flag(
-      "--energy_balance", asked.options.energy_balance,
-      "our engine keeps its energy_balance of energy where steps are timed, as `pastefit simulate` does; no peer does");
+  app.add_flag("--energy-balance", asked.options.energy_balance,
+               "our engine keeps its energy balance where steps are timed, as `pastefit simulate` does; no peer does");
   std::vector<std::string> sets;
   for (const KernelTable* table : kernels_this_processor_runs()) sets.emplace_back(table->instruction_set);
   app.add_option("--kernels", asked.options.kernels, "instruction set of our engine's kernels where steps are timed")

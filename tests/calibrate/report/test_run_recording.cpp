@@ -98,7 +98,7 @@ TEST_CASE("the index of a film names a wall again only where it has moved") {
   RunRecording film = film_of_two_frames();
   film.parts[0].frames.push_back(film.parts[0].frames.back());
   film.parts[0].frames.back().walls[0].shape = Plane{{0, 0, 1}};
-  const auto frames = recording_index(film).at("parts")[0].at("frames");
+  const auto frames = recording_index(film).at("reels")[0].at("frames");
   CHECK(frames[0].contains("walls"));
   CHECK_FALSE(frames[1].contains("walls"));
   CHECK(frames[2].at("walls")[0].at("point_m")[2] == 1);

@@ -92,7 +92,7 @@ TEST_CASE("grains that their own attraction would press through each other fail 
   CHECK(store.size() == 4);
 }
 
-TEST_CASE("a candidate that is tried out keeps no energy_balance of energy, one that is evaluated does") {
+TEST_CASE("a candidate that is tried out keeps no energy balance, one that is evaluated does") {
   Laboratory laboratory;
   auto store = laboratory.store();
   std::atomic<int> kept = 0;

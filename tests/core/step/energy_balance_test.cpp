@@ -33,7 +33,7 @@ EnergyBalance after_collision(const ContactModel& model, double dt) {
 
 }  // namespace
 
-TEST_CASE("the energy_balance of an oblique collision closes, whatever takes the energy") {
+TEST_CASE("the energy balance of an oblique collision closes, whatever takes the energy") {
   for (const double e : {1.0, 0.3})
     for (const double mu : {0.0, 0.5})
       for (const RollingModel rolling :
@@ -113,7 +113,7 @@ TEST_CASE("what DMT's and SJKR's overlaps hold at the start is that of their str
   }
 }
 
-TEST_CASE("the energy_balance's error falls with the square of the step") {
+TEST_CASE("the error of the energy balance falls with the square of the step") {
   const ContactModel model = soft(0.3, 0.5, RollingModel::none);
   const double coarse = std::fabs(after_collision(model, 4e-5).error());
   const double fine = std::fabs(after_collision(model, 4e-6).error());

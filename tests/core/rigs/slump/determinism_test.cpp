@@ -155,7 +155,7 @@ TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {
   CHECK(hash_of_sleeping_floor(3) == alone);
 }
 
-TEST_CASE("without the energy_balance of energy a run has the same bits, and says that it kept none") {
+TEST_CASE("without the energy balance a run has the same bits, and says that it kept none") {
   SlumpTest test = sticky_test();
   test.drop = DropPlate{};
   RunOptions without;
