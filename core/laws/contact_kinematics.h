@@ -35,11 +35,10 @@ struct ContactHistory {
 /// What a contact does to body i (body j gets the opposite), and what it means for the time step.
 template <class Real>
 struct ContactForce {
-  Real normal_force;  ///< repulsion less attraction, along the normal [N]
-  BasicVec3<Real>
-      tangential_force;    ///< tangential force on i [N]; its torque is r' n x tangential force on both bodies
-  BasicVec3<Real> moment;  ///< rolling moment on i [N m]
-  Real damping;            ///< damping coefficient along the normal [N s/m]
+  Real normal_force;                 ///< repulsion less attraction, along the normal [N]
+  BasicVec3<Real> tangential_force;  ///< on i [N]; its torque is r' n x this force on both bodies
+  BasicVec3<Real> moment;            ///< rolling moment on i [N m]
+  Real damping;                      ///< damping coefficient along the normal [N s/m]
   // For the energy balance: energy dissipated in this step by each mechanism, and energy stored now [J].
   Real dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridge, stored;
   Real stiffness;  ///< largest stiffness, rotation counted [N/m]

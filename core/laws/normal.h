@@ -30,13 +30,13 @@ struct NormalForce {
 ///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
 ///                      elasticity and size are there;
 ///     at(k, sqrt_radius, overlap, touched)   the `NormalForce` of a pair; sqrt_radius is sqrt(R*), radius R*;
-///     energy(k, radius, normal_force, overlap)   what it holds [J], 0 out of contact; the derivative by d is the
-///     force; surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
+///     energy(k, radius, force, overlap)   what it holds [J], 0 out of contact; its derivative by d is the force;
+///     surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
 ///                      `energy` is that of the strain;
 ///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
-///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: normal force of a spring that grows with
-///     a [N]; overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m]; collision_time(k, radius,
-///     mass, speed)   of a collision at that speed, for the choice of the step [s].
+///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: force of a spring that grows with a [N];
+///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
+///     collision_time(k, radius, mass, speed)   of a collision at that speed, for the choice of the step [s].
 /// The last two, and `set`, are computed once and in plain numbers; the others in packs too (laws/pack.h).
 /// To add one: core/README.md.
 

@@ -32,9 +32,8 @@ struct RollingContact {
 ///                    attraction (laws/attraction.h);
 ///     remembers      whether it uses `ContactHistory::roll`;
 ///     turns          whether that is a vector of the contact plane, which turns with the contact;
-///     act(k, contact, dt, counted, roll, contact_force)   its moment on body i, what it dissipates and what it stores
-///     if energies are
-///                    `counted`, its part in damping and stiffness of `contact_force`; and what it will remember.
+///     act(k, contact, dt, counted, roll, contact_force)   its moment on body i; what it dissipates and stores, if
+///                    energies are `counted`; its part in damping and stiffness; and what it will remember.
 /// To add one: core/README.md.
 
 /// What both that resist have in common: the coefficient mu_r.

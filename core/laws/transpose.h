@@ -4,7 +4,7 @@
 
 namespace pastefit {
 
-/// Between the rows in which a grain lies in history, four or eight numbers each, and packs with a lane for each
+/// Between the rows in which a grain lies in memory, four or eight numbers each, and packs with a lane for each
 /// contact.
 
 /// Transposes W packs of W lanes in place: what was lane b of pack a becomes lane a of pack b.

@@ -2,7 +2,7 @@
 
 namespace pastefit {
 
-/// Where the energy of a run is and went [J]. Heats and works are sums since the start of the run.
+/// Where the energy of a run is and went [J]. Dissipation and works are sums since the start of the run.
 ///
 /// Balance: mechanical() - start = work_of_walls - dissipation(). What is left over, `error()`, is the integration's
 /// own: positive means that energy was created.
@@ -20,12 +20,11 @@ struct EnergyBalance {
   double dissipation_normal = 0;   ///< damping along the normal
   double dissipation_sliding = 0;  ///< friction and tangential damping
   double dissipation_rolling = 0;
-  double dissipation_bridges =
-      0;                         ///< bridges that formed across a gap, contacts that stick: work it takes to part them
-  double dissipation_drag = 0;   ///< of the phases that have drag
-  double dissipation_sleep = 0;  ///< speed that grains had when they fell asleep
-  double work_of_walls = 0;      ///< on the grains
-  double effort_of_walls = 0;    ///< the same without sign
+  double dissipation_bridges = 0;  ///< bridges that formed across a gap, contacts that stick: work to part them
+  double dissipation_drag = 0;     ///< of the phases that have drag
+  double dissipation_sleep = 0;    ///< speed that grains had when they fell asleep
+  double work_of_walls = 0;        ///< on the grains
+  double effort_of_walls = 0;      ///< the same without sign
 
   template <class Archive>
   void serialize(Archive& archive) {

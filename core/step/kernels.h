@@ -66,7 +66,7 @@ struct Moved {
   double fastest_square = 0;    ///< [m^2/s^2]
   double stiffest = 0;          ///< stiffness over mass [1/s^2]
   double dissipation_drag = 0;  ///< [J]
-  bool exceeded = false;        ///< one has left its room; a position that is not a number has
+  bool exceeded = false;        ///< one has exceeded its bound; a position that is not a number has
   std::int32_t runaway = -1;    ///< one beyond any speed, or whose speed is not a number
 };
 

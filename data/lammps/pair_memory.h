@@ -4,7 +4,7 @@
 
 namespace pastefit_lammps {
 
-/// ContactHistory of grains' contacts with each other: one for each pair of the neighbour list while a list lasts, kept
+/// The history of grains' contacts with each other: one for each pair of the neighbour list while a list lasts, kept
 /// with the grains from one list to the next. Pair style pastefit makes it; nobody names it in a script.
 class PairMemory : public ContactMemory {
  public:

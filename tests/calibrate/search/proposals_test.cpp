@@ -23,7 +23,7 @@ SearchOptions pending_options(std::uint64_t seed, int max_pending) {
 const std::function<void(const Progress&)> nobody;
 const std::vector<std::uint64_t> common{1001, 1002};
 
-/// An history that has screened.
+/// A history that has screened.
 EvaluationHistory screened(Answered& answered, const SearchOptions& options) {
   EvaluationHistory history(answered.queue, {}, options, nobody);
   history.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
