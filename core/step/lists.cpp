@@ -51,17 +51,16 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
 void Lists::check_state() const {
   check_pairs(world_, valid_);
   demand(wall_bound_ >= 0 && wall_way_ >= 0 && rounding_ >= 0, "a displacement bound is below nothing");
+  for (const DisplacementBound& bound : bounds_.bounds)
+    demand(is_in_laboratory(bound.from), "a place is not in the laboratory");
+  for (const Listed& listed : listed_) demand(is_in_laboratory(listed.at), "a place is not in the laboratory");
   if (!valid_) return;  // the rest is made anew
   const auto grains = static_cast<std::size_t>(world_.particles.count());
   demand(bounds_.bounds.size() == grains && bounds_.own.size() == grains && listed_.size() == grains &&
              exceeded_.size() == world_.pairs.blocks.size(),
          "the lists are of another number of grains");
-  const auto finite = [](const float(&place)[3]) {
-    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-  };
   for (const DisplacementBound& bound : bounds_.bounds)
-    demand(finite(bound.from) && bound.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
-  for (const Listed& listed : listed_) demand(finite(listed.at), "a place is not finite");
+    demand(bound.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
   for (const char exceeded : exceeded_) demand(exceeded == 0 || exceeded == 1, "a yes or no is neither");
 }
 

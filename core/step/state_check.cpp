@@ -72,7 +72,7 @@ void check_list(const List& list, std::initializer_list<std::int32_t> stretches)
     before = end;
   }
   demand(list.count >= before && list.count % kBatch == 0 &&
-             static_cast<std::size_t>(list.batch_count()) <= list.batches.size(),
+             static_cast<std::size_t>(list.batch_count()) == list.batches.size(),
          "a list has another length than it says");
 }
 
@@ -206,6 +206,10 @@ void check_pairs(const World& world, bool listed) {
     demand(!listed || block.walls.size() == world.walls.size(), "the blocks know another number of walls");
     for (const WallContacts& touching : block.walls) check_wall_contacts(touching, ends);
   }
+}
+
+bool is_in_laboratory(const float (&place)[3]) {
+  return std::all_of(place, place + 3, [](float value) { return std::fabs(value) <= kFarthest; });
 }
 
 bool is_finite(const std::vector<CurvePoint>& points) {

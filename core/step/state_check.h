@@ -34,6 +34,9 @@ class Fixtures {
 /// anew before the next step.
 void check_pairs(const World& world, bool listed);
 
+/// Whether a grain can be there [m].
+bool is_in_laboratory(const float (&place)[3]);
+
 /// Whether every point of a curve is.
 bool is_finite(const std::vector<CurvePoint>& points);
 

@@ -47,8 +47,10 @@ class BatchList {
     for (const BatchList* part : parts)
       batches.insert(batches.end(), part->batches.begin(), part->batches.begin() + part->batch_count());
   }
+  /// Without the batches that only keep memory.
   template <class Archive>
   void serialize(Archive& archive) {
+    batches.resize(static_cast<std::size_t>(batch_count()));
     archive(batches, count, awake);
   }
   void reserve(std::int32_t pairs) { batches.reserve((pairs + kBatch - 1) / kBatch); }

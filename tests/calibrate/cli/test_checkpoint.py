@@ -119,11 +119,13 @@ class Checkpoint(Desk):
         waiting = struct.unpack("<Q", state[:8])[0]  # their number stands first
         for waits in (waiting + 1, waiting + 1000, 2**40, 2**64 - 1):
             forgeries[f"{waits} waits"] = self.forged(good, struct.pack("<Q", waits) + state[8:])
-        for name, number in (("nan", math.nan), ("inf", math.inf), ("huge", 1e300)):
+        impossible = {"nan": struct.pack("<d", math.nan), "inf": struct.pack("<d", math.inf),
+                      "huge": b"\x7f" * 8}  # in single precision too
+        for name, number in impossible.items():
             for share in (0.2, 0.3, 0.5):  # several words, so that grains, lists and sums are among them
                 words = bytearray(state)
                 begin = int(share * len(words)) // 8 * 8
-                words[begin:begin + 512] = struct.pack("<d", number) * 64
+                words[begin:begin + 512] = number * 64
                 forgeries[f"{name} at {share}"] = self.forged(good, bytes(words))
         self.assertGreaterEqual(len(forgeries), 24)
         for name, content in forgeries.items():

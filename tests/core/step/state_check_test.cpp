@@ -238,5 +238,16 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
   }
 }
 
+TEST_CASE("a stretch of impossible numbers is refused wherever in a state it stands") {
+  const std::string state = state_in_the_midst({}, 50);
+  constexpr std::size_t kStretch = 512;
+  for (std::size_t place = 0; place + kStretch <= state.size(); place += kStretch) {
+    std::string forged = state;
+    std::memset(forged.data() + place, 0x7f, kStretch);  // 1.4e306 in double, 3.4e38 in single precision
+    INFO("at " << place << " of " << state.size());
+    CHECK(answer_to(forged, {}) == Answer::refused);
+  }
+}
+
 }  // namespace
 }  // namespace pastefit
