@@ -31,6 +31,9 @@ constexpr std::string_view slump_lab =
   // Or {"distribution": "normal", "radius_mm": 8, "standard_deviation_mm": 1, "smallest_mm": 6, "largest_mm": 10}.
   "grains": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10},
 
+  // Did heaps shear off? A reading is one of a heap that stood; say how many did not:
+  // "repeats": {"made": 4, "sheared": 1},
+
   // Either value and standard deviation of one reading, or all repeats.
   // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm. Forms of these by
   // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.

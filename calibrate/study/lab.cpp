@@ -53,7 +53,39 @@ Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool p
   return faults;
 }
 
+/// "repeats": how many heaps were made, and how many of them sheared off.
+void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats) {
+  if (!is_rejected(lab.test, {})) {
+    document.refuse("repeats", "a " + std::string(kind_of(lab.test)) + " test has no heap that shears off",
+                    "leave it out");
+    return;
+  }
+  document.object("repeats", Need::optional, [&](ObjectReader& reader) {
+    const bool known = reader.integer("made", repeats.made, 1, 1000, Need::required);
+    if (!reader.integer("sheared", repeats.sheared, 0, 1000, Need::required) || !known) return;
+    if (repeats.sheared > repeats.made)
+      reader.fault("sheared",
+                   std::to_string(repeats.sheared) + " of " + std::to_string(repeats.made) + " repeats sheared off",
+                   "at most as many as were made, those that sheared off included");
+    else if (repeats.sheared == repeats.made)
+      reader.fault("sheared", "all repeats sheared off, so that there is no height to report",
+                   "a smaller mould or the flow table: this mix does not suit the test");
+  });
+  const int stood = repeats.made - repeats.sheared;
+  for (const Measurement& one : lab.measurements)
+    if (stood > 0 && one.repeats > stood)
+      document.fault(
+          "measurements." + one.observable,
+          "has " + std::to_string(one.repeats) + " repeats, but only " + std::to_string(stood) + " heaps stood",
+          "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
+}
+
 }  // namespace
+
+std::string in_words(const Lab::Repeats& repeats) {
+  return std::to_string(repeats.sheared) + " of " + std::to_string(repeats.made) +
+         " heaps of the laboratory sheared off";
+}
 
 Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem::path& folder) {
   Faults faults;
@@ -78,11 +110,13 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
         faults.push_back(std::move(fault));
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, questions);
+    read_repeats(reader, lab, lab.repeats);
     if (values_are_good(faults, before)) {
       ReadingCheck check = check_readings(lab.test, lab.measurements);
       for (Fault& fault : check.faults) faults.push_back(std::move(fault));
     }
     lab.notes = questions.notes();
+    if (lab.repeats.sheared > 0) lab.notes.push_back(in_words(lab.repeats));
   }
   if (!faults.empty()) return faults;
   if (preset) lab.note = note_on_preset(*preset);

@@ -162,6 +162,13 @@ void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search
   });
 }
 
+/// A material may shear off as often as the laboratory's did.
+double rejected_share_of_labs(const std::vector<StudyTest>& tests, double least) {
+  for (const StudyTest& test : tests)
+    if (!test.hold_out) least = std::max(least, test.lab.repeats.sheared_share());
+  return least;
+}
+
 void choose(const ContactModel& laws, Test& test) {
   ContactModel& contact = specimen_of(test).contact;
   contact.normal = laws.normal;
@@ -210,6 +217,7 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
     const ContactModel laws = read_contact(reader);
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
     study.parameters = read_parameters(reader, laws, study.tests);
+    study.search.rejected_share = rejected_share_of_labs(study.tests, study.search.rejected_share);
     read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);

@@ -23,15 +23,25 @@ struct Provenance {
 
 /// A laboratory file: the test as a rig with default contact parameters, and what was measured.
 struct Lab {
+  /// How often the test was made, and in how many of them the heap sheared off, which then has no readings.
+  struct Repeats {
+    int made = 0, sheared = 0;
+    double sheared_share() const { return made > 0 ? static_cast<double>(sheared) / made : 0; }
+  };
+
   std::string title;
   Provenance provenance;
   Test test;
   std::vector<Measurement> measurements;
+  Repeats repeats;                 ///< none made: it is not said
   std::string content;             ///< what the file and the preset that it names say, as JSON text
   std::string hash;                ///< of the file's content, with the preset it names (64-bit, hexadecimal)
   std::string note;                ///< on the preset (`note_on_preset`); empty if there is nothing to say
   std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
 };
+
+/// "1 of 4 heaps of the laboratory sheared off".
+std::string in_words(const Lab::Repeats& repeats);
 
 /// How a free parameter is spaced between its bounds.
 enum class Scale { linear, logarithmic };
@@ -67,7 +77,8 @@ struct SearchOptions {
   int packings = 2;                  ///< random packings on which candidates are tried in turn
   int max_pending = 0;               ///< candidates that may be under way when the next one is proposed
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
-  double rejected_share = 0.2;       ///< of heaps that a laboratory would reject, at most; 1: not judged
+  double rejected_share = 0.2;  ///< of heaps that a laboratory would reject, at most; 1: not judged. Not stated: as
+                                ///< many as the laboratory's own, if that is more
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
   bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/low_fidelity.h`)

@@ -36,6 +36,13 @@ Faults faults_of(const json& document) {
   return read.ok() ? Faults{} : read.faults();
 }
 
+/// The laboratory file with so many repeats made and sheared.
+json lab_with_repeats(int made, int sheared) {
+  json document = lab();
+  document["repeats"] = {{"made", made}, {"sheared", sheared}};
+  return document;
+}
+
 /// The measurement that `content` under `key` gives.
 Measurement measured(const std::string& key, const char* content) {
   json document = lab();
@@ -367,6 +374,24 @@ TEST_CASE("a height and a width that cannot hold what the mould holds are a faul
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].where == "measurements");
   CHECK(says(faults[0], "step1.height_mm (70) contradicts step1.spread_mm (205)"));
+}
+
+TEST_CASE("a laboratory file says how many of its heaps sheared off") {
+  const Result<Lab> read = lab_from_json(lab_with_repeats(4, 1), ".");
+  REQUIRE(read.ok());
+  CHECK(read.value().repeats.sheared_share() == 0.25);
+  CHECK(read.value().notes == std::vector<std::string>{"1 of 4 heaps of the laboratory sheared off"});
+  CHECK(lab_from_json(lab(), ".").value().repeats.sheared_share() == 0);
+}
+
+TEST_CASE("more heaps sheared than made, all of them, or readings of heaps that did not stand are faults") {
+  CHECK(says(at(faults_of(lab_with_repeats(3, 4)), "repeats.sheared"), "4 of 3"));
+  CHECK(says(at(faults_of(lab_with_repeats(3, 3)), "repeats.sheared"), "no height"));
+  json document = lab_with_repeats(4, 2);
+  document["measurements"] = {{"step1.height_mm", {{"repeats", {70, 72, 75}}}}};
+  CHECK(says(at(faults_of(document), "measurements.step1.height_mm"), "only 2 heaps stood"));
+  document["repeats"]["sheared"] = 1;
+  CHECK(faults_of(document).empty());
 }
 
 }  // namespace

@@ -93,6 +93,23 @@ TEST_CASE("what a study does not name has its default value") {
   for (const Target& target : study.tests[0].targets) CHECK(target.weight == 1);
 }
 
+TEST_CASE("a material may shear off as often as the laboratory's did, unless the study says how often") {
+  const auto share = [](int made, int sheared, const char* search) {
+    const Desk desk;
+    json lab = json::parse(template_text("lab").value(), nullptr, true, true);
+    lab["measurements"].erase("step1.slump_mm");
+    lab["repeats"] = {{"made", made}, {"sheared", sheared}};
+    desk.folder().write("lab.json", lab.dump());
+    json study = json::parse(template_text("study").value(), nullptr, true, true);
+    study["search"] = json::parse(search);
+    return read_study(desk.folder().write("study.json", study.dump())).value().search.rejected_share;
+  };
+  CHECK(share(4, 0, "{}") == 0.2);
+  CHECK(share(10, 1, "{}") == 0.2);
+  CHECK(share(3, 1, "{}") == Approx(1.0 / 3));
+  CHECK(share(3, 1, R"({"rejected_share": 0.1})") == 0.1);
+}
+
 TEST_CASE("bounds in the wrong order, out of range or without logarithm are faults") {
   const Desk desk;
   const auto fault = [&](const char* name, const char* content) {
