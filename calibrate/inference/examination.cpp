@@ -8,8 +8,14 @@ namespace pastefit {
 
 namespace {
 
-constexpr int rounds = 2;
 constexpr std::uint64_t first_packing = 900;  // beyond any the search of the same seed uses
+
+std::vector<UnitPoint> predicted_members(const Inference& inference) {
+  std::vector<UnitPoint> points;
+  for (const EquivalentMaterial& member : inference.family)
+    if (!member.simulated) points.push_back(member.point);
+  return points;
+}
 
 }  // namespace
 
@@ -25,14 +31,22 @@ std::optional<Inference> examine(const Study& study, Objective& objective, const
   options.seed = seed;
   const auto training_data = [&] { return training_data_of(study, record_of(study, store, history)); };
   if (training_data().points.empty()) return std::nullopt;
-  for (int round = 0; round < rounds; ++round) {
-    const int count = std::min(simulations / rounds, objective.budget_left());
-    if (count < 1 || objective.stop_requested()) break;
-    const std::uint64_t packing = seed * 1000 + first_packing + static_cast<std::uint64_t>(round);
-    const auto points = candidates_to_examine(training_data(), calibration.best.point, count, options);
+  int left = simulations;
+  const auto simulate = [&](const std::vector<UnitPoint>& points, std::uint64_t round) {
+    const std::uint64_t packing = seed * 1000 + first_packing + round;
     for (Response& response : objective.evaluate(points, {&packing, 1})) history.push_back(std::move(response));
-  }
+    left -= static_cast<int>(points.size());
+  };
+  const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
+  if (const int count = std::min(simulations / 2, affordable()); count > 0)
+    simulate(candidates_to_examine(training_data(), calibration.best.point, count, options), 0);
   Inference inference = infer(training_data(), calibration.best.point, options);
+  if (const auto predicted = predicted_members(inference);
+      !predicted.empty() && affordable() >= std::ssize(predicted)) {
+    simulate(predicted, 1);
+    options.predicted = false;
+    inference = infer(training_data(), calibration.best.point, options);
+  }
   inference.recommended_because =
       reason_for(calibration.status == CalibrationStatus::confirmed, calibration.confirmation.packings.size());
   return inference;

@@ -46,6 +46,7 @@ struct Combination {
 /// A candidate that meets the laboratory as well as any other, as far as is
 /// known.
 struct EquivalentMaterial {
+  UnitPoint point;
   std::vector<double> values;    ///< of the free parameters
   std::vector<double> readings;  ///< predicted, in the order of `Inference::fitted`
   bool simulated = false;        ///< else predicted from its neighbours
@@ -80,9 +81,10 @@ struct Inference {
 };
 
 struct InferenceOptions {
-  int sample = 3000;  ///< candidates drawn in proportion to their likelihood
-  int family = 5;     ///< equivalent materials shown, the recommended one included
-  int repeats = 5;    ///< further measurements a gain is predicted for
+  int sample = 3000;      ///< candidates drawn in proportion to their likelihood
+  int family = 5;         ///< equivalent materials shown, the recommended one included
+  bool predicted = true;  ///< equivalent materials may be ones that were not simulated
+  int repeats = 5;        ///< further measurements a gain is predicted for
   std::uint64_t seed = 1;
 };
 

@@ -1,7 +1,9 @@
 #include "calibrate/calibrate.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
@@ -51,6 +53,24 @@ TEST_CASE("one call makes a card, and the same card again from its store without
   REQUIRE(second.card);
   CHECK(second.counts.simulated == 0);
   CHECK(to_json(*second.card) == to_json(*first.card));
+}
+
+TEST_CASE("a material that is shown as equivalent was simulated, where the budget allows it") {
+  const auto members = [](int examination_simulations) {
+    const Folder folder;
+    Study study = coarse_study();
+    study.search.budget_simulations = 40;
+    study.search.examination_simulations = examination_simulations;
+    Store store = store_in(folder, study);
+    const CalibrationResult result = calibrate(study, store).value();
+    std::vector<bool> simulated;
+    for (const EquivalentMaterial& one : result.inference.value().family) simulated.push_back(one.simulated);
+    return simulated;
+  };
+  const std::vector<bool> examined = members(12), not_examined = members(0);
+  CHECK(examined.size() > 1);
+  CHECK(std::ranges::count(examined, false) == 0);
+  CHECK(std::ranges::count(not_examined, false) > 0);
 }
 
 TEST_CASE("a study that cannot be calibrated is told so before anything is simulated") {
