@@ -33,23 +33,33 @@ CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<c
     least_misfit_ = misfit;
     least_ = seen.point;
   }
+  double margin_of_best = 0;
   for (const Response& seen : history.singles()) {
     if (!is_whole(seen) || is_refuted(seen.point)) continue;
     const double misfit = surrogate_.misfit_posterior(seen.point).mean();
-    if (misfit >= misfit_of_best_) continue;
+    const double expected = expected_margin(seen.point), margin = expected < worthwhile_margin ? 0 : expected;
+    if (margin < margin_of_best || (margin == margin_of_best && misfit >= misfit_of_best_)) continue;
+    margin_of_best = margin;
     misfit_of_best_ = misfit;
     best_ = seen.point;
   }
 }
 
-double CandidateRanking::chance_of(const UnitPoint& point, double tolerances) const {
+/// The integral of the chance from 0 to 1 tolerance, where it begins with none (trapezoidal rule).
+double CandidateRanking::expected_margin(const Surrogate& model, const UnitPoint& point) const {
+  constexpr int steps = 4;
+  double sum = chance_of(model, point, 1) / 2;
+  for (int k = 1; k < steps; ++k) sum += chance_of(model, point, static_cast<double>(k) / steps);
+  return sum / steps;
+}
+
+double CandidateRanking::chance_of(const Surrogate& model, const UnitPoint& point, double tolerances) const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Constant(history_.residuals(), far_from_prior);
   for (int k = 0; k < history_.readings(); ++k)
     bounds[k] = tolerances * history_.allowance(static_cast<std::size_t>(k));
-  if (history_.scoring().rejected_share() >= 1) return surrogate_.within(bounds, point);
-  const boost::math::binomial_distribution<> rejected(confirmed_heaps,
-                                                      std::clamp(surrogate_.rejecting(point), 0.0, 1.0));
-  return surrogate_.within(bounds, point) * boost::math::cdf(rejected, confirmed_rejected);
+  if (history_.scoring().rejected_share() >= 1) return model.within(bounds, point);
+  const boost::math::binomial_distribution<> rejected(confirmed_heaps, std::clamp(model.rejecting(point), 0.0, 1.0));
+  return model.within(bounds, point) * boost::math::cdf(rejected, confirmed_rejected);
 }
 
 }  // namespace pastefit

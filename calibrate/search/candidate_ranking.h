@@ -7,6 +7,9 @@
 
 namespace pastefit {
 
+/// An expected margin that is worth a simulation, in tolerances.
+inline constexpr double worthwhile_margin = 0.02;
+
 /// The candidates of a search in the light of all that was simulated so far. The one that reads best is often the
 /// luckiest; what its neighbours read, with luck of their own, tells them apart.
 /// Requirement: some evidence is feasible.
@@ -16,7 +19,8 @@ class CandidateRanking {
   CandidateRanking(const EvaluationHistory& history, std::span<const UnitPoint> refuted);
 
   const Surrogate& surrogate() const { return surrogate_; }
-  /// The one of least expected misfit, of those simulated to their end; no point if there is none.
+  /// Of those simulated to their end the one of the largest expected margin, or, where none has any to speak of, of the
+  /// least expected misfit; no point if there is none.
   const UnitPoint& best() const { return best_; }
   /// What it is expected to have; infinite if there is none.
   double misfit_of_best() const { return misfit_of_best_; }
@@ -27,9 +31,18 @@ class CandidateRanking {
   /// Probability that every fitted reading of a candidate is within so many tolerances, noise of the packings apart,
   /// that a confirmation would hold by the heaps that a laboratory rejects,
   /// and every parameter of which something is known beforehand within two standard deviations of it.
-  double chance_of(const UnitPoint& point, double tolerances) const;
+  double chance_of(const UnitPoint& point, double tolerances) const { return chance_of(surrogate_, point, tolerances); }
+
+  /// Expected margin of a candidate: the mean of max(0, 1 - w), where its worst fitted reading is off by w tolerances;
+  /// nothing where the heaps or what is known beforehand speak against it (`chance_of`). The misfit prefers a candidate
+  /// that makes up for a reading that is missed by others that are met; the margin does not. `model`: instead of the
+  /// ranking's own, e.g. with answers that are expected.
+  double expected_margin(const UnitPoint& point) const { return expected_margin(surrogate_, point); }
+  double expected_margin(const Surrogate& model, const UnitPoint& point) const;
 
  private:
+  double chance_of(const Surrogate& model, const UnitPoint& point, double tolerances) const;
+
   const EvaluationHistory& history_;
   Surrogate surrogate_;
   UnitPoint best_, least_;

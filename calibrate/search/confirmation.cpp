@@ -30,11 +30,13 @@ Verdict verdict_on(const Response& response, double rejected_share) {
 
 Verdict verdict_on(double normalised_error, double noise) {
   if (std::hypot(1, noise) < normalised_error) return Verdict::refuted;
-  return std::max(normalised_error, noise) <= 1 ? Verdict::holds : Verdict::undecided;
+  return std::hypot(normalised_error, noise) <= 1 ? Verdict::holds : Verdict::undecided;
 }
 
 double packings_to_decide(const Response& response) {
-  return static_cast<double>(response.packings.size()) * response.noise * response.noise;
+  constexpr double least = 1e-6;  // where no number of packings would tell
+  const double left = std::abs(1 - response.normalised_error * response.normalised_error);
+  return static_cast<double>(response.packings.size()) * response.noise * response.noise / std::max(left, least);
 }
 
 }  // namespace pastefit

@@ -14,8 +14,8 @@ enum class Verdict {
 /// Judges a candidate by its answer on packings it was not chosen on. By what it misses the laboratory, m
 /// tolerances (`Response::normalised_error`), and the part s of it that the noise of the packings makes by itself
 /// (`noise`):
-///     holds      m <= 1 and s <= 1
-///     refuted    sqrt(m^2 - s^2) > 1; the mean of m^2 over fillings is that of a mean without noise, plus s^2
+///     holds      m^2 + s^2 <= 1: what it may truly miss, its error included
+///     refuted    m^2 - s^2 > 1; the mean of m^2 over fillings is that of a mean without noise, plus s^2
 ///     undecided  otherwise
 /// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected: with an even prior the
 /// share p has a beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 (for c = 0.2 none of 8,

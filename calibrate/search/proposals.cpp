@@ -13,6 +13,14 @@ namespace {
 constexpr int coarse_tries = 4;      // proposals tried with coarse grains before one is with fine ones
 constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, of the misfit of a good candidate
 
+UnitPoint point_of_largest_margin(const CandidateRanking& ranking, const Surrogate& model) {
+  constexpr double slope = 1e-4;  // leads out of where no margin is in sight
+  const auto lacking = [&](const UnitPoint& point) {
+    return slope * model.misfit_posterior(point).mean() - ranking.expected_margin(model, point);
+  };
+  return least_point(lacking, ranking.best().size() > 0 ? ranking.best() : ranking.least());
+}
+
 }  // namespace
 
 std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
@@ -21,8 +29,11 @@ std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
   double least = ranking.least_misfit();
   for (const EvaluationHistory::Asked& asked : history_.under_way())
     least = std::min(least, model.misfit_posterior(asked.point).mean());
-  const Improvement best = maximise_expected_improvement(model, least, ranking.least());
-  if (best.expected < worthwhile * history_.allowed_misfit()) return std::nullopt;
+  Improvement best = maximise_expected_improvement(model, least, ranking.least());
+  if (best.expected < worthwhile * history_.allowed_misfit()) {
+    best.point = point_of_largest_margin(ranking, model);
+    if (ranking.expected_margin(model, best.point) < worthwhile_margin) return std::nullopt;
+  }
   const UnitPoint proposal = tried_with_coarse_grains(best.point);
   const auto is_same = [&](const auto& asked) {
     return (asked.point - proposal).template lpNorm<Eigen::Infinity>() < same_point;

@@ -11,8 +11,9 @@ namespace pastefit {
 inline constexpr double same_point = 0.01;
 
 /// What the default strategy tries next: the point that is expected to improve most on the least expected misfit so far
-/// (`maximise_expected_improvement`), so that promise is weighed against uncertainty. One that is a known point is that
-/// point again, on another packing.
+/// (`maximise_expected_improvement`), so that promise is weighed against uncertainty. Where the misfit promises nothing
+/// any more, the point of the largest expected margin (`CandidateRanking::expected_margin`), as a candidate has to meet
+/// each reading and not their sum. One that is a known point is that point again, on another packing.
 ///
 /// Of a candidate under way only the point is known. It counts in the surrogate with an answer drawn from what is known
 /// of its mean, always the same draw for the same candidate, so that the next proposal is made for a case that may well
@@ -28,7 +29,7 @@ class Proposals {
   Proposals(EvaluationHistory& history, bool with_coarse, const SearchOptions& options)
       : history_(history), with_coarse_(with_coarse), options_(options) {}
 
-  /// None if nothing promises more than a fiftieth of the misfit that is allowed, or before the next answer.
+  /// None if nothing promises more than a fiftieth of the misfit or of the tolerances, or before the next answer.
   std::optional<UnitPoint> next(const CandidateRanking& ranking);
 
  private:
