@@ -4,7 +4,7 @@ known, by simulating it.
 
 Usage: make_three_tests_twin.py PASTEFIT [FOLDER]      (PASTEFIT: the program; a minute on two cores)
 
-The material is that of make_two_step_twin.py. "cone" is a slump in the Abrams cone, "plate" the two-step test in the cone
+"cone" is a slump in the Abrams cone, "plate" the two-step test in the cone
 of EN 12350-5, "fast" the Abrams cone lifted ten times as fast. Each packing counts as one repeat. The grains are coarse and
 the same as in the fit, so that the example is quick and only packings and ruler stand between the twin and the truth.
 """
@@ -15,10 +15,20 @@ import random
 import sys
 import tempfile
 
-from make_two_step_twin import BULK_DENSITY_KG_M3, RULER_DEVIATION_MM, TRUTH, simulate, study
+from make_two_step_twin import BULK_DENSITY_KG_M3, RULER_DEVIATION_MM, simulate, study
 
 HERE = pathlib.Path(__file__).resolve().parent
+TRUTH = {
+    "strength_pa": 1800,
+    "rupture_force_ratio": 0.2,
+    "curvature": 0.3,
+    "rupture_gap_ratio": 0.7,
+    "formation_ratio": 1,
+    "friction": 0.15,
+    "rolling_friction": 0.02,
+}
 GRAIN_RADIUS_MM = 10
+GRAINS = {"distribution": "mono", "radius_mm": GRAIN_RADIUS_MM}
 SEEDS = range(9101, 9106)
 TESTS = {
     "cone": ({"preset": "abrams", "lift_velocity_mm_s": 100}, ["step1.height_mm", "step1.spread_mm"]),
@@ -41,7 +51,7 @@ def lab(name, measurements):
         },
         "apparatus": TESTS[name][0],
         "material": {"bulk_density_kg_m3": BULK_DENSITY_KG_M3},
-        "grains": {"distribution": "mono", "radius_mm": GRAIN_RADIUS_MM},
+        "grains": GRAINS,
         "measurements": measurements,
     }
 
@@ -53,9 +63,9 @@ def main(program, output):
             folder = pathlib.Path(folder)
             first = {readings[0]: {"value": 100, "standard_deviation": 1}}
             (folder / "lab.json").write_text(json.dumps(lab(name, first)))
-            (folder / "study.json").write_text(json.dumps(study("lab.json")))
+            (folder / "study.json").write_text(json.dumps(study("lab.json", TRUTH)))
             with concurrent.futures.ThreadPoolExecutor(2) as pool:
-                runs = list(pool.map(lambda seed: simulate(program, folder / "study.json", seed, GRAIN_RADIUS_MM), SEEDS))
+                runs = list(pool.map(lambda seed: simulate(program, folder / "study.json", seed, TRUTH, GRAINS), SEEDS))
         measurements = {
             reading: {"repeats": [round(run[reading] + noise.gauss(0, RULER_DEVIATION_MM[reading]), 1) for run in runs]}
             for reading in readings

@@ -61,7 +61,8 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   std::vector<Observables> runs;
   for (int k = 0; k < recipe.repeats; ++k) {
     Study made = study;
-    if (recipe.truth_radius_m > 0) specimen_of(made.tests[0].lab.test).grains.radius_m = recipe.truth_radius_m;
+    GrainSizes& grains = specimen_of(made.tests[0].lab.test).grains;
+    if (recipe.truth_radius_m > 0) grains = enlarged(grains, recipe.truth_radius_m / grains.radius_m);
     const auto packing = first_packing + static_cast<std::uint64_t>(1000 * number + k);
     const Outcome outcome = options.engine.run(test_with(made.tests[0].lab.test, values, packing), {});
     if (outcome.failure) return Fault{"twin " + std::to_string(number), outcome.failure->message, "another truth"};

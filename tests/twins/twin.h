@@ -14,7 +14,7 @@ namespace pastefit {
 /// How twin laboratories are made. The recipe and a number make a twin, the same wherever it is made.
 struct TwinRecipe {
   std::uint64_t seed = 1;     ///< of the truths, the packings and the ruler
-  double truth_radius_m = 0;  ///< grains of the twin; 0: those of the study
+  double truth_radius_m = 0;  ///< mean one of the twin's grains; 0: those of the study
   int repeats = 5;            ///< of the test, each on a packing of its own
   double ruler_mm = 1;        ///< standard deviation of reading a height; five times that for a spread
 };

@@ -27,8 +27,8 @@ int main(int argc, char** argv) {
   app.add_option("--first", first, "number of the first")->capture_default_str()->check(CLI::NonNegativeNumber);
   app.add_option("--seed", recipe.seed, "of truths, packings and ruler")->capture_default_str();
   app.add_option("--repeats", recipe.repeats, "of the twin's test")->capture_default_str()->check(CLI::Range(2, 100));
-  app.add_option("--radius-mm", radius_mm, "of the grains of the calibration, instead of the study's");
-  app.add_option("--truth-radius-mm", truth_radius_mm, "of the grains of the twin, instead of the calibration's");
+  app.add_option("--radius-mm", radius_mm, "mean one of the grains of the calibration, instead of the study's");
+  app.add_option("--truth-radius-mm", truth_radius_mm, "mean one of the grains of the twin, instead of the calibration's");
   app.add_option("--budget", budget, "simulations of a calibration, instead of the study's");
   app.add_option("--tolerance-mm", tolerance_mm, "of the confirmation, instead of the study's");
   app.add_option("--threads", options.threads, "simulations at the same time; default: one for each core");
@@ -45,7 +45,10 @@ int main(int argc, char** argv) {
     std::cerr << study_file << ": has several tests; a twin is made of a study of one\n";
     return 2;
   }
-  if (radius_mm > 0) specimen_of(study.tests[0].lab.test).grains.radius_m = radius_mm / 1000;
+  if (radius_mm > 0) {
+    GrainSizes& grains = specimen_of(study.tests[0].lab.test).grains;
+    grains = enlarged(grains, radius_mm / 1000 / grains.radius_m);
+  }
   if (budget > 0) study.search.budget_simulations = budget;
   if (tolerance_mm > 0) study.search.tolerance_mm = tolerance_mm;
   recipe.truth_radius_m = truth_radius_mm / 1000;
