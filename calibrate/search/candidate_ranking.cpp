@@ -33,13 +33,12 @@ CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<c
     least_misfit_ = misfit;
     least_ = seen.point;
   }
-  double margin_of_best = 0;
   for (const Response& seen : history.singles()) {
     if (!is_whole(seen) || is_refuted(seen.point)) continue;
     const double misfit = surrogate_.misfit_posterior(seen.point).mean();
     const double expected = expected_margin(seen.point), margin = expected < worthwhile_margin ? 0 : expected;
-    if (margin < margin_of_best || (margin == margin_of_best && misfit >= misfit_of_best_)) continue;
-    margin_of_best = margin;
+    if (margin < margin_of_best_ || (margin == margin_of_best_ && misfit >= misfit_of_best_)) continue;
+    margin_of_best_ = margin;
     misfit_of_best_ = misfit;
     best_ = seen.point;
   }

@@ -24,6 +24,7 @@ class CandidateRanking {
   const UnitPoint& best() const { return best_; }
   /// What it is expected to have; infinite if there is none.
   double misfit_of_best() const { return misfit_of_best_; }
+  double margin_of_best() const { return margin_of_best_; }  ///< 0, where it is none to speak of
   /// The least that is expected anywhere where something was simulated.
   const UnitPoint& least() const { return least_; }
   double least_misfit() const { return least_misfit_; }
@@ -46,7 +47,7 @@ class CandidateRanking {
   const EvaluationHistory& history_;
   Surrogate surrogate_;
   UnitPoint best_, least_;
-  double misfit_of_best_, least_misfit_;
+  double misfit_of_best_, least_misfit_, margin_of_best_ = 0;
 };
 
 }  // namespace pastefit

@@ -32,7 +32,8 @@ std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
   Improvement best = maximise_expected_improvement(model, least, ranking.least());
   if (best.expected < worthwhile * history_.allowed_misfit()) {
     best.point = point_of_largest_margin(ranking, model);
-    if (ranking.expected_margin(model, best.point) < worthwhile_margin) return std::nullopt;
+    const double gain = ranking.expected_margin(model, best.point) - ranking.margin_of_best();
+    if (gain < worthwhile_margin) return std::nullopt;
   }
   const UnitPoint proposal = tried_with_coarse_grains(best.point);
   const auto is_same = [&](const auto& asked) {

@@ -12,8 +12,9 @@ inline constexpr double same_point = 0.01;
 
 /// What the default strategy tries next: the point that is expected to improve most on the least expected misfit so far
 /// (`maximise_expected_improvement`), so that promise is weighed against uncertainty. Where the misfit promises nothing
-/// any more, the point of the largest expected margin (`CandidateRanking::expected_margin`), as a candidate has to meet
-/// each reading and not their sum. One that is a known point is that point again, on another packing.
+/// any more, the point of the largest expected margin (`CandidateRanking::expected_margin`), if it is larger than the
+/// best candidate's: a candidate has to meet each reading and not their sum. One that is a known point is that point
+/// again, on another packing.
 ///
 /// Of a candidate under way only the point is known. It counts in the surrogate with an answer drawn from what is known
 /// of its mean, always the same draw for the same candidate, so that the next proposal is made for a case that may well
