@@ -29,7 +29,7 @@ MOST_LINES = {"README.md": 120}  # of a folder's README: 80
 # What somebody who was not here looks for, the page that says it, and words that stand there. From the main README it is
 # at most two links away.
 QUESTIONS = {
-    "where a slump's spread is read": ("core/rigs/slump/README.md", "`ruler` reads the heap: height, spread"),
+    "where a slump's spread is read": ("core/apparatus/slump/README.md", "`ruler` reads the heap: height, spread"),
     "where the polynomial is evaluated": ("core/README.md", "evaluated in `laws/attraction.h`"),
     "where NLopt is called": ("calibrate/search/README.md", "`calibrate/optimisers`, the adapters of NLopt"),
     "how to add a law": ("core/README.md", "One header, one row, one case file"),

@@ -90,7 +90,7 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   out.lab = test.lab.provenance;
   const auto add_note = [&](const std::string& note) { out.lab.notes += (out.lab.notes.empty() ? "" : "; ") + note; };
   if (!test.lab.note.empty()) add_note(test.lab.note);
-  if (test.lab.repeats.sheared > 0) add_note(in_words(test.lab.repeats));
+  if (test.lab.repeats.sheared > 0) add_note(sheared_in_words(test.lab.repeats));
   out.test = test_with(test.lab.test, values, first_packing);
   if (baseline.runs.empty()) return out;
   std::vector<Observables> runs;

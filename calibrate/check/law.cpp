@@ -4,7 +4,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/verify/force_curve.h"
-#include "core/rigs/impact/impact.h"
+#include "core/apparatus/impact/impact.h"
 
 namespace pastefit {
 

@@ -76,7 +76,7 @@ int run(int argc, char** argv) {
       {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
       {"infer", "say what a calibration's stored simulations tell of the parameters, without simulating", add_infer},
       {"compare-optimisers", "run all search strategies on one study with the same budget", add_compare_optimisers},
-      {"simulate", "run the test of a study, card, laboratory, rig or impact file once", add_simulate},
+      {"simulate", "run the test of a study, card, laboratory, apparatus or impact file once", add_simulate},
       {"template", "print a commented starting file", add_template},
       {"show", "print a material card for a person", add_show},
       {"report", "write the page of a calibration, for a browser", add_report},

@@ -11,10 +11,10 @@
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_format.h"
 #include "calibrate/search/objective.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -245,8 +245,9 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
     return std::nullopt;
   }
   if (format == "pastefit-rig-1") {
-    const auto rig = read_with(document, settings, file, faults, rig_from_json);
-    if (rig.ok()) return FoundScene{with_parameters(rig.value().test, default_values(), settings, faults), {}};
+    const auto apparatus = read_with(document, settings, file, faults, apparatus_from_json);
+    if (apparatus.ok())
+      return FoundScene{with_parameters(apparatus.value().test, default_values(), settings, faults), {}};
     return std::nullopt;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibrate/laboratory/test.h"
+#include "core/apparatus/impact/impact.h"
 #include "core/result.h"
-#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 
@@ -21,8 +21,8 @@ struct FoundScene {
 };
 
 /// The test that a file stands for: that of a study (free parameters in the middle of their bounds), a card,
-/// a laboratory or a rig file, or the few bodies of an impact file, told apart by "format". Of the tests of a study or
-/// a card the one named `test`; the first, if that is empty.
+/// a laboratory or an apparatus file, or the few bodies of an impact file, told apart by "format". Of the tests of a
+/// study or a card the one named `test`; the first, if that is empty.
 ///
 /// Each of `settings` is "path=value" and changes the file's content before it is read, so that every check applies.
 /// A study's own are contact, search, weights, tolerances and tests.

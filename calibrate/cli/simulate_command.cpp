@@ -249,7 +249,9 @@ class SavedRun {
 /// The outcome of a run, which may go on from a checkpoint. Errors: what that holds is no state of this run, though it
 /// is what was written: it was made by hand.
 Result<Outcome> outcome_of(const Scene& test, const RunOptions& run, const std::optional<SavedRun>& saved) {
-  const auto simulate_it = [&] { return std::visit([&](const auto& of_rig) { return simulate(of_rig, run); }, test); };
+  const auto simulate_it = [&] {
+    return std::visit([&](const auto& of_apparatus) { return simulate(of_apparatus, run); }, test);
+  };
   if (!saved) return simulate_it();
   try {
     Outcome outcome = simulate_it();
@@ -373,7 +375,7 @@ int simulate_file(const SimulateOptions& options) {
 
 Command add_simulate(CLI::App& verb) {
   const auto options = std::make_shared<SimulateOptions>();
-  verb.add_option("FILE", options->file, "study, card, laboratory, rig or impact file")->required();
+  verb.add_option("FILE", options->file, "study, card, laboratory, apparatus or impact file")->required();
   verb.add_option("--set", options->settings,
                   "PATH=VALUE, changes the file's content for this run, e.g. parameters.strength_pa=3000 or "
                   "grains.radius_mm=6; may be given again")

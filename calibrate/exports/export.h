@@ -11,7 +11,7 @@
 #include "calibrate/card/card.h"
 #include "calibrate/exports/size_classes.h"
 #include "calibrate/verify/force_curve.h"
-#include "core/rigs/slump/packing.h"
+#include "core/apparatus/slump/packing.h"
 
 namespace pastefit {
 

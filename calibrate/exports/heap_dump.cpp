@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/ruler.h"
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/ruler.h"
 
 namespace pastefit {
 

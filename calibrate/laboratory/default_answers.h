@@ -11,10 +11,10 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/measurement.h"
+#include "core/apparatus/reading_kind.h"
+#include "core/apparatus/specimen.h"
 #include "core/observe/observables.h"
 #include "core/observe/outline.h"
-#include "core/rigs/reading_kind.h"
-#include "core/rigs/specimen.h"
 #include "core/step/run.h"
 
 namespace pastefit {

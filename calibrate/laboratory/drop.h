@@ -11,7 +11,7 @@
 #include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
-#include "core/rigs/drop_test/drop_test.h"
+#include "core/apparatus/drop_test/drop_test.h"
 
 namespace pastefit {
 
@@ -26,7 +26,7 @@ std::vector<Surface> surfaces_of(DropTest& test);
 
 double grains_needed(const DropTest& test);
 
-/// The keys of "apparatus" in laboratory and rig files: millimetres and degrees.
+/// The keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
 void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&);
 

@@ -11,12 +11,12 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
-#include "core/rigs/pellet_crush/pellet_crush.h"
-#include "core/rigs/shear_cell/shear_cell.h"
+#include "core/apparatus/pellet_crush/pellet_crush.h"
+#include "core/apparatus/shear_cell/shear_cell.h"
 
 namespace pastefit {
 
-// What tests of small granules that stick have in common in the words of files and people (core/rigs/granules.h).
+// What tests of small granules that stick have in common in the words of files and people (core/apparatus/granules.h).
 
 template <class T>
 concept GranuleTest = std::same_as<T, PelletCrush> || std::same_as<T, ShearCell>;
@@ -50,7 +50,7 @@ std::optional<double> grain_density_of(const T& test, const Observables&) {
   return test.bulk_density_kg_m3;
 }
 
-/// The surface of the tools, "tools" in laboratory and rig files.
+/// The surface of the tools, "tools" in laboratory and apparatus files.
 void read_tools(ObjectReader& apparatus, WallContact& tools);
 
 /// What the runs drew, as the mean and, of several, the band from the lowest to the highest.

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "calibrate/laboratory/measurement.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -10,7 +10,7 @@
 #include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/granule_test.h"
-#include "core/rigs/shear_cell/shear_cell.h"
+#include "core/apparatus/shear_cell/shear_cell.h"
 
 namespace pastefit {
 
@@ -21,7 +21,7 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
   return "shear";
 }
 
-/// The keys of "apparatus" in laboratory and rig files: millimetres and millimetres a second.
+/// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&);
 

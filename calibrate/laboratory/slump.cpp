@@ -11,7 +11,7 @@
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/specimen_json.h"
-#include "core/rigs/slump/ruler.h"
+#include "core/apparatus/slump/ruler.h"
 #include "core/world/world.h"
 
 namespace pastefit {

@@ -14,9 +14,9 @@
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_readings.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/slump_readings.h"
+#include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
 
@@ -33,13 +33,13 @@ std::shared_ptr<const Packing> prepare(const SlumpTest& test, const RunOptions& 
 std::string preparation_key(const SlumpTest& test);
 double grains_needed(const SlumpTest& test);
 
-/// The keys of "apparatus" in laboratory and rig files, in millimetres.
+/// The keys of "apparatus" in laboratory and apparatus files, in millimetres.
 void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need);
 
 /// The outline of a heap seen from the side, which a reading of this kind is the distance from.
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
 
-/// The apparatus' places in `validate`'s words and in those of laboratory and rig files.
+/// The apparatus' places in `validate`'s words and in those of laboratory and apparatus files.
 std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&);
 
 /// Of the mould, until it is off the heap.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibrate/laboratory/names.h"
-#include "core/rigs/specimen.h"
+#include "core/apparatus/specimen.h"
 
 namespace pastefit {
 

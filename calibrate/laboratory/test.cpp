@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calibrate/laboratory/accepted.h"
-#include "core/rigs/field_checker.h"
+#include "core/apparatus/field_checker.h"
 
 namespace pastefit {
 namespace {

@@ -19,9 +19,9 @@
 
 namespace pastefit {
 
-/// A laboratory test of any kind. To add a kind: a folder in core/rigs with the apparatus as a value that begins with a
-/// `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what each
-/// does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
+/// A laboratory test of any kind. To add a kind: a folder in core/apparatus with the apparatus as a value that begins
+/// with a `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what
+/// each does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
 using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
 template <class T>
@@ -100,7 +100,7 @@ double default_tolerance(const Test& test, const Measurement& measured);
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);
 
-/// The same, with places in the words of laboratory and rig files, e.g. "apparatus.mould.height_mm".
+/// The same, with places in the words of laboratory and apparatus files, e.g. "apparatus.mould.height_mm".
 Faults validate_in_file_words(const Test& test);
 
 /// The words of all kinds, in the order of `Test`.

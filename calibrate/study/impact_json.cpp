@@ -5,7 +5,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
-#include "core/rigs/impact/approach.h"
+#include "core/apparatus/impact/approach.h"
 
 namespace pastefit {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/apparatus/impact/impact.h"
 #include "core/result.h"
-#include "core/rigs/impact/impact.h"
 
 namespace pastefit {
 

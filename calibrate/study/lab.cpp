@@ -6,10 +6,10 @@
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/units.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/questions.h"
-#include "calibrate/study/rig.h"
 
 namespace pastefit {
 
@@ -69,7 +69,7 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
                    "at most as many as were made, those that sheared off included");
     else if (repeats.sheared == repeats.made)
       reader.fault("sheared", "all repeats sheared off, so that there is no height to report",
-                   "a smaller mould or the flow table: this mix does not suit the test");
+                   "a smaller apparatus, or a test of the flow: this material does not suit the test");
   });
   const int stood = repeats.made - repeats.sheared;
   for (const Measurement& one : lab.measurements)
@@ -82,7 +82,7 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
 
 }  // namespace
 
-std::string in_words(const Lab::Repeats& repeats) {
+std::string sheared_in_words(const Lab::Repeats& repeats) {
   return std::to_string(repeats.sheared) + " of " + std::to_string(repeats.made) +
          " heaps of the laboratory sheared off";
 }
@@ -91,7 +91,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
   Faults faults;
   if (!has_format(document, "pastefit-lab-1", faults)) return faults;
   Lab lab;
-  std::optional<Rig> preset;
+  std::optional<Apparatus> preset;
   {
     ObjectReader reader(document, "", faults);
     reader.known("format");
@@ -116,13 +116,13 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
       for (Fault& fault : check.faults) faults.push_back(std::move(fault));
     }
     lab.notes = questions.notes();
-    if (lab.repeats.sheared > 0) lab.notes.push_back(in_words(lab.repeats));
+    if (lab.repeats.sheared > 0) lab.notes.push_back(sheared_in_words(lab.repeats));
   }
   if (!faults.empty()) return faults;
   if (preset) lab.note = note_on_preset(*preset);
-  const std::string rig = preset ? preset->content : "";
-  lab.content = nlohmann::json{{"laboratory", document}, {"preset", rig}}.dump();
-  lab.hash = content_hash(document.dump() + rig);
+  const std::string apparatus = preset ? preset->content : "";
+  lab.content = nlohmann::json{{"laboratory", document}, {"preset", apparatus}}.dump();
+  lab.hash = content_hash(document.dump() + apparatus);
   return lab;
 }
 

@@ -10,9 +10,9 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/rig.h"
-#include "core/rigs/reading_kind.h"
+#include "core/apparatus/reading_kind.h"
 
 namespace pastefit {
 namespace {

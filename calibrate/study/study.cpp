@@ -8,8 +8,8 @@
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/rig.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/table.h"
 

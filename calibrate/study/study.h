@@ -21,7 +21,7 @@ struct Provenance {
   bool twin = false;  ///< produced by a simulation with known parameters
 };
 
-/// A laboratory file: the test as a rig with default contact parameters, and what was measured.
+/// A laboratory file: the test as an apparatus with default contact parameters, and what was measured.
 struct Lab {
   /// How often the test was made, and in how many of them the heap sheared off, which then has no readings.
   struct Repeats {
@@ -41,7 +41,7 @@ struct Lab {
 };
 
 /// "1 of 4 heaps of the laboratory sheared off".
-std::string in_words(const Lab::Repeats& repeats);
+std::string sheared_in_words(const Lab::Repeats& repeats);
 
 /// How a free parameter is spaced between its bounds.
 enum class Scale { linear, logarithmic };
@@ -117,7 +117,7 @@ struct StudyChanges {
 /// Errors: every fault of all files at once, each with its place and what would be right.
 Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes = {});
 
-/// Reads a laboratory file, with the rig preset it names; its content is changed before, if there is a `change`.
+/// Reads a laboratory file, with the apparatus preset it names; its content is changed before, if there is a `change`.
 Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change = {});
 
 }  // namespace pastefit

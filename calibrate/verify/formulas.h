@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/apparatus/impact/approach.h"
 #include "core/result.h"
-#include "core/rigs/impact/approach.h"
 
 namespace pastefit {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rigs/impact/impact.h"
+#include "core/apparatus/impact/impact.h"
 
 namespace pastefit {
 

@@ -62,7 +62,7 @@ struct RunOptions {
   std::shared_ptr<RunCheckpoint> checkpoint;  ///< given: hands out states of the run, and goes on from one
   /// Given: a run ends as soon as it is certain that the reading will be lower, without any reading of its stage, or
   /// after its stage where it lies beyond; `RunSummary::ended_early` says so. Until then the run is the same, bit for
-  /// bit. Which reading may be asked for, and what is certain, is the rig's word.
+  /// bit. Which reading may be asked for, and what is certain, is the apparatus's word.
   std::optional<Cutoff> cutoff;
 };
 

@@ -9,16 +9,16 @@
 
 namespace pastefit {
 
-/// How a test goes on after it was interrupted, in another process, with the same bits. Its rig does everything once
-/// more from the beginning, but a wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step: it
-/// leaves the world as it was left then. The wait in which the test was interrupted goes on in its midst. So a rig need
-/// not know of it, but for what its phases sum up step by step (`Runner::remember`).
+/// How a test goes on after it was interrupted, in another process, with the same bits. Its apparatus does everything
+/// once more from the beginning, but a wait of its runners (`Runner::run`, `settle`, ...) that had ended takes no step:
+/// it leaves the world as it was left then. The wait in which the test was interrupted goes on in its midst. So an
+/// apparatus need not know of it, but for what its phases sum up step by step (`Runner::remember`).
 ///
 /// One checkpoint serves one call of `simulate`. Requirements of a state: it is of the same test, options (but for
-/// `StepOptions::threads`), program and instruction set. Not covered: rigs without a `Runner` (impacts).
+/// `StepOptions::threads`), program and instruction set. Not covered: apparatus without a `Runner` (impacts).
 class RunCheckpoint {
  public:
-  /// What a wait leaves behind, as bytes: what a rig can see, and what its runner needs to go on besides.
+  /// What a wait leaves behind, as bytes: what an apparatus can see, and what its runner needs to go on besides.
   struct Wait {
     std::string seen, hidden;
     template <class Archive>

@@ -21,7 +21,7 @@ struct Phase {
   PhaseLeft after{};
 };
 
-/// Lengths of a specimen that stay where they are once it is at rest [m]: the rig's word.
+/// Lengths of a specimen that stay where they are once it is at rest [m]: the apparatus's word.
 using RestMeasure = std::function<std::vector<double>(const Particles&)>;
 
 /// Runs a world through the phases of a test, watched by the caller, until each phase's own end.
@@ -97,7 +97,7 @@ class Runner {
   RunCheckpoint::Wait state();
   void recall(const RunCheckpoint::Wait& left);
   void check_progress(double longest_s, double cap_s) const;
-  /// What a rig sees of the world, and changes of it.
+  /// What an apparatus sees of the world, and changes of it.
   template <class Archive>
   void seen(Archive& archive) {
     archive(world_.time, world_.step, world_.particles.motion, world_.particles.velocity, world_.particles.load,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFarthest = 1e3;  // [m]; of a grain or a wall from the middle of the table
 constexpr double kFastestWall = kRunawaySpeed;
-constexpr double kSizeChange = 0.01;  // of a grain by its rig, between two waits
+constexpr double kSizeChange = 0.01;  // of a grain by its apparatus, between two waits
 
 /// No number of a state is larger, in whatever unit; written so that one that is no number is not possible either.
 bool is_possible(double value) {
@@ -147,7 +147,7 @@ void Fixtures::check(const World& world) const {
     demand(identity < n && !seen[identity], "a grain stands twice in it");
     seen[identity] = true;
     demand(grain_of(particles, i) == grains_[identity], "a grain has another size or mass");
-    // Rounded anew in every step: a rig may have changed the size since.
+    // Rounded anew in every step: an apparatus may have changed the size since.
     const Motion& grain = particles.motion[i];
     demand(std::fabs(grain.rounded_radius - grain.radius) <= kSizeChange * grain.radius, "a grain has two sizes");
     demand_within(particles.motion[i].position, kFarthest, "a grain is not in the laboratory");

@@ -11,7 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 AS_MEASURED = "by the names of `measurements`"  # in the description of an object: its keys are those of laboratory files
-NAMES = ("lab", "study", "rig", "card", "case")
+NAMES = ("lab", "study", "apparatus", "card", "case")
 
 
 def number_of(value):

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "core/rigs/slump/packing.h"
+#include "core/apparatus/slump/packing.h"
 
 namespace pastefit {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -15,9 +15,9 @@
 #include "calibrate/report/card_text.h"
 #include "calibrate/search/residual_size.h"
 #include "calibrate/store/outcome_json.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/rig.h"
 #include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/verify/case.h"
@@ -36,7 +36,7 @@ class Desk {
     std::string name = "/dev/shm/pastefit-fuzz-XXXXXX";
     if (!::mkdtemp(name.data())) throw std::runtime_error("no folder in /dev/shm");
     folder_ = name;
-    for (const char* beside : {"lab", "rigs"})
+    for (const char* beside : {"lab", "apparatus"})
       fs::create_directory_symlink(kSource / "data" / beside, folder_ / beside);
     fs::create_directory(folder_ / "read");
   }
@@ -151,7 +151,7 @@ void sheet(const fs::path& file) {
 
 constexpr std::array<Reader, 8> kReaders{
     {{"lab", [](std::string_view content) { judge(read_lab(file_of(content))); }},
-     {"rig", [](std::string_view content) { judge(read_rig(file_of(content))); }},
+     {"apparatus", [](std::string_view content) { judge(read_apparatus_file(file_of(content))); }},
      {"study", [](std::string_view content) { study(file_of(content)); }},
      {"card", [](std::string_view content) { card(file_of(content)); }},
      {"physics_case", [](std::string_view content) { judge(read_case(file_of(content))); }},

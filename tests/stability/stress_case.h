@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "calibrate/laboratory/softness.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_readings.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/slump_readings.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "core/world/world.h"
 
 namespace pastefit {

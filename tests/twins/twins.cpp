@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", recipe.seed, "of truths, packings and ruler")->capture_default_str();
   app.add_option("--repeats", recipe.repeats, "of the twin's test")->capture_default_str()->check(CLI::Range(2, 100));
   app.add_option("--radius-mm", radius_mm, "mean one of the grains of the calibration, instead of the study's");
-  app.add_option("--truth-radius-mm", truth_radius_mm, "mean one of the grains of the twin, instead of the calibration's");
+  app.add_option("--truth-radius-mm", truth_radius_mm,
+                 "mean one of the grains of the twin, instead of the calibration's");
   app.add_option("--budget", budget, "simulations of a calibration, instead of the study's");
   app.add_option("--tolerance-mm", tolerance_mm, "of the confirmation, instead of the study's");
   app.add_option("--threads", options.threads, "simulations at the same time; default: one for each core");

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/apparatus/slump/slump_test.h"
 #include "core/laws/materials.h"
-#include "core/rigs/slump/slump_test.h"
 #include "core/vec3.h"
 
 namespace pastefit {

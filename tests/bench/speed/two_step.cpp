@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "core/world/world.h"
 #include "tests/bench/speed/peer_files.h"
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "tests/bench/speed/peers.h"
 #include "tests/bench/speed/scene.h"
 

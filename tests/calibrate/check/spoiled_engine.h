@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibrate/check/check.h"
-#include "core/rigs/impact/impact.h"
+#include "core/apparatus/impact/impact.h"
 #include "tests/calibrate/slump.h"
 
 namespace pastefit {

@@ -16,7 +16,7 @@ PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 STUDY = SOURCE / "data/studies/concrete-mix-20.json"
 CARD = SOURCE / "data/cards/concrete-mix-79.json"
 LAB = SOURCE / "data/lab/concrete-mix-20.json"
-RIG = SOURCE / "data/rigs/abrams.json"
+APPARATUS = SOURCE / "data/apparatus/abrams.json"
 TWO = str(min(2, len(os.sched_getaffinity(0))))  # threads
 COARSE = ["--set", "grains.radius_mm=12"]
 

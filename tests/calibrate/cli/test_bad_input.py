@@ -10,7 +10,7 @@ import sys
 import time
 import unittest
 
-from desk import PROGRAM, SOURCE, STUDY, CARD, LAB, RIG, Desk, run
+from desk import PROGRAM, SOURCE, STUDY, CARD, LAB, APPARATUS, Desk, run
 
 
 def numbers_in(schema, place=""):
@@ -27,7 +27,7 @@ class BadInput(Desk):
         self.fails(run(), 2)
         self.fails(run("simulat", STUDY), 2, "did you mean 'simulate'")
         self.fails(run("simulate"), 2, "FILE")
-        self.fails(run("simulate", RIG, "--sed", "3"), 2, "--sed")
+        self.fails(run("simulate", APPARATUS, "--sed", "3"), 2, "--sed")
         self.fails(run("calibrate", STUDY), 2, "--out")
         self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
         self.assertFalse(self.out.exists())
@@ -35,13 +35,13 @@ class BadInput(Desk):
     def test_threads_that_are_no_number_are_bad_input(self):
         for threads in ("0", "-3", "two", "1.5", "99999999999999999999"):
             for verb in (["calibrate", STUDY, "--out", self.out], ["compare-optimisers", STUDY, "--out", self.out],
-                         ["check", CARD], ["rescale", CARD, "--radius", "7"], ["simulate", RIG]):
+                         ["check", CARD], ["rescale", CARD, "--radius", "7"], ["simulate", APPARATUS]):
                 self.fails(run(*verb, "--threads", threads), 2, "--threads", threads, "give a whole number")
         self.assertFalse(self.out.exists())
 
     def test_a_scene_beyond_the_memory_is_refused_before_anything_is_computed(self):
         start = time.monotonic()
-        self.fails(run("simulate", RIG, "--set", "grains.radius_mm=0.02", "--out", self.out), 2, "grains", "GB", "larger")
+        self.fails(run("simulate", APPARATUS, "--set", "grains.radius_mm=0.02", "--out", self.out), 2, "grains", "GB", "larger")
         lab = json.loads(LAB.read_text())
         lab["grains"] = {"distribution": "mono", "radius_mm": 0.02}
         study = self.study()
@@ -105,7 +105,7 @@ class BadInput(Desk):
             self.assertNotIn("adhesion_pa", result.stderr)
             self.assertEqual(result.stdout, "")
         self.assertFalse(self.out.exists())
-        for file in (CARD, LAB, RIG):
+        for file in (CARD, LAB, APPARATUS):
             self.fails(run("simulate", file, "--set", "parameters.adhesion_pa=500"), 2,
                        "--set parameters.adhesion_pa", "belongs to normal \"jkr\", \"dmt\"")
 
@@ -154,7 +154,7 @@ class BadInput(Desk):
         blocked.write_text("x")
         self.fails(run("calibrate", self.study(), "--out", blocked / "out"), 2, "--out")
         self.fails(run("calibrate", self.study(), "--out", "/proc/pastefit"), 2, "--out")
-        self.fails(run("simulate", RIG, "--out", blocked), 2, "--out")
+        self.fails(run("simulate", APPARATUS, "--out", blocked), 2, "--out")
 
     def test_an_earlier_result_is_left_alone(self):
         self.out.mkdir()
@@ -180,11 +180,11 @@ class BadInput(Desk):
         self.fails(result, 2, "did you mean \"friction\"", "must be 0 to 2", "path=value", "radius_mm",
                    "--set frction: is neither a parameter nor")
         self.assertEqual(result.stderr.count("--set frction"), 1)
-        self.fails(run("simulate", RIG, "--set", "title.x=1"), 2, "title.x")
-        self.fails(run("simulate", RIG, "--set", "apparatus.mould.height_mm=-1"), 2, "height_mm")
+        self.fails(run("simulate", APPARATUS, "--set", "title.x=1"), 2, "title.x")
+        self.fails(run("simulate", APPARATUS, "--set", "apparatus.mould.height_mm=-1"), 2, "height_mm")
 
     def test_vtk_needs_a_folder(self):
-        self.fails(run("simulate", RIG, "--vtk", "0.1"), 2, "--out")
+        self.fails(run("simulate", APPARATUS, "--vtk", "0.1"), 2, "--out")
 
 
 if __name__ == "__main__":

@@ -125,7 +125,7 @@ class CardCommands(Desk):
         for verb in (["export", SEVERAL, "--to", "csv", "--out", self.folder / "x"], ["simulate", SEVERAL]):
             self.fails(run(*verb, "--test", "quick"), 2, "--test quick", "slow, fast, coarse")
         self.fails(run("simulate", CARD, "--test", "slow"), 2, "--test slow", "leave it out")
-        self.fails(run("simulate", SOURCE / "data/rigs/abrams.json", "--test", "slow"), 2, "--test", "leave it out")
+        self.fails(run("simulate", SOURCE / "data/apparatus/abrams.json", "--test", "slow"), 2, "--test", "leave it out")
         self.assertFalse((self.folder / "x").exists())
 
     def test_settings_of_a_card_are_of_todays_form_whatever_its_version(self):

@@ -13,7 +13,7 @@ import sys
 import time
 import unittest
 
-from desk import PROGRAM, RIG, Desk, run
+from desk import PROGRAM, APPARATUS, Desk, run
 
 
 class Checkpoint(Desk):
@@ -138,10 +138,10 @@ class Checkpoint(Desk):
         drop = self.folder / "drop.json"
         drop.write_text(run("template", "drop-lab").stdout)
         self.fails(run("simulate", drop, "--checkpoint", self.file), 2, "--checkpoint", "leave it out")
-        self.fails(run("simulate", RIG, "--checkpoint", self.file, "--vtk", "0.1", "--out", self.out), 2,
+        self.fails(run("simulate", APPARATUS, "--checkpoint", self.file, "--vtk", "0.1", "--out", self.out), 2,
                    "--checkpoint", "--vtk")
-        self.fails(run("simulate", RIG, "--checkpoint", self.folder), 2, "--checkpoint")
-        self.fails(run("simulate", RIG, "--checkpoint", self.folder / "nowhere" / "file"), 2, "--checkpoint")
+        self.fails(run("simulate", APPARATUS, "--checkpoint", self.folder), 2, "--checkpoint")
+        self.fails(run("simulate", APPARATUS, "--checkpoint", self.folder / "nowhere" / "file"), 2, "--checkpoint")
         self.assertFalse(self.out.exists())
 
 

@@ -21,7 +21,7 @@ import unittest
 import xml.etree.ElementTree as xml
 
 import jsonschema
-from desk import CARD, PROGRAM, SOURCE, LAB, RIG, TWO, COARSE, Desk, run
+from desk import CARD, PROGRAM, SOURCE, LAB, APPARATUS, TWO, COARSE, Desk, run
 
 
 class CommandLine(Desk):
@@ -37,7 +37,7 @@ class CommandLine(Desk):
     # runs
 
     def test_simulate_prints_its_outcome_as_json_and_repeats_itself(self):
-        arguments = ["simulate", RIG, *COARSE, "--set", "parameters.strength_pa=3000", "--seed", "5", "--json"]
+        arguments = ["simulate", APPARATUS, *COARSE, "--set", "parameters.strength_pa=3000", "--seed", "5", "--json"]
         first, second = (json.loads(run(*arguments).stdout) for _ in range(2))
         self.assertEqual(set(first["run"]), {"particles", "steps", "time_step_s", "simulated_s", "wall_s",
                                              "particle_steps_per_s", "settled", "failure", "advised_step_s",
@@ -51,7 +51,7 @@ class CommandLine(Desk):
     def test_what_goes_to_one_file_stands_there_in_the_order_in_which_it_was_said(self):
         both = self.folder / "both.txt"
         with both.open("w") as file:
-            arguments = ["simulate", RIG, *COARSE, "--set", "parameters.strength_pa=3000", "--out", self.out]
+            arguments = ["simulate", APPARATUS, *COARSE, "--set", "parameters.strength_pa=3000", "--out", self.out]
             subprocess.run([PROGRAM, *map(str, arguments)], stdout=file, stderr=file, timeout=300, check=True)
         text = both.read_text()
         self.assertLess(text.index("particle-steps a second"), text.index("wrote "), text)
@@ -83,7 +83,7 @@ class CommandLine(Desk):
         self.assertLess(again["step1.profile_mm"], 0.01)
 
     def test_simulate_writes_a_series_that_a_reader_understands(self):
-        result = run("simulate", RIG, *COARSE, "--out", self.out, "--vtk", "0.25")
+        result = run("simulate", APPARATUS, *COARSE, "--out", self.out, "--vtk", "0.25")
         self.assertEqual(result.returncode, 0, result.stderr)
         frames = xml.parse(self.out / "grains.pvd").getroot().findall("./Collection/DataSet")
         times = [float(frame.get("timestep")) for frame in frames]
@@ -104,7 +104,7 @@ class CommandLine(Desk):
             self.assertEqual(clock, sorted(clock))
         outcome = json.loads((self.out / "outcome.json").read_text())
         self.assertAlmostEqual(times[-1], outcome["run"]["simulated_s"], delta=1e-6)
-        self.fails(run("simulate", RIG, *COARSE, "--out", self.out), 2, "earlier result")
+        self.fails(run("simulate", APPARATUS, *COARSE, "--out", self.out), 2, "earlier result")
 
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
@@ -313,7 +313,7 @@ class CommandLine(Desk):
         self.assertIn(quiet.returncode, (0, 1))
         for verb in (["infer", study, "--from", self.out], ["show", self.out / "card.json"],
                      ["rescale", self.out / "card.json", "--radius", "13", "--packings", "0"],
-                     ["simulate", RIG, *COARSE], ["check", "--quick", CARD], ["verify", "free-fall"],
+                     ["simulate", APPARATUS, *COARSE], ["check", "--quick", CARD], ["verify", "free-fall"],
                      ["compare-optimisers", study, "--out", self.folder / "compared", "--strategies", "default",
                       "--judge-packings", "1"]):
             with self.subTest(verb[0]):

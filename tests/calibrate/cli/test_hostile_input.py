@@ -17,7 +17,7 @@ import time
 import unittest
 import xml.etree.ElementTree as xml
 
-from desk import CARD, coarse_card, LAB, PROGRAM, RIG, SOURCE, STUDY, Desk, run
+from desk import CARD, coarse_card, LAB, PROGRAM, APPARATUS, SOURCE, STUDY, Desk, run
 
 # A line break, commands of the decks, quotation marks, an encoding of Python, and controls of a terminal.
 TITLE = ('paste\nshell touch pwned\r\nprint("""x""")\n"""\nimport os; os.mkdir("pwned")\n# coding: utf-7\n'
@@ -152,8 +152,8 @@ class HostileInput(Desk):
     def test_options_take_no_more_and_no_less_than_a_number_in_its_range(self):
         calibrate, export = ["calibrate", STUDY, "--out", self.out], ["export", CARD, "--to", "csv", "--out", self.out]
         for verb, option in ((calibrate, "--wall-budget"), (calibrate, "--core-budget"), (calibrate, "--seed"),
-                             (calibrate, "--budget"), (["simulate", RIG], "--seed"), (["simulate", RIG], "--time-step"),
-                             (["simulate", RIG, "--out", self.out], "--vtk"), (["check", CARD], "--false-alarm"),
+                             (calibrate, "--budget"), (["simulate", APPARATUS], "--seed"), (["simulate", APPARATUS], "--time-step"),
+                             (["simulate", APPARATUS, "--out", self.out], "--vtk"), (["check", CARD], "--false-alarm"),
                              (["rescale", CARD], "--radius"), (export, "--packing")):
             for value in ("nan", "-nan", "inf", "-1", "1e999", "0x10", "7x", "9" * 300):
                 with self.subTest(f"{verb[0]} {option} {value[:9]}"):
@@ -181,7 +181,7 @@ class HostileInput(Desk):
 
     def test_faults_speak_in_the_unit_and_the_quantity_of_the_key(self):
         def mould(**size):
-            return self.changed(RIG, "rig.json", lambda rig: rig["apparatus"]["mould"].update(size))
+            return self.changed(APPARATUS, "apparatus.json", lambda apparatus: apparatus["apparatus"]["mould"].update(size))
         self.fails(run("simulate", mould(base_diameter_mm=5000)), 2,
                    "apparatus.mould.base_diameter_mm: is 5000 mm; give a number from 2 to 4000 mm",
                    "apparatus.table_length_mm: is 900 mm; give a number from 5000 to 10000 mm")
@@ -198,11 +198,11 @@ class HostileInput(Desk):
     # where an apparatus comes from
 
     def test_a_preset_beside_the_laboratory_file_is_named(self):
-        (self.folder / "rigs").mkdir()
-        rig = json.loads(RIG.read_text())
-        rig["grains"] = {"distribution": "mono", "radius_mm": 14}
-        own = self.folder / "rigs" / "abrams.json"
-        own.write_text(json.dumps(rig))
+        (self.folder / "apparatus").mkdir()
+        apparatus = json.loads(APPARATUS.read_text())
+        apparatus["grains"] = {"distribution": "mono", "radius_mm": 14}
+        own = self.folder / "apparatus" / "abrams.json"
+        own.write_text(json.dumps(apparatus))
         (self.folder / "mine").mkdir()
 
         def lab_of(document):
@@ -215,7 +215,7 @@ class HostileInput(Desk):
         study.write_text(study.read_text().replace("lab.json", "mine/lab.json"))
         self.assertIn(told, self.calibrates(study).stderr)
         self.assertIn(told, json.loads((self.out / "card.json").read_text())["tests"][0]["lab"]["notes"])
-        shutil.rmtree(self.folder / "rigs")
+        shutil.rmtree(self.folder / "apparatus")
         self.assertNotIn("preset", run("simulate", lab, "--set", "grains.radius_mm=14").stderr)
 
     # signals
@@ -235,7 +235,7 @@ class HostileInput(Desk):
 
     def test_a_stiff_simulation_gives_a_sign_of_life_and_ends_with_a_word(self):
         start = time.monotonic()
-        status, _, errors = self.signalled(["simulate", RIG, "--set", "parameters.youngs_modulus_pa=100000000000"],
+        status, _, errors = self.signalled(["simulate", APPARATUS, "--set", "parameters.youngs_modulus_pa=100000000000"],
                                            signal.SIGINT, lambda: time.monotonic() - start > 4)
         self.assertEqual(status, 1, errors)
         self.assertRegex(errors, r"fill\.pour \(\d+( \w+)? to \d+ \w+ left\), \S+ s simulated, step \d+, \d+ s gone")
@@ -354,7 +354,7 @@ class HostileInput(Desk):
     def test_a_full_or_closed_standard_output_is_an_error(self):
         verbs = (["--help"], ["--version"], ["template", "lab"], ["show", CARD], ["verify", "free-fall"],
                  ["rescale", CARD, "--radius", "9", "--packings", "0"],
-                 ["simulate", RIG, "--time-step", "0.01", "--json"],
+                 ["simulate", APPARATUS, "--time-step", "0.01", "--json"],
                  ["export", CARD, "--to", "csv", "--out", self.out, "--force"])
         for verb in verbs:
             with self.subTest(verb[0]):

@@ -11,7 +11,7 @@ import sys
 import time
 import unittest
 
-from desk import CARD, LAB, PROGRAM, RIG, Desk, coarse_card, run
+from desk import CARD, LAB, PROGRAM, APPARATUS, Desk, coarse_card, run
 
 
 class Progress(Desk):
@@ -56,9 +56,9 @@ class Limits(Desk):
     def test_more_than_a_day_is_refused_with_the_estimate_unless_it_is_forced(self):
         start = time.monotonic()
         tiny = ["--set", "grains.radius_mm=0.6", "--time-step", "1e-6"]
-        said = self.fails_with_estimate(run("simulate", RIG, *tiny, "--out", self.out))
+        said = self.fails_with_estimate(run("simulate", APPARATUS, *tiny, "--out", self.out))
         self.assertIn("grains", said)
-        self.fails_with_estimate(run("simulate", RIG, "--set", "grains.radius_mm=1", "--time-step", "1e-8"))
+        self.fails_with_estimate(run("simulate", APPARATUS, "--set", "grains.radius_mm=1", "--time-step", "1e-8"))
         lab = json.loads(LAB.read_text())
         study = self.study(budget=1_000_000)
         lab["grains"] = {"distribution": "mono", "radius_mm": 3}
@@ -68,7 +68,7 @@ class Limits(Desk):
         self.assertLess(time.monotonic() - start, 60)
         self.assertEqual(sorted(os.listdir(self.folder)), ["lab.json", "study.json"])
         # What is asked for goes on, and is stopped here.
-        command = [PROGRAM, "simulate", str(RIG), "--set", "grains.radius_mm=1", "--time-step", "1e-8", "--force"]
+        command = [PROGRAM, "simulate", str(APPARATUS), "--set", "grains.radius_mm=1", "--time-step", "1e-8", "--force"]
         with self.assertRaises(subprocess.TimeoutExpired):
             subprocess.run(command, capture_output=True, timeout=5)
 
@@ -78,7 +78,7 @@ class Limits(Desk):
         return result.stderr
 
     def test_pictures_beyond_the_room_of_the_disk_are_refused_with_the_estimate(self):
-        result = run("simulate", RIG, "--set", "grains.radius_mm=4", "--time-step", "1e-7", "--vtk", "1e-9", "--out",
+        result = run("simulate", APPARATUS, "--set", "grains.radius_mm=4", "--time-step", "1e-7", "--vtk", "1e-9", "--out",
                      self.out)
         self.fails(result, 2, "--vtk", "pictures take", "GB free", "--force")
         self.assertFalse(self.out.exists())
@@ -86,7 +86,7 @@ class Limits(Desk):
     def test_a_target_that_cannot_be_written_is_noticed_before_anything_is_simulated(self):
         self.out.write_text("a file")
         nowhere = self.folder / "nowhere" / "file"
-        for verb in (["simulate", RIG, "--out", self.out], ["simulate", RIG, "--checkpoint", nowhere],
+        for verb in (["simulate", APPARATUS, "--out", self.out], ["simulate", APPARATUS, "--checkpoint", nowhere],
                      ["calibrate", self.study(), "--out", self.out / "x"],
                      ["compare-optimisers", self.study(), "--out", self.out / "x"],
                      ["rescale", CARD, "--radius", 4, "--out", nowhere], ["check", CARD, "--junit", nowhere],

@@ -73,7 +73,7 @@ class ShippedFiles(Desk):
             answer = json.loads(self.answers("simulate", scene, "--json", "--time-step", "0.01", "--out", out, "--vtk", "0.05",
                                              *coarser(scene), statuses=(0, 1)))
             self.assertEqual(answer, json.loads((out / "outcome.json").read_text()))
-        self.each(shipped("lab") + shipped("rigs"), look)
+        self.each(shipped("lab") + shipped("apparatus"), look)
 
     def test_starting_files(self):
         help_text = " ".join(run("template", "--help").stdout.split())  # as lines are broken

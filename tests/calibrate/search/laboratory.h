@@ -8,7 +8,7 @@
 
 #include "calibrate/search/evaluator.h"
 #include "calibrate/study/parameters.h"
-#include "core/rigs/slump/packing.h"
+#include "core/apparatus/slump/packing.h"
 #include "tests/calibrate/folder.h"
 #include "tests/calibrate/slump.h"
 

@@ -11,7 +11,7 @@ import sys
 
 import jsonschema
 
-FOLDERS = {"rig": "rigs", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
+FOLDERS = {"apparatus": "apparatus", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
 
 
 def validator(data, kind):
@@ -34,7 +34,7 @@ def spoiled(document, path, value=None):
 
 
 SPOILED = {
-    "rig": [
+    "apparatus": [
         (["apparatus", "mould", "height_mm"], "200"),
         (["apparatus", "mould", "height_mm"], None),
         (["apparatus", "mould", "height_m"], 0.2),

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "calibrate/card/card.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/rig.h"
 #include "calibrate/study/study.h"
 #include "calibrate/verify/case.h"
 #include "tests/calibrate/files.h"
@@ -62,13 +62,13 @@ std::string taken_by(const fs::path& folder, Read read, std::size_t& tried) {
 TEST_CASE("every number of a file has a range, and what lies far beyond it is refused wherever it stands") {
   const Folder desk;
   fs::create_directory_symlink(kData / "lab", desk.path() / "lab");
-  fs::create_directory_symlink(kData / "rigs", desk.path() / "rigs");
+  fs::create_directory_symlink(kData / "apparatus", desk.path() / "apparatus");
   fs::create_directory(desk.path() / "studies");
   std::size_t tried = 0;
   const auto lab = [&](const json& document) { return lab_from_json(document, kData / "lab").ok(); };
   CHECK(taken_by(kData / "lab", lab, tried) == "");
   CHECK(taken_by(
-            kData / "rigs", [](const json& document) { return rig_from_json(document).ok(); }, tried) == "");
+            kData / "apparatus", [](const json& document) { return apparatus_from_json(document).ok(); }, tried) == "");
   const auto study = [&](const json& document) {
     return read_study(desk.write("studies/study.json", document.dump())).ok();
   };

@@ -4,10 +4,10 @@
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/rig.h"
-#include "core/rigs/slump/slump_readings.h"
-#include "core/rigs/slump/slump_test.h"
+#include "core/apparatus/slump/slump_readings.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "tests/calibrate/files.h"
 
 namespace pastefit {
@@ -70,23 +70,23 @@ TEST_CASE("a laboratory file with an apparatus of its own is read into SI") {
   CHECK(read.value().measurements[0].repeats == 1);
 }
 
-TEST_CASE("every shipped rig is read, and gives the observables of its steps") {
-  int rigs = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/rigs")) {
+TEST_CASE("every shipped apparatus is read, and gives the observables of its steps") {
+  int read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/apparatus")) {
     if (entry.path().extension() != ".json") continue;
-    const Result<Rig> rig = read_rig(entry.path());
-    INFO((rig.ok() ? "" : message_of(rig.faults())));
-    CHECK(rig.ok());
-    ++rigs;
+    const Result<Apparatus> apparatus = read_apparatus_file(entry.path());
+    INFO((apparatus.ok() ? "" : message_of(apparatus.faults())));
+    CHECK(apparatus.ok());
+    ++read;
   }
-  CHECK(rigs >= 5);
+  CHECK(read >= 5);
 }
 
 TEST_CASE("the EN 12350-5 preset holds the volume and the plate of that standard") {
-  const Result<Rig> rig = read_rig(PASTEFIT_SOURCE_DIR "/data/rigs/en12350-5.json");
-  REQUIRE(rig.ok());
-  CHECK(1000 * volume_m3(std::get<SlumpTest>(rig.value().test).mould) == Approx(4.341).epsilon(1e-3));
-  CHECK(std::get<SlumpTest>(rig.value().test).drop.value().mass_kg == 16);
+  const Result<Apparatus> apparatus = read_apparatus_file(PASTEFIT_SOURCE_DIR "/data/apparatus/en12350-5.json");
+  REQUIRE(apparatus.ok());
+  CHECK(1000 * volume_m3(std::get<SlumpTest>(apparatus.value().test).mould) == Approx(4.341).epsilon(1e-3));
+  CHECK(std::get<SlumpTest>(apparatus.value().test).drop.value().mass_kg == 16);
 }
 
 TEST_CASE("own keys differ from the preset, the rest is the preset's") {
@@ -105,11 +105,11 @@ TEST_CASE("own keys differ from the preset, the rest is the preset's") {
 
 TEST_CASE("the preset beside the laboratory file goes before the installed one") {
   const test::Folder folder;
-  std::filesystem::create_directory(folder.path() / "rigs");
+  std::filesystem::create_directory(folder.path() / "apparatus");
   std::filesystem::create_directory(folder.path() / "lab");
-  json rig = json::parse(std::ifstream(PASTEFIT_SOURCE_DIR "/data/rigs/en12350-5.json"));
-  rig["apparatus"]["mould"]["height_mm"] = 199;
-  folder.write("rigs/en12350-5.json", rig.dump());
+  json apparatus = json::parse(std::ifstream(PASTEFIT_SOURCE_DIR "/data/apparatus/en12350-5.json"));
+  apparatus["apparatus"]["mould"]["height_mm"] = 199;
+  folder.write("apparatus/en12350-5.json", apparatus.dump());
   json document = lab();
   document["apparatus"] = {{"preset", "en12350-5"}};
   CHECK(std::get<SlumpTest>(lab_from_json(document, folder.path() / "lab").value().test).mould.height_m == 0.199);
@@ -126,9 +126,9 @@ TEST_CASE("an unknown preset is answered with the nearest one") {
 
 TEST_CASE("the faults of a broken preset are named with its file") {
   const test::Folder folder;
-  std::filesystem::create_directory(folder.path() / "rigs");
+  std::filesystem::create_directory(folder.path() / "apparatus");
   std::filesystem::create_directory(folder.path() / "lab");
-  folder.write("rigs/mine.json", R"({"format": "pastefit-rig-1", "title": 3})");
+  folder.write("apparatus/mine.json", R"({"format": "pastefit-rig-1", "title": 3})");
   json document = lab();
   document["apparatus"] = {{"preset", "mine"}};
   const Result<Lab> read = lab_from_json(document, folder.path() / "lab");

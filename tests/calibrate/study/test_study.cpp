@@ -9,8 +9,8 @@
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
+#include "core/apparatus/slump/slump_readings.h"
 #include "core/laws/constants.h"
-#include "core/rigs/slump/slump_readings.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/desk.h"
 
@@ -422,7 +422,7 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
   CHECK(contact.at("properties").at("bridge").at("properties").at("shape").at("enum") == words(bridge_shapes));
   const json kinds_in_labs = schema("lab.schema.json").at("properties").at("test").at("enum");
   CHECK(kinds_in_labs == json(kinds_of_tests()));
-  CHECK(schema("rig.schema.json").at("properties").at("test").at("enum") == kinds_in_labs);
+  CHECK(schema("apparatus.schema.json").at("properties").at("test").at("enum") == kinds_in_labs);
   const json card = schema("card.schema.json").at("definitions").at("test").at("oneOf");
   json kinds_in_cards = json::array();
   for (const json& kind : card) kinds_in_cards.push_back(kind.at("properties").at("kind").at("const"));

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "core/rigs/pellet_crush/pellet_crush.h"
-#include "core/rigs/shear_cell/shear_cell.h"
-#include "core/rigs/slump/slump_test.h"
-#include "tests/core/rigs/soft_granules.h"
+#include "core/apparatus/pellet_crush/pellet_crush.h"
+#include "core/apparatus/shear_cell/shear_cell.h"
+#include "core/apparatus/slump/slump_test.h"
+#include "tests/core/apparatus/soft_granules.h"
 
 namespace pastefit {
 namespace {

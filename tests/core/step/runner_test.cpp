@@ -57,7 +57,7 @@ TEST_CASE("a phase that waits for rest moves walls at the same time", "[runner]"
   CHECK(lowest_point(world) == Approx(rise - sunk).margin(one_step + still));
 }
 
-TEST_CASE("what counts as rest is the rig's word", "[runner]") {
+TEST_CASE("what counts as rest is the apparatus's word", "[runner]") {
   RunOptions options;
   World world = grain_above_floor();
   Runner of_height(world, options, height_of_grain);
@@ -65,7 +65,7 @@ TEST_CASE("what counts as rest is the rig's word", "[runner]") {
   CHECK(of_height.summary().settled);
   CHECK(world.time < 1);
 
-  // A rig that sees something in the same grain that never stays where it is.
+  // An apparatus that sees something in the same grain that never stays where it is.
   World same = grain_above_floor();
   double creep = 0;
   Runner of_creep(same, options, [&](const Particles&) { return std::vector{creep += 0.05 * kGrainRadius}; });

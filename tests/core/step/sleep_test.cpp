@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "core/random.h"
-#include "core/rigs/slump/packing.h"
-#include "core/rigs/slump/slump_test.h"
 #include "core/step/stepper.h"
 
 using namespace pastefit;

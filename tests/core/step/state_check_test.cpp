@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/apparatus/slump/slump_test.h"
 #include "core/random.h"
-#include "core/rigs/slump/slump_test.h"
 #include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
 

@@ -1,0 +1,54 @@
+#include "core/apparatus/pellet_crush/pellet_crush.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/apparatus/field_checker.h"
+#include "core/apparatus/granules.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kGranulesAcross = 6;  // a pellet of fewer says nothing about a continuum
+constexpr double kMostStrain = 0.8;
+
+}  // namespace
+
+double area_m2(const PelletCrush& test) {
+  return 0.25 * std::numbers::pi * test.die_diameter_m * test.die_diameter_m;
+}
+
+double filled_volume_m3(const PelletCrush& test) {
+  return area_m2(test) * test.fill_height_m;
+}
+
+Faults validate(const PelletCrush& test) {
+  FieldChecker check;
+  check_specimen(check, test);
+  check.range("die_diameter_m", test.die_diameter_m, 1e-4, 1, "m");
+  check.range("fill_height_m", test.fill_height_m, 1e-4, 1, "m");
+  check.range("pressed_height_m", test.pressed_height_m, 1e-4, 1, "m");
+  check.range("pour_speed_m_s", test.pour_speed_m_s, 1e-3, 10, "m/s");
+  check.range("punch_speed_m_s", test.punch_speed_m_s, 1e-7, 10, "m/s");
+  check.range("press_speedup", test.press_speedup, 1, 1e6, "");
+  check.range("platen_speed_m_s", test.platen_speed_m_s, 1e-4, 10, "m/s");
+  check.range("final_strain", test.final_strain, 0.01, kMostStrain, "");
+  check.require(test.pressed_height_m <= test.fill_height_m, "pressed_height_m",
+                "is above the fill height: the punch would press nothing", "give pressed height <= fill height");
+  const double largest = largest_radius(test.grains);
+  const double narrow = std::min(test.die_diameter_m, test.pressed_height_m);
+  check.require(narrow >= 2 * kGranulesAcross * largest, "grains.radius_m",
+                "is " + FieldChecker::in_mm(largest) + " (largest), but the pellet is only " +
+                    FieldChecker::in_mm(narrow) + " across: one of a few granules says nothing about a continuum",
+                "take granules of at most " + FieldChecker::in_mm(narrow / (2 * kGranulesAcross)) + " radius");
+  check_speed(check, test, "press_speedup", "the punch", test.press_speedup * test.punch_speed_m_s,
+              "give a slower punch or a smaller press_speedup");
+  check_speed(check, test, "platen_speed_m_s", "the platen", test.platen_speed_m_s, "give a slower platen");
+  check_wall(check, test.tools, "tools");
+  return check.take();
+}
+
+}  // namespace pastefit

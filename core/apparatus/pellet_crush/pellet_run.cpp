@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <vector>
+
+#include "core/apparatus/pellet_crush/die.h"
+#include "core/apparatus/pellet_crush/pellet_crush.h"
+#include "core/observe/heap.h"
+#include "core/step/runner.h"
+#include "core/step/state_check.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr int kStepsPerLook = 64;           // at what has fallen off, and at what the punch has left behind
+constexpr double kPelletRestCap = 1;        // [s] simulated time granules are allowed for coming to rest
+constexpr double kBeyond = 1.25;            // of the die's radius: what lies farther out has fallen off
+constexpr double kMostFallen = 0.25;        // of the mass; beyond it there is no pellet any more
+constexpr double kStrainInterval = 0.0025;  // over which the force on the platen is averaged, as a load cell does
+
+/// Place of a wall: the floor is before it, the die behind, until it is taken away. The punch becomes the platen.
+constexpr std::size_t kPunch = 1;
+
+/// Pressing and crushing, phase by phase, each as a person in the laboratory would say it.
+class Pressing {
+ public:
+  Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
+      : test_(test), options_(options), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
+    runner_.follow(filled.fall);
+    runner_.remember([this] { return summed_ >= 0 && is_finite(curve_); }, sum_, summed_, curve_);
+  }
+
+  std::optional<Failure> run() {
+    if (auto problem = press()) return problem;
+    if (auto problem = withdraw_punch()) return problem;
+    if (auto problem = take_away_die()) return problem;
+    return crush();
+  }
+
+  const RunSummary& summary() { return runner_.summary(); }
+  double pellet_height_m() const { return pellet_height_; }
+  const std::vector<CurvePoint>& stress_over_strain() const { return curve_; }
+
+ private:
+  static World filled_world(const PelletCrush& test, const FilledVessel& filled) {
+    World world;
+    world.particles = make_particles(filled.grains.centres, filled.grains.radii, test.bulk_density_kg_m3);
+    set_contact_model(world, test.contact, test.grains.radius_m);
+    const double top = std::max(highest_point(world.particles), test.fill_height_m);
+    const double radius = 0.5 * test.die_diameter_m;
+    Wall floor, punch, die;
+    floor.name = "floor";
+    floor.shape = Plane{};
+    punch.name = "punch";
+    punch.shape = Plane{{0, 0, top}, {0, 0, -1}};
+    die.name = "die";
+    die.shape = Shell{{}, radius, radius, top + 2 * test.grains.radius_m};
+    world.walls = {floor, punch, die};
+    for (Wall& wall : world.walls) wall.pair = wall_pair(test.contact, test.tools, test.grains.radius_m);
+    return world;
+  }
+
+  Wall& punch() { return world_.walls[kPunch]; }
+  double height_of_punch() const { return std::get<Plane>(world_.walls[kPunch].shape).point.z; }
+
+  std::optional<Failure> press() {
+    const double speed = test_.press_speedup * test_.punch_speed_m_s;
+    punch().velocity = {0, 0, -speed};
+    const PhaseLeft rest{0, options_.fixed_wait_s.value_or(kPelletRestCap)};
+    if (auto problem =
+            runner_.run({.name = "press", .after = rest}, (height_of_punch() - test_.pressed_height_m) / speed))
+      return problem;
+    punch().velocity = {};
+    return runner_.settle({"press"}, kPelletRestCap);
+  }
+
+  /// Until nothing follows it any more.
+  std::optional<Failure> withdraw_punch() {
+    const double speed = test_.press_speedup * test_.punch_speed_m_s;
+    punch().velocity = {0, 0, speed};
+    const auto is_clear = [&] { return height_of_punch() > highest_point(world_.particles) + test_.grains.radius_m; };
+    const auto done = [&](const World& world) { return world.step % kStepsPerLook == 0 && is_clear(); };
+    const PhaseLeft rest{0, options_.fixed_wait_s.value_or(kPelletRestCap)};
+    if (auto problem = runner_.run({"withdraw", {}, done, rest}, 2 * test_.fill_height_m / speed)) return problem;
+    if (!is_clear())
+      return apart("withdraw", highest_point(world_.particles), height_of_punch(),
+                   "granules stick to the punch and leave the die with it; give the tools a smaller cohesion_factor");
+    punch().velocity = {};
+    return runner_.settle({"withdraw"}, kPelletRestCap);
+  }
+
+  std::optional<Failure> take_away_die() {
+    runner_.take_away_last_wall();
+    const auto fallen = [this](const World& world) { return world.step % kStepsPerLook == 0 && fell_apart(); };
+    if (auto problem = runner_.settle({"release", {}, fallen}, kPelletRestCap)) return problem;
+    pellet_height_ = highest_point(world_.particles);
+    if (!fell_apart()) return {};
+    return apart("release", fallen_share(), kMostFallen,
+                 "the pellet does not stand without its die; give more surface energy, or press it more");
+  }
+
+  Failure apart(const char* phase, double value, double limit, const char* message) const {
+    return {FailureReason::fell_apart, phase, world_.step, world_.time, -1, value, limit, message};
+  }
+
+  std::optional<Failure> crush() {
+    Wall& platen = punch();
+    platen.name = "platen";
+    std::get<Plane>(platen.shape).point.z = pellet_height_;
+    platen.velocity = {0, 0, -test_.platen_speed_m_s};
+    runner_.changed();
+    const auto weigh = [this](const World&) {
+      note_force();
+      return false;
+    };
+    return runner_.run({"crush", {}, weigh}, test_.final_strain * pellet_height_ / test_.platen_speed_m_s);
+  }
+
+  /// The mean force of every interval of strain.
+  void note_force() {
+    const Wall& platen = world_.walls[kPunch];
+    sum_ += platen.force.z;
+    ++summed_;
+    const double strain = 1 - height_of_punch() / pellet_height_;
+    if (strain < kStrainInterval * static_cast<double>(curve_.size() + 1)) return;
+    curve_.push_back({strain - 0.5 * kStrainInterval, sum_ / summed_ / area_m2(test_)});
+    sum_ = summed_ = 0;
+  }
+
+  double fallen_share() const {
+    const double bound = kBeyond * 0.5 * test_.die_diameter_m;
+    double fallen = 0, all = 0;
+    for (std::int32_t i = 0; i < world_.particles.count(); ++i) {
+      const Vec3& p = world_.particles.motion[i].position;
+      const double mass = world_.particles.mass(i);
+      all += mass;
+      if (p.x * p.x + p.y * p.y > bound * bound) fallen += mass;
+    }
+    return fallen / all;
+  }
+  bool fell_apart() const { return fallen_share() > kMostFallen; }
+
+  const PelletCrush& test_;
+  const RunOptions& options_;
+  World world_;
+  Runner runner_;
+  double pellet_height_ = 0;  ///< without the die, at rest [m]
+  double sum_ = 0, summed_ = 0;
+  std::vector<CurvePoint> curve_;
+};
+
+}  // namespace
+
+Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
+  Outcome outcome;
+  const FilledVessel filled = fill_die(test, asked);
+  outcome.run = filled.run;
+  outcome.failure = filled.failure;
+  if (outcome.failure) return outcome;
+  outcome.observables.set("die.mass_g", 1e3 * test.bulk_density_kg_m3 * filled.grains.solid_volume_m3);
+  outcome.observables.set("die.solid_fraction", filled.grains.solid_volume_m3 / filled_volume_m3(test));
+
+  const RunOptions options = with_bounds_of(test, asked);
+  Pressing pressing(test, filled, options);
+  outcome.failure = pressing.run();
+  outcome.run = pressing.summary();
+  outcome.run.steps += filled.run.steps;
+  outcome.run.particle_steps += filled.run.particle_steps;
+  if (asked.fixed_wait_s) outcome.run.settled = false;  // nobody looked
+  const std::vector<CurvePoint>& curve = pressing.stress_over_strain();
+  if (outcome.failure || curve.empty()) return outcome;
+
+  const auto peak = std::ranges::max_element(curve, {}, &CurvePoint::y);
+  outcome.observables.set("pellet.height_mm", 1e3 * pressing.pellet_height_m());
+  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak->y);
+  outcome.observables.set("pellet.strain_at_peak", peak->x);
+  outcome.curve = Curve{"stress_strain", "strain", "stress_pa", curve};
+  return outcome;
+}
+
+}  // namespace pastefit

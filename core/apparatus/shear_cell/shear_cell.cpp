@@ -1,0 +1,104 @@
+#include "core/apparatus/shear_cell/shear_cell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/apparatus/field_checker.h"
+#include "core/apparatus/granules.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kGranulesAcross = 5;      // of the cell, and between the tips of its ribs
+constexpr double kFastestInertial = 0.01;  // inertial number beyond which stress is known to rise with the speed
+
+void check_ribs(FieldChecker& check, const ShearCell& test, const RibSizes& ribs, const std::string& name) {
+  const auto at = [&](const char* field) { return name + "." + field; };
+  const double height = test.fill_height_m, length = test.length_m, granule = 2 * largest_radius(test.grains);
+  check.range(at("height_m").c_str(), ribs.height_m, 0, height, "m");
+  check.range(at("thickness_m").c_str(), ribs.thickness_m, 1e-6, length, "m");
+  check.range(at("pitch_m").c_str(), ribs.pitch_m, 1e-6, length, "m");
+  if (!(ribs.pitch_m > 0 && length >= ribs.pitch_m)) return;
+  const double gap = even_pitch_m(ribs, length) - ribs.thickness_m;
+  check.require(
+      ribs.height_m == 0 || gap >= granule, at("pitch_m").c_str(),
+      "leaves " + FieldChecker::in_mm(gap) + " between two ribs, less than a granule of " +
+          FieldChecker::in_mm(granule) + " (largest)",
+      "set the ribs farther apart, or take granules of at most " + FieldChecker::in_mm(0.5 * gap) + " radius");
+}
+
+void check_across(FieldChecker& check, const ShearCell& test) {
+  const double largest = largest_radius(test.grains);
+  const double between = test.fill_height_m - test.lid_ribs.height_m - test.base_ribs.height_m;
+  check.require(between > 0, "fill_height_m",
+                "is " + FieldChecker::in_mm(test.fill_height_m) + ": the ribs of lid and base would meet",
+                "fill the cell higher, or give lower ribs");
+  const double narrow = std::min({test.length_m, test.width_m, between});
+  if (!(between > 0)) return;
+  check.require(narrow >= 2 * kGranulesAcross * largest, "grains.radius_m",
+                "is " + FieldChecker::in_mm(largest) + " (largest), but the bed is only " +
+                    FieldChecker::in_mm(narrow) + " across, between its ribs: one of a few granules says nothing " +
+                    "about a continuum",
+                "take granules of at most " + FieldChecker::in_mm(narrow / (2 * kGranulesAcross)) + " radius");
+}
+
+void check_shearing(FieldChecker& check, const ShearCell& test) {
+  const double speed = test.shear_speedup * test.shear_speed_m_s;
+  check_speed(check, test, "shear_speedup", "the base", speed, "give a slower base or a smaller shear_speedup");
+  check_speed(check, test, "lid_speed_m_s", "the lid", test.lid_speed_m_s, "give a slower lid");
+  const double number = inertial_number(test);
+  check.require(!(number > kFastestInertial), "shear_speedup",
+                "shears at an inertial number of " + FieldChecker::text(number) + ": the stress rises with the speed",
+                "give at most " + FieldChecker::text(test.shear_speedup * kFastestInertial / number));
+}
+
+}  // namespace
+
+double area_m2(const ShearCell& test) {
+  return test.length_m * test.width_m;
+}
+
+double filled_volume_m3(const ShearCell& test) {
+  return area_m2(test) * test.fill_height_m;
+}
+
+double even_pitch_m(const RibSizes& ribs, double length) {
+  return length / std::max(1.0, std::round(length / ribs.pitch_m));
+}
+
+double inertial_number(const ShearCell& test) {
+  const double rate = test.shear_speedup * test.shear_speed_m_s / test.fill_height_m;
+  return rate * 2 * test.grains.radius_m * std::sqrt(test.bulk_density_kg_m3 / test.normal_stress_pa);
+}
+
+double poured_grains(const ShearCell& test) {
+  return number_of_granules(test, poured_volume_m3(filled_volume_m3(test)));
+}
+
+Faults validate(const ShearCell& test) {
+  FieldChecker check;
+  check_specimen(check, test);
+  check.range("length_m", test.length_m, 1e-4, 1, "m");
+  check.range("width_m", test.width_m, 1e-4, 1, "m");
+  check.range("fill_height_m", test.fill_height_m, 1e-4, 1, "m");
+  check.range("pour_speed_m_s", test.pour_speed_m_s, 1e-3, 10, "m/s");
+  check.require(!(test.normal_stress_pa <= 0), "normal_stress_pa",
+                "is " + FieldChecker::text(test.normal_stress_pa) + " Pa: the lid would be drawn off the bed",
+                "give the pressure of the lid, above 0");
+  if (!(test.normal_stress_pa <= 0)) check.range("normal_stress_pa", test.normal_stress_pa, 1, 1e7, "Pa");
+  check.range("lid_speed_m_s", test.lid_speed_m_s, 1e-4, 10, "m/s");
+  check.range("shear_speed_m_s", test.shear_speed_m_s, 1e-8, 1, "m/s");
+  check.range("shear_speedup", test.shear_speedup, 1, 1e6, "");
+  check.range("final_displacement_m", test.final_displacement_m, 1e-5, 10, "m");
+  check_ribs(check, test, test.lid_ribs, "lid_ribs");
+  check_ribs(check, test, test.base_ribs, "base_ribs");
+  check_across(check, test);
+  if (test.normal_stress_pa > 0 && test.fill_height_m > 0 && test.grains.radius_m > 0 && test.bulk_density_kg_m3 > 0)
+    check_shearing(check, test);
+  check_wall(check, test.tools, "tools");
+  return check.take();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,222 @@
+#include "core/apparatus/slump/packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/apparatus/pour.h"
+#include "core/laws/constants.h"
+#include "core/observe/heap.h"
+#include "core/step/runner.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
+constexpr double kSolidFraction = 0.62;
+constexpr double kLidSpeed = 0.2;    // [m/s]
+constexpr double kFillCap = 4.0;     // [s]
+constexpr double kScoopSpeed = 1.0;  // [m/s]
+constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
+constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
+
+// Frictions and steps of resting overlap that packings are poured at; candidates between them share one.
+constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
+constexpr double kRestingOverlapStep = 0.005;
+// [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
+// hard that the column rises by 1 % when it is taken off.
+constexpr double kScrape = 0.7;
+
+/// Solid volume that is poured.
+double poured_volume(const Mould& mould) {
+  return kOverfill * kSolidFraction * volume_m3(mould);
+}
+
+/// Inner radius at height z of the mould with a straight hopper on top of it.
+double inner_radius(const Mould& mould, double z) {
+  const double share = std::min(z / mould.height_m, 1.0);
+  return mould.base_radius_m + share * (mould.top_radius_m - mould.base_radius_m);
+}
+
+/// Loose grains in mould and hopper, until enough is poured.
+void pour_into(const SlumpTest& test, Packing& packing) {
+  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), wider_radius_m(test.mould),
+                            [&](double z) { return inner_radius(test.mould, z); });
+  packing.centres = std::move(poured.centres);
+  packing.radii = std::move(poured.radii);
+  packing.solid_volume_m3 = poured.solid_volume_m3;
+}
+
+/// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
+ContactModel filling_model(const SlumpTest& test, const RunOptions& options) {
+  if (options.own_fill) return test.contact;
+  ContactModel model;
+  model.youngs_modulus_pa = filling_of(test).youngs_modulus_pa;
+  model.poissons_ratio = 0.3;
+  model.restitution = 0.2;
+  model.friction = filling_of(test).friction;
+  model.rolling = RollingModel::none;
+  return model;
+}
+
+Wall make_wall(std::string name, Shape shape, const SlumpTest& test, const RunOptions& options) {
+  // Smooth, so that no wall holds the fill up: it would sink when the wall is the test's own.
+  const WallContact shared{1e9, 0.3, 0.2, 0, 0, 0};
+  const WallContact& own = name == "floor" ? test.table_wall : test.mould_wall;
+  Wall wall;
+  wall.name = std::move(name);
+  wall.shape = shape;
+  wall.pair = wall_pair(filling_model(test, options), options.own_fill ? own : shared, test.grains.radius_m);
+  return wall;
+}
+
+void take_grains(const World& world, Packing& packing) {
+  const std::int32_t n = world.particles.count();
+  packing.centres.assign(n, {});
+  packing.radii.assign(n, 0);
+  packing.solid_volume_m3 = 0;
+  // In spatial order, so that every run starts sorted.
+  for (std::int32_t i = 0; i < n; ++i) {
+    packing.centres[i] = world.particles.motion[i].position;
+    packing.radii[i] = world.particles.motion[i].radius;
+    packing.solid_volume_m3 += sphere_volume_m3(packing.radii[i]);
+  }
+}
+
+/// Mould, floor and a hopper of the mould's upper width that reaches to `top`.
+World filling_world(const SlumpTest& test, const RunOptions& options, const Packing& packing, double top) {
+  const Mould& mould = test.mould;
+  World world;
+  world.particles = make_particles(packing.centres, packing.radii, test.bulk_density_kg_m3 / kSolidFraction);
+  set_contact_model(world, filling_model(test, options), test.grains.radius_m);
+  const double hopper = std::max(top - mould.height_m, 0.0) + 2 * test.grains.radius_m;
+  world.walls = {make_wall("floor", Plane{}, test, options),
+                 make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test, options),
+                 make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper},
+                           test, options)};
+  return world;
+}
+
+double highest(const Packing& packing) {
+  double top = 0;
+  for (std::size_t i = 0; i < packing.centres.size(); ++i) top = std::max(top, packing.centres[i].z + packing.radii[i]);
+  return top;
+}
+
+void take_work(Packing& packing, const RunSummary& run) {
+  packing.run.particles = run.particles;
+  packing.run.settled = run.settled;
+  packing.run.steps += run.steps;
+  packing.run.particle_steps += run.particle_steps;
+  packing.run.simulated_s += run.simulated_s;
+}
+
+/// Speed at which grains sink while they are poured: as a scoop lets them down, but no faster than presses a grain that
+/// hits a plane of its own kind in by `kGentle` of its radius (Hertz; the same for all sizes).
+double pouring_speed(const World& world) {
+  const double modulus = 0.5 * world.grain_pair.normal_stiffness;
+  const double harmless =
+      std::sqrt(std::pow(kGentle, 2.5) * 0.8 / std::numbers::pi * modulus / world.particles.density_kg_m3);
+  return std::min(kScoopSpeed, harmless);
+}
+
+/// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
+/// 0.59: a weak paste then stands 20 mm lower.
+void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
+  const double top = highest(packing);
+  World world = filling_world(test, options, packing, top);
+  const double speed = pouring_speed(world);
+  world.drag = kGravity / speed;
+  Runner runner(world, options, posture_of_heap);
+  packing.failure = runner.settle({"fill.pour"}, kFillCap, top / speed);
+  take_work(packing, runner.summary());
+  take_grains(world, packing);
+}
+
+/// What stands out above the rim is scraped away; a lid presses the rest level with the rim and stays until it rests.
+void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packing) {
+  const double rim = test.mould.height_m;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < packing.centres.size(); ++i) {
+    if (packing.centres[i].z > rim - kScrape * packing.radii[i]) continue;
+    packing.centres[kept] = packing.centres[i];
+    packing.radii[kept++] = packing.radii[i];
+  }
+  packing.centres.resize(kept);
+  packing.radii.resize(kept);
+
+  const double top = std::max(highest(packing), rim);
+  World world = filling_world(test, options, packing, top);
+  world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
+  Runner runner(world, options, posture_of_heap);
+  world.walls.back().velocity = {0, 0, -kLidSpeed};
+  packing.failure = runner.run({"fill.strike"}, (top - rim) / kLidSpeed);
+  if (!packing.failure) {
+    world.walls.back().velocity = {};
+    std::get<Plane>(world.walls.back().shape).point.z = rim;
+    packing.failure = runner.settle({"fill.rest"}, kFillCap);
+  }
+  take_work(packing, runner.summary());
+  take_grains(world, packing);
+}
+
+}  // namespace
+
+double poured_grains(const SlumpTest& test) {
+  constexpr int kDraws = 1000;
+  double volume = 0;
+  for (int n = 0; n < kDraws; ++n)
+    volume += sphere_volume_m3(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
+  return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).resting_overlap, 3);
+}
+
+double grain_density(const SlumpTest& test, const Packing& packing) {
+  return test.bulk_density_kg_m3 * volume_m3(test.mould) / packing.solid_volume_m3;
+}
+
+Filling filling_of(const SlumpTest& test) {
+  Filling filling;
+  for (const double friction : kFrictions)
+    if (friction <= test.contact.friction) filling.friction = friction;
+  // Exact: the last bits of exp2 differ between processors.
+  const int half_octaves = static_cast<int>(std::lround(2 * std::log2(test.contact.youngs_modulus_pa)));
+  const int octaves = half_octaves >= 0 ? half_octaves / 2 : (half_octaves - 1) / 2;
+  filling.youngs_modulus_pa = std::ldexp(half_octaves == 2 * octaves ? 1.0 : std::numbers::sqrt2, octaves);
+  filling.resting_overlap =
+      kRestingOverlapStep * std::round(resting_overlap(test.contact, test.grains.radius_m) / kRestingOverlapStep);
+  return filling;
+}
+
+std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& asked) {
+  RunOptions options = asked;
+  // A fixed step, sleep and the energy balance are meant for the test; the packing is always the same.
+  options.steps.fixed_step_s.reset();
+  options.steps.sleep = options.steps.energy_balance = false;
+  const double swelling = options.own_fill ? 1 : 1 + filling_of(test).resting_overlap;
+  SlumpTest poured = test;
+  poured.grains = enlarged(test.grains, 1 / swelling);
+  auto packing = std::make_shared<Packing>();
+  pour_into(poured, *packing);
+  let_fall(poured, options, *packing);
+  if (!packing->failure) strike_off(poured, options, *packing);
+  const double fraction = packing->solid_volume_m3 / volume_m3(test.mould);
+  if (!packing->failure && fraction < kEmptiest)
+    packing->failure = Failure{FailureReason::packing_failed,
+                               "fill.rest",
+                               packing->run.steps,
+                               packing->run.simulated_s,
+                               -1,
+                               fraction,
+                               kEmptiest,
+                               "the grains bridge in the mould and leave it partly empty; take smaller grains"};
+  const Fit fit = fit_of(test.mould, make_particles(packing->centres, packing->radii, 1), poured.grains.radius_m);
+  packing->roughness_m = fit.roughness_m;
+  packing->gap_m = fit.gap_m;
+  for (double& r : packing->radii) r *= swelling;
+  packing->solid_volume_m3 *= swelling * swelling * swelling;
+  return packing;
+}
+
+}  // namespace pastefit

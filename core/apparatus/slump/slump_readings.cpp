@@ -1,0 +1,110 @@
+#include "core/apparatus/slump/slump_readings.h"
+
+#include <algorithm>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double room = 0.02;  // for the tolerances of an apparatus
+
+constexpr std::string_view highest_is_above = "the highest point of a heap is not below its height";
+constexpr std::string_view not_raised = "a drop does not raise a heap";
+constexpr std::string_view not_drawn = "a drop does not draw a heap together";
+constexpr std::string_view published =
+    "published for the slump: 21 mm as the 95 % limit between two results (ASTM C143-98), so about 7.5";
+constexpr std::string_view published_spread =
+    "published for slump flows of 480 to 680 mm: 27 mm of one operator (ASTM C1611)";
+// Both are of an Abrams cone; taken in proportion for other moulds.
+constexpr double published_mould_mm = 300, published_height_mm = 7.5, published_spread_mm = 27;
+constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2",
+                        "leave it out, or describe the plate in apparatus.drop_plate"};
+
+}  // namespace
+
+std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
+  const double mould_mm = 1e3 * test.mould.height_m, base_mm = 2e3 * test.mould.base_radius_m;
+  const double table_mm = 1e3 * test.table_length_m;
+  const double full_kg = test.bulk_density_kg_m3 * volume_m3(test.mould);
+  const double size = mould_mm / published_mould_mm;
+  const double of_height = published_height_mm * size, of_spread = published_spread_mm * size;
+  const ReadingRange mass{0.5 * full_kg, 1.5 * full_kg}, share{0, 1};
+  const ReadingRange height{0, (1 + room) * mould_mm}, slump{-room * mould_mm, mould_mm};
+  const ReadingRange spread{(1 - room) * base_mm, std::max(table_mm, base_mm)}, on_the_table{0, table_mm};
+  const ReadingRange sag{-mould_mm, mould_mm};
+  // clang-format off
+  std::vector<ReadingKind> kinds{
+    ReadingKind{.name = "fill.mass_kg", .key = "fill.mass_kg", .measure = "fill.mass_kg", .stage = kFill,
+                .possible = mass, .advised = true, .checked = true},
+    ReadingKind{.name = "fill.solid_fraction", .key = "", .measure = "", .stage = kFill,
+                .possible = share, .checked = true},
+    ReadingKind{.name = "step1.spilled_share", .key = "", .measure = "", .stage = kStep1,
+                .possible = share},
+    ReadingKind{.name = "step1.height_mm", .key = "step1.height_mm", .measure = "step1.height_mm", .stage = kStep1,
+                .possible = height, .worst_miss = mould_mm, .ceilings = {{{"step1.height_max_mm", highest_is_above}}},
+                .advised = true, .ends_early = true, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step1.slump_mm", .key = "step1.slump_mm", .measure = "step1.height_mm", .stage = kStep1,
+                .possible = slump, .worst_miss = mould_mm, .less_than = mould_mm, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step1.height_axis_mm", .key = "step1.height_axis_mm", .measure = "step1.height_axis_mm",
+                .stage = kStep1, .possible = height, .worst_miss = mould_mm,
+                .ceilings = {{{"step1.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step1.height_max_mm", .key = "step1.height_max_mm", .measure = "step1.height_max_mm",
+                .stage = kStep1, .possible = height, .worst_miss = mould_mm, .advised = true, .checked = true,
+                .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step1.lateral_shift_mm", .key = "step1.lateral_shift_mm", .measure = "step1.lateral_shift_mm",
+                .stage = kStep1, .possible = on_the_table, .worst_miss = mould_mm},
+    ReadingKind{.name = "step1.spread_mm", .key = "step1.spread_mm", .measure = "step1.spread_mm", .stage = kStep1,
+                .possible = spread, .worst_miss = mould_mm, .ceilings = {{{"step2.spread_mm", not_drawn}}},
+                .advised = true, .checked = true,
+                .repeatability = published_spread, .published_deviation = of_spread},
+    ReadingKind{.name = "step1.spread_orthogonal_mm", .key = "step1.spread_orthogonal_mm",
+                .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = spread, .worst_miss = mould_mm,
+                .repeatability = published_spread, .published_deviation = of_spread},
+    ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
+                .possible = on_the_table, .worst_miss = mould_mm, .from_outline = true},
+    ReadingKind{.name = "step2.spilled_share", .key = "", .measure = "", .stage = kStep2,
+                .possible = share},
+    ReadingKind{.name = "step2.height_mm", .key = "step2.height_mm", .measure = "step2.height_mm", .stage = kStep2,
+                .possible = height, .worst_miss = mould_mm,
+                .ceilings = {{{"step2.height_max_mm", highest_is_above}, {"step1.height_mm", not_raised}}},
+                .advised = true, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step2.slump_mm", .key = "step2.slump_mm", .measure = "step2.height_mm", .stage = kStep2,
+                .possible = slump, .worst_miss = mould_mm, .less_than = mould_mm, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step2.height_axis_mm", .key = "step2.height_axis_mm", .measure = "step2.height_axis_mm",
+                .stage = kStep2, .possible = height, .worst_miss = mould_mm,
+                .ceilings = {{{"step2.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step2.height_max_mm", .key = "step2.height_max_mm", .measure = "step2.height_max_mm",
+                .stage = kStep2, .possible = height, .worst_miss = mould_mm,
+                .ceilings = {{{"step1.height_max_mm", not_raised}}}, .advised = true, .checked = true,
+                .repeatability = published, .published_deviation = of_height},
+    ReadingKind{.name = "step2.lateral_shift_mm", .key = "", .measure = "", .stage = kStep2,
+                .possible = on_the_table, .worst_miss = mould_mm},
+    ReadingKind{.name = "step2.spread_mm", .key = "step2.spread_mm", .measure = "step2.spread_mm", .stage = kStep2,
+                .possible = spread, .worst_miss = mould_mm, .advised = true, .checked = true,
+                .repeatability = published_spread, .published_deviation = of_spread},
+    ReadingKind{.name = "step2.spread_orthogonal_mm", .key = "step2.spread_orthogonal_mm",
+                .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = spread, .worst_miss = mould_mm,
+                .repeatability = published_spread, .published_deviation = of_spread},
+    ReadingKind{.name = "step2.profile_mm", .key = "step2.profile", .measure = "step2.profile_mm", .stage = kStep2,
+                .possible = on_the_table, .worst_miss = mould_mm, .from_outline = true},
+    ReadingKind{.name = "step2.plateau_sag_mm", .key = "step2.plateau_sag_mm", .measure = "step2.plateau_sag_mm",
+                .stage = kStep2, .possible = sag, .worst_miss = mould_mm, .advised = true, .checked = true},
+    ReadingKind{.name = "step2.plateau_width_mm", .key = "step2.plateau_width_mm", .measure = "step2.plateau_width_mm",
+                .stage = kStep2, .possible = on_the_table, .worst_miss = mould_mm, .advised = true, .checked = true},};
+  // clang-format on
+  if (!test.drop)
+    for (ReadingKind& kind : kinds)
+      if (kind.stage == kStep2) kind.lack = no_plate;
+  return kinds;
+}
+
+std::vector<std::string> observable_names(const SlumpTest& test) {
+  std::vector<std::string> names;
+  for (const ReadingKind& kind : reading_kinds(test)) {
+    const auto& outline = kind.stage == kStep1 ? test.reading.outline_step1 : test.reading.outline_step2;
+    if (!kind.lack && !(kind.from_outline && outline.empty())) names.emplace_back(kind.name);
+  }
+  return names;
+}
+
+}  // namespace pastefit

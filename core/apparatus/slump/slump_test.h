@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/apparatus/specimen.h"
+#include "core/observe/outline.h"
+#include "core/result.h"
+#include "core/step/run.h"
+
+namespace pastefit {
+
+/// An open frustum that stands on the table, either end down: a cone upside down has the wider one on top.
+struct Mould {
+  double base_radius_m = 0.100;
+  double top_radius_m = 0.065;
+  double height_m = 0.200;
+};
+
+/// Of its two ends.
+double wider_radius_m(const Mould& mould);
+double narrower_radius_m(const Mould& mould);
+
+/// Inner volume of the mould [m^3]: pi h (r_b^2 + r_b r_t + r_t^2)/3.
+double volume_m3(const Mould& mould);
+
+/// The hinged plate of the flow table on which the mould stands, centred under it.
+/// The plate is square; its hinge is the edge at x = -length/2, its free edge the one at x = +length/2.
+struct DropPlate {
+  double length_m = 0.700;
+  double mass_kg = 16.0;
+  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop
+  double lift_duration_s = 0.5;  ///< time the plate takes to turn up to the stop
+};
+
+/// Which point of the heap the laboratory calls its height.
+enum class HeightReading {
+  axis,    ///< mean over the probe disc where the middle of the struck-off top has gone (ASTM C143: displaced centre)
+  highest  ///< the highest point of the body (EN 12350-2)
+};
+
+/// How heights are read from the heap.
+struct Reading {
+  HeightReading height = HeightReading::axis;
+  double probe_diameter_m = 0.040;
+  double sag_window_m = 0.100;  ///< of the top about the axis, over which its sag after step 2 is read
+  /// Outlines of the heap as seen from the side, along the hinge, by a person with a ruler; x from the middle of the
+  /// table towards the free edge. Empty: not measured.
+  std::vector<OutlinePoint> outline_step1, outline_step2;
+};
+
+/// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
+/// apparatus. The density of a grain follows from the packing.
+/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): turn the plate up, let it fall once.
+struct SlumpTest : Specimen {
+  Mould mould;
+  double lift_velocity_m_s = 0.1;
+  double table_length_m = 0.700;  ///< side of the square table (and of the plate)
+  std::optional<DropPlate> drop;
+  Reading reading;
+
+  WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
+  WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
+};
+
+/// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
+/// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.
+Faults validate(const SlumpTest& test);
+
+/// Runs the slump test. Same test, options and program: same bits.
+/// Requirement: `validate(test)` is empty; a cutoff is of `step1.height_mm`. Never throws for bad physics: see
+/// `Outcome::failure`.
+Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
+
+/// The names of all readings the test will have, in order (with or without step 2).
+std::vector<std::string> observable_names(const SlumpTest& test);
+
+}  // namespace pastefit

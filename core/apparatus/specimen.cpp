@@ -1,0 +1,138 @@
+#include "core/apparatus/specimen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/apparatus/field_checker.h"
+#include "core/laws/constants.h"
+#include "core/laws/table.h"
+#include "core/random.h"
+
+namespace pastefit {
+
+namespace {
+
+void check_bridge(FieldChecker& check, const Bridge& bridge, double radius) {
+  if (bridge.shape == BridgeShape::none) return;
+  check.range("contact.bridge.offset_m", bridge.offset_m, 0, 2 * radius, "m");
+  if (bridge.shape == BridgeShape::capillary) {
+    check.range("contact.bridge.liquid_volume_m3", bridge.liquid_volume_m3, 1e-10 * std::pow(radius, 3),
+                std::pow(radius, 3), "m^3");
+    check.range("contact.bridge.surface_tension_n_m", bridge.surface_tension_n_m, 0, 1e7, "N/m");
+    check.range("contact.bridge.contact_angle_rad", bridge.contact_angle_rad, 0, 0.5 * std::numbers::pi, "rad");
+    return;
+  }
+  check.range("contact.bridge.c_n", bridge.c_n, 0, 1e9, "N");
+  check.range("contact.bridge.d_c_m", bridge.d_c_m, -2 * radius, -1e-6 * radius, "m");
+  if (bridge.shape != BridgeShape::polynomial) return;
+  // Rounding in converting coordinates to a, b, c must not count as a fault.
+  const double slack = 1e-9 * bridge.c_n;
+  const double gap = bridge.d_c_m;
+  const double at_rupture = (bridge.a_n_m2 * gap + bridge.b_n_m) * gap + bridge.c_n;
+  check.require(bridge.b_n_m * -gap >= -slack, "contact.bridge.b_n_m",
+                "is " + FieldChecker::text(bridge.b_n_m) + " N/m: the attraction would grow with distance",
+                "give b >= 0");
+  check.require((bridge.b_n_m + 2 * bridge.a_n_m2 * gap) * -gap >= -slack, "contact.bridge.a_n_m2",
+                "is " + FieldChecker::text(bridge.a_n_m2) + " N/m^2: the attraction would grow again before rupture",
+                "give a with b + 2 a d_c >= 0, at most " + FieldChecker::text(-bridge.b_n_m / (2 * gap)) + " N/m^2");
+  check.require(at_rupture >= -slack, "contact.bridge",
+                "the force at rupture is " + FieldChecker::text(at_rupture) + " N, a repulsion",
+                "choose a, b, c, d_c with a d_c^2 + b d_c + c >= 0");
+}
+
+/// Of a normal distribution.
+double share_between_bounds(const GrainSizes& sizes) {
+  const auto below = [&](double radius) {
+    return 0.5 * std::erfc((sizes.radius_m - radius) / (sizes.standard_deviation_m * std::numbers::sqrt2));
+  };
+  return below(sizes.largest_m) - below(sizes.smallest_m);
+}
+
+}  // namespace
+
+double largest_radius(const GrainSizes& sizes) {
+  return sizes.distribution == SizeDistribution::mono ? sizes.radius_m : sizes.largest_m;
+}
+
+double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n) {
+  switch (sizes.distribution) {
+    case SizeDistribution::mono:
+      return sizes.radius_m;
+    case SizeDistribution::uniform:
+      return RandomStream(seed, "grain-radius").uniform(n, sizes.smallest_m, sizes.largest_m);
+    case SizeDistribution::normal: {
+      const RandomStream draws(seed, "grain-radius");
+      constexpr std::uint64_t kTries = 1000;
+      for (std::uint64_t t = 0; t < kTries; ++t) {
+        const double r = sizes.radius_m + sizes.standard_deviation_m * draws.normal(kTries * n + t);
+        if (r >= sizes.smallest_m && r <= sizes.largest_m) return r;
+      }
+      return std::clamp(sizes.radius_m, sizes.smallest_m, sizes.largest_m);
+    }
+  }
+  return sizes.radius_m;
+}
+
+void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name) {
+  const auto at = [&](const char* field) { return name + "." + field; };
+  check.range(at("youngs_modulus_pa").c_str(), wall.youngs_modulus_pa, 1e4, 1e13, "Pa");
+  check.range(at("poissons_ratio").c_str(), wall.poissons_ratio, 0, 0.49, "");
+  check.range(at("restitution").c_str(), wall.restitution, 0.001, 1, "");
+  check.range(at("friction").c_str(), wall.friction, 0, 10, "");
+  check.range(at("rolling_friction").c_str(), wall.rolling_friction, 0, 10, "");
+  check.range(at("cohesion_factor").c_str(), wall.cohesion_factor, 0, 10, "");
+}
+
+void check_specimen(FieldChecker& check, const Specimen& specimen) {
+  const GrainSizes& sizes = specimen.grains;
+  const double radius = sizes.radius_m;
+  check.range("grains.radius_m", radius, 1e-5, 1, "m");
+  if (sizes.distribution != SizeDistribution::mono) {
+    check.require(sizes.smallest_m > 0 && sizes.smallest_m <= radius && radius <= sizes.largest_m, "grains",
+                  "smallest, mean and largest radius are not in order", "give 0 < smallest <= radius <= largest");
+    check.require(sizes.largest_m <= 20 * sizes.smallest_m, "grains",
+                  "the largest grain is more than 20 times the smallest", "narrow the distribution");
+  }
+  if (sizes.distribution == SizeDistribution::normal) {
+    check.range("grains.standard_deviation_m", sizes.standard_deviation_m, 1e-6 * radius, radius, "m");
+    constexpr double kFewest = 0.01;
+    const double left = share_between_bounds(sizes);
+    check.require(!(left < kFewest), "grains.standard_deviation_m",
+                  "leaves " + FieldChecker::text(100 * left) + " % of the grains between smallest and largest",
+                  "widen the bounds, narrow the distribution, or give \"mono\" or \"uniform\"");
+  }
+  check.range("bulk_density_kg_m3", specimen.bulk_density_kg_m3, 100, 20000, "kg/m^3");
+
+  const ContactModel& contact = specimen.contact;
+  check.range("contact.youngs_modulus_pa", contact.youngs_modulus_pa, 1e4, 1e12, "Pa");
+  check.range("contact.poissons_ratio", contact.poissons_ratio, 0, 0.49, "");
+  check.range("contact.restitution", contact.restitution, 0.001, 1, "");
+  check.range("contact.friction", contact.friction, 0, 10, "");
+  check.range("contact.rolling_friction", contact.rolling_friction, 0, 10, "");
+  check.range("contact.surface_energy_j_m2", contact.surface_energy_j_m2, 0, 1e6, "J/m^2");
+  check.range("contact.cohesion_energy_density_pa", contact.cohesion_energy_density_pa, 0, 1e12, "J/m^3");
+  check.require(go_together(contact.normal, contact.bridge.shape), "contact.bridge.shape",
+                "is a bridge beside a law of the overlap that has none",
+                "give \"none\", or \"normal\": \"hertz\" or \"jkr\"");
+  if (contact.cohesion_n) check.range("contact.cohesion_n", *contact.cohesion_n, 0, 1e9, "N");
+  check_bridge(check, contact.bridge, radius);
+  if (contact.youngs_modulus_pa > 0 && contact.poissons_ratio < 1 && radius > 0) {
+    // Beyond it neighbours of neighbours meet, and contact laws of touching spheres mean nothing.
+    constexpr double kMostSqueezed = 0.1;
+    constexpr double kStiffestPa = 1e11;  // that a study may give
+    const double squeezed = resting_overlap(contact, radius);
+    const double needed_pa = contact.youngs_modulus_pa * std::pow(squeezed / kMostSqueezed, 1.5);
+    const bool in_reach = needed_pa <= kStiffestPa;
+    check.require(!(squeezed > kMostSqueezed), "contact.youngs_modulus_pa",
+                  "is " + FieldChecker::text(contact.youngs_modulus_pa) +
+                      " Pa: attraction presses the grains into each other by " + FieldChecker::text(100 * squeezed) +
+                      " % of their diameter",
+                  (in_reach ? "give at least " + FieldChecker::text(needed_pa) + " Pa, or less strength"
+                            : "give less strength, which no stiffness up to " + FieldChecker::text(kStiffestPa) +
+                                  " Pa would carry") +
+                      ": 10 % is the most that is carried");
+  }
+}
+
+}  // namespace pastefit

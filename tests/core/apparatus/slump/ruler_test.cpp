@@ -1,0 +1,23 @@
+#include "core/apparatus/slump/ruler.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace pastefit;
+
+TEST_CASE("a table covered to its corners is read as long as it is, one not covered as wide as its heap") {
+  SlumpTest test;
+  test.table_length_m = 0.4;
+  // A square of side a is 4 a/pi wide in the mean over all directions: more than the table that it covers.
+  const auto spread_mm = [&](double half) {
+    std::vector<Vec3> centres;
+    for (double x = -half; x <= half + 1e-9; x += 0.01)
+      for (double y = -half; y <= half + 1e-9; y += 0.01) centres.push_back({x, y, 0.005});
+    const Particles grains = make_particles(centres, std::vector<double>(centres.size(), 0.005), 2000);
+    Observables readings;
+    Ruler(test, 0, grains).read(grains, "step1", readings);
+    return *readings.find("step1.spread_mm");
+  };
+  CHECK(spread_mm(0.195) == Approx(400));
+  CHECK(spread_mm(0.1) == Approx(1e3 * (8 * 0.1 / std::numbers::pi + 0.01)).epsilon(0.002));
+}
