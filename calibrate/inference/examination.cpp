@@ -32,20 +32,22 @@ std::optional<Inference> examine(const Study& study, Objective& objective, const
   const auto training_data = [&] { return training_data_of(study, record_of(study, store, history)); };
   if (training_data().points.empty()) return std::nullopt;
   int left = simulations;
-  const auto simulate = [&](const std::vector<UnitPoint>& points, std::uint64_t round) {
+  const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
+  const auto simulate = [&](std::vector<UnitPoint> points, std::uint64_t round) {
+    points.resize(std::min(points.size(), static_cast<std::size_t>(affordable())));
     const std::uint64_t packing = seed * 1000 + first_packing + round;
     for (Response& response : objective.evaluate(points, {&packing, 1})) history.push_back(std::move(response));
     left -= static_cast<int>(points.size());
   };
-  const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
+  const UnitPoint& recommended = calibration.best.point;
   if (const int count = std::min(simulations / 2, affordable()); count > 0)
-    simulate(candidates_to_examine(training_data(), calibration.best.point, count, options), 0);
-  Inference inference = infer(training_data(), calibration.best.point, options);
-  if (const auto predicted = predicted_members(inference);
-      !predicted.empty() && affordable() >= std::ssize(predicted)) {
-    simulate(predicted, 1);
-    options.predicted = false;
-    inference = infer(training_data(), calibration.best.point, options);
+    simulate(candidates_to_examine(training_data(), recommended, count, options), 0);
+  Inference inference = infer(training_data(), recommended, options);
+  for (std::uint64_t round = 1; affordable() > 0; ++round) {
+    const std::vector<UnitPoint> predicted = predicted_members(inference);
+    if (predicted.empty()) break;
+    simulate(predicted, round);
+    inference = infer(training_data(), recommended, options);
   }
   inference.recommended_because =
       reason_for(calibration.status == CalibrationStatus::confirmed, calibration.confirmation.packings.size());

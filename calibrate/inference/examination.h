@@ -12,11 +12,10 @@ namespace pastefit {
 std::string reason_for(bool confirmed, std::size_t packings);
 
 /// Asks what a finished search leaves open: simulates other materials that may meet the laboratory as well, spread as
-/// far apart as can be, each on one fresh packing; then those that were to be shown as equivalent and that only a
-/// prediction speaks for. Then infers: what is shown was simulated, and fits by what is known then.
-/// Central differences at the best candidate would cost as much and tell the slopes there only; these runs tell them
-/// along the whole family, and whether its members hold.
-/// Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
+/// far apart as can be, each on one fresh packing; then, as long as there are simulations left, those that would be
+/// shown as equivalent and that only a prediction speaks for. Then infers. Central differences at the best candidate
+/// would cost as much and tell the slopes there only; these runs tell them along the whole family, and whether its
+/// members hold. Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
 /// Requirements: the calibration's best candidate did not fail; `objective` stores in `store`.
 /// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation in
 /// the store has run to its end.

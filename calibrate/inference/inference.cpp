@@ -192,10 +192,10 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
 }
 
 /// The recommended candidate, then simulated ones of which every fitted reading is within the laboratory's deviation,
-/// or as near as the recommended one's, then, where they may stand in it, ones of which that is predicted.
+/// or as near as the recommended one's, then ones of which that is predicted.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                           const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
-                                          const InferenceOptions& options) {
+                                          int count) {
   const TrainingData& evidence = model.training_data();
   const auto error = [&](std::size_t k, const UnitPoint& point) {
     const ReadingEvidence& reading = evidence.readings[k];
@@ -212,10 +212,10 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
     std::ranges::copy_if(candidates, std::back_inserter(chosen), fits);
     return chosen;
   };
-  const auto size = static_cast<std::size_t>(options.family);
+  const auto size = static_cast<std::size_t>(count);
   std::vector<UnitPoint> points{recommended};
   spread_out(points, fitting(evidence.points), size, neighbourhood);
-  if (options.predicted) spread_out(points, fitting(better_half(model, sample)), size);
+  spread_out(points, fitting(better_half(model, sample)), size);
   std::vector<EquivalentMaterial> family;
   for (const UnitPoint& point : points) {
     EquivalentMaterial member;
@@ -385,7 +385,7 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
     out.correlation.push_back(std::move(row));
   }
 
-  out.family = family_of(model, fitted, sample, recommended, options);
+  out.family = family_of(model, fitted, sample, recommended, options.family);
 
   for (std::size_t k = 0; k < evidence.readings.size(); ++k)
     if (measurable(evidence.readings[k].name) && met(model, k, recommended))

@@ -81,10 +81,9 @@ struct Inference {
 };
 
 struct InferenceOptions {
-  int sample = 3000;      ///< candidates drawn in proportion to their likelihood
-  int family = 5;         ///< equivalent materials shown, the recommended one included
-  bool predicted = true;  ///< equivalent materials may be ones that were not simulated
-  int repeats = 5;        ///< further measurements a gain is predicted for
+  int sample = 3000;  ///< candidates drawn in proportion to their likelihood
+  int family = 5;     ///< equivalent materials shown, the recommended one included
+  int repeats = 5;    ///< further measurements a gain is predicted for
   std::uint64_t seed = 1;
 };
 

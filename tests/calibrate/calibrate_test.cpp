@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
@@ -55,22 +54,24 @@ TEST_CASE("one call makes a card, and the same card again from its store without
   CHECK(to_json(*second.card) == to_json(*first.card));
 }
 
-TEST_CASE("a material that is shown as equivalent was simulated, where the budget allows it") {
-  const auto members = [](int examination_simulations) {
+TEST_CASE("an examination goes on until its simulations are spent, or all that is shown as equivalent was simulated") {
+  const auto calibrated = [](int examination_simulations) {
     const Folder folder;
     Study study = coarse_study();
     study.search.budget_simulations = 40;
     study.search.examination_simulations = examination_simulations;
     Store store = store_in(folder, study);
-    const CalibrationResult result = calibrate(study, store).value();
-    std::vector<bool> simulated;
-    for (const EquivalentMaterial& one : result.inference.value().family) simulated.push_back(one.simulated);
-    return simulated;
+    return calibrate(study, store).value();
   };
-  const std::vector<bool> examined = members(12), not_examined = members(0);
-  CHECK(examined.size() > 1);
-  CHECK(std::ranges::count(examined, false) == 0);
-  CHECK(std::ranges::count(not_examined, false) > 0);
+  const int search_alone = calibrated(0).counts.simulated;
+  for (const int simulations : {3, 12}) {
+    const CalibrationResult result = calibrated(simulations);
+    const auto predicted = std::ranges::count(result.inference.value().family, false, &EquivalentMaterial::simulated);
+    const int spent = result.counts.simulated - search_alone;
+    CAPTURE(simulations, spent, predicted);
+    CHECK(spent <= simulations);
+    CHECK((spent == simulations || predicted == 0));
+  }
 }
 
 TEST_CASE("a study that cannot be calibrated is told so before anything is simulated") {
