@@ -163,7 +163,7 @@ SearchOptions eighty_simulations(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a laboratory that few candidates meet while most fail is not called out of reach") {
+TEST_CASE("a laboratory that few candidates meet while most fail is not called out of reach", "[campaign]") {
   const auto made = GENERATE(seldom_at_rest, soft_alone);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Synthetic objective = made(seed);
@@ -187,7 +187,8 @@ TEST_CASE("what is out of reach is called so after a third of the budget, whethe
   CHECK(early == 10);
 }
 
-TEST_CASE("a claim that a later simulation contradicts is withdrawn, and the search goes on to the material") {
+TEST_CASE("a claim that a later simulation contradicts is withdrawn, and the search goes on to the material",
+          "[campaign]") {
   int withdrawn = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Synthetic objective = first_packing_stands(seed);
