@@ -31,7 +31,7 @@ constexpr std::string_view slump_lab =
   // Or {"distribution": "normal", "radius_mm": 8, "standard_deviation_mm": 1, "smallest_mm": 6, "largest_mm": 10}.
   "grains": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10},
 
-  // Did heaps shear off? A reading is one of a heap that stood; say how many did not:
+  // Readings are of heaps that stood. If some sheared off, say how many of all that were made:
   // "repeats": {"made": 4, "sheared": 1},
 
   // Either value and standard deviation of one reading, or all repeats.

@@ -24,7 +24,7 @@ TRUTH = {  # scale-free, so the same material at every grain size
     "friction": 0.15,
     "rolling_friction": 0.1,
 }
-GRAINS = {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10}  # as in the fit: what the size does is another question
+GRAINS = {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10}  # as in the fit
 BULK_DENSITY_KG_M3 = 2100
 SEEDS = range(9001, 9009)  # packings of a fit are numbered from its own search seed, far below
 RULER_DEVIATION_MM = {  # what a ruler on a rough surface adds to one reading
@@ -44,8 +44,8 @@ def lab(measurements):
             "source": "simulated with pastefit by make_two_step_twin.py",
             "licence": "Apache-2.0",
             "notes": "A twin. Truth: " + ", ".join(f"{k} {v}" for k, v in TRUTH.items())
-            + f"; grains of {GRAINS['smallest_mm']} to {GRAINS['largest_mm']} mm radius, packings {SEEDS[0]} to {SEEDS[-1]}, one a repeat; a ruler's "
-            "normal noise was added (heights and sag 1 mm, spread 5 mm).",
+            + f"; grains of {GRAINS['smallest_mm']} to {GRAINS['largest_mm']} mm radius, packings {SEEDS[0]} to {SEEDS[-1]}, "
+            "one a repeat; a ruler's normal noise was added (heights and sag 1 mm, spread 5 mm).",
             "twin": True,
         },
         "apparatus": {"preset": "en12350-5"},
