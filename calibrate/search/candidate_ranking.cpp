@@ -1,6 +1,7 @@
 #include "calibrate/search/candidate_ranking.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/binomial.hpp>
 #include <limits>
 
@@ -46,19 +47,26 @@ CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<c
 
 /// The integral of the chance from 0 to 1 tolerance, where it begins with none (trapezoidal rule).
 double CandidateRanking::expected_margin(const Surrogate& model, const UnitPoint& point) const {
-  constexpr int steps = 4;
-  double sum = chance_of(model, point, 1) / 2;
-  for (int k = 1; k < steps; ++k) sum += chance_of(model, point, static_cast<double>(k) / steps);
-  return sum / steps;
+  constexpr std::array tolerances{0.25, 0.5, 0.75, 1.0};
+  const std::vector<double> chances = chances_of(model, point, tolerances);
+  double sum = chances.back() / 2;
+  for (std::size_t k = 0; k + 1 < chances.size(); ++k) sum += chances[k];
+  return sum / static_cast<double>(chances.size());
 }
 
-double CandidateRanking::chance_of(const Surrogate& model, const UnitPoint& point, double tolerances) const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(history_.residuals(), far_from_prior);
-  for (int k = 0; k < history_.readings(); ++k)
-    bounds[k] = tolerances * history_.allowance(static_cast<std::size_t>(k));
-  if (history_.scoring().rejected_share() >= 1) return model.within(bounds, point);
+std::vector<double> CandidateRanking::chances_of(const Surrogate& model, const UnitPoint& point,
+                                                 std::span<const double> tolerances) const {
+  std::vector<Eigen::VectorXd> bounds;
+  for (const double share : tolerances) {
+    bounds.emplace_back(Eigen::VectorXd::Constant(history_.residuals(), far_from_prior));
+    bounds.back().head(history_.readings()) = share * history_.allowances().head(history_.readings());
+  }
+  std::vector<double> chances = model.within(bounds, point);
+  if (history_.scoring().rejected_share() >= 1) return chances;
   const boost::math::binomial_distribution<> rejected(confirmed_heaps, std::clamp(model.rejecting(point), 0.0, 1.0));
-  return model.within(bounds, point) * boost::math::cdf(rejected, confirmed_rejected);
+  const double accepted = boost::math::cdf(rejected, confirmed_rejected);
+  for (double& chance : chances) chance *= accepted;
+  return chances;
 }
 
 }  // namespace pastefit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "calibrate/search/evaluation_history.h"
 #include "calibrate/search/surrogate.h"
@@ -32,7 +33,9 @@ class CandidateRanking {
   /// Probability that every fitted reading of a candidate is within so many tolerances, noise of the packings apart,
   /// that a confirmation would hold by the heaps that a laboratory rejects,
   /// and every parameter of which something is known beforehand within two standard deviations of it.
-  double chance_of(const UnitPoint& point, double tolerances) const { return chance_of(surrogate_, point, tolerances); }
+  double chance_of(const UnitPoint& point, double tolerances) const {
+    return chances_of(surrogate_, point, {&tolerances, 1}).front();
+  }
 
   /// Expected margin of a candidate: the mean of max(0, 1 - w), where its worst fitted reading is off by w tolerances;
   /// nothing where the heaps or what is known beforehand speak against it (`chance_of`). The misfit prefers a candidate
@@ -42,7 +45,8 @@ class CandidateRanking {
   double expected_margin(const Surrogate& model, const UnitPoint& point) const;
 
  private:
-  double chance_of(const Surrogate& model, const UnitPoint& point, double tolerances) const;
+  std::vector<double> chances_of(const Surrogate& model, const UnitPoint& point,
+                                 std::span<const double> tolerances) const;
 
   const EvaluationHistory& history_;
   Surrogate surrogate_;

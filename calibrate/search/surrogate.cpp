@@ -152,16 +152,20 @@ double Surrogate::failing(const UnitPoint& point) const {
   return failures_ ? std::clamp(failures_->predict(point).mean, 0.0, 1.0) : 0;
 }
 
-double Surrogate::within(const Eigen::VectorXd& bounds, const UnitPoint& point) const {
-  double probability = 1 - failing(point);
+std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, const UnitPoint& point) const {
+  std::vector<double> probabilities(bounds.size(), 1 - failing(point));
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const double bound = bounds[static_cast<Eigen::Index>(k)];
-    if (!models_[k] || bound == 0) continue;
+    const auto bound_of = [&](const Eigen::VectorXd& some) { return some[static_cast<Eigen::Index>(k)]; };
+    if (!models_[k] || std::ranges::all_of(bounds, [&](const auto& some) { return bound_of(some) == 0; })) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
     const double scale = std::sqrt(2 * std::max(residual.variance, std::numeric_limits<double>::min()));
-    probability *= 0.5 * (std::erf((bound - residual.mean) / scale) + std::erf((bound + residual.mean) / scale));
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const double bound = bound_of(bounds[i]);
+      if (bound == 0) continue;
+      probabilities[i] *= 0.5 * (std::erf((bound - residual.mean) / scale) + std::erf((bound + residual.mean) / scale));
+    }
   }
-  return probability;
+  return probabilities;
 }
 
 double Surrogate::MisfitPosterior::improvement(double bound) const {

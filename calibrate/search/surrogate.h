@@ -48,9 +48,9 @@ class Surrogate {
   /// point far from the middle of the bounds has to make up for (a weak prior).
   MisfitPosterior misfit_posterior(const UnitPoint& point) const;
 
-  /// Probability that a point's residuals, less the noise of the packings, are within these bounds; those with a bound
-  /// of 0 do not count. Shape: one for each residual.
-  double within(const Eigen::VectorXd& bounds, const UnitPoint& point) const;
+  /// Probability that a point's residuals, less the noise of the packings, are within bounds, for each of some bounds;
+  /// residuals with a bound of 0 do not count. Shape: a bound for each residual.
+  std::vector<double> within(std::span<const Eigen::VectorXd> bounds, const UnitPoint& point) const;
 
   /// Conditions on `point` as if it had answered on so many packings as it may well do (fantasising): the mean
   /// residuals drawn from what is known of them, without the noise of the packings; `deviates`: standard normal ones,
