@@ -4,8 +4,9 @@ known, by simulating it.
 
 Usage: make_three_tests_twin.py PASTEFIT [FOLDER]      (PASTEFIT: the program; a minute on two cores)
 
-"cone" is a slump in the Abrams cone, "plate" the two-step test in the cone of EN 12350-5, "fast" the Abrams cone lifted ten times as fast. Each packing counts as one repeat. The grains are coarse and
-the same as in the fit, so that the example is quick and only packings and ruler stand between the twin and the truth.
+"cone" is a slump in the Abrams cone, "plate" the two-step test in the cone of EN 12350-5, "fast" the Abrams cone lifted ten
+times as fast. Each packing counts as one repeat. The grains are coarse and the same as in the fit, so that the example is
+quick and only packings and ruler stand between the twin and the truth.
 """
 import concurrent.futures
 import json
