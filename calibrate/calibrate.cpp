@@ -1,11 +1,13 @@
 #include "calibrate/calibrate.h"
 
 #include <algorithm>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/inference/condition_effects.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/search/low_fidelity.h"
@@ -69,6 +71,25 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
   return evaluator;
 }
 
+/// What the conditions that nobody states do to a confirmed material.
+std::vector<ConditionEffect> effects_on(const Calibration& found, const Study& study, Store& store,
+                                        const EvaluatorOptions& evaluator, const SimulationObjective& objective,
+                                        EvaluationCounts& counts) {
+  if (found.status != CalibrationStatus::confirmed || study.search.examination_simulations == 0) return {};
+  const auto simulate = [&](const Study& changed, const UnitPoint& point, std::span<const std::uint64_t> packings,
+                            std::size_t test) {
+    if (objective.stop_requested()) return std::vector<StoredEvaluation>{};
+    SimulationObjective other(changed, store, evaluator);
+    auto runs = other.predict(point, packings, test);
+    counts += other.counts();
+    return runs;
+  };
+  const auto& fresh = found.confirmation.packings;
+  return condition_effects(study, found.confirmation.point,
+                           std::span(fresh).first(std::min(fresh.size(), condition_packings)),
+                           objective.simulations_left(), simulate);
+}
+
 }  // namespace
 
 Faults validate(const Study& study, const CalibrateOptions& options) {
@@ -106,11 +127,16 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
     predict_hold_outs(study, found, objective);
     // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
     const bool stopped = options.stop && *options.stop;
-    if (found.status != CalibrationStatus::out_of_reach && !stopped)
-      result.inference = examine(study, objective, store, found, asked.examination_simulations, asked.seed);
+    if (found.status != CalibrationStatus::out_of_reach && !stopped) {
+      const auto effects = effects_on(found, study, store, evaluator, objective, result.counts);
+      const int spent = (result.counts.simulated + result.counts.answered) / objective.simulations_each();
+      result.inference =
+          examine(study, objective, store, found,
+                  std::min(asked.examination_simulations, objective.budget_left() - spent), asked.seed, effects);
+    }
   }
   if (auto faults = objective.store_faults(); !faults.empty()) return faults;
-  result.counts = objective.counts();
+  result.counts += objective.counts();
   if (!any) return result;
   result.card =
       card_of(study, found, asked, baselines_of(study, shown_of(found), store), result.counts, options.study_file);

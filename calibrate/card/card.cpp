@@ -114,6 +114,13 @@ void add_inference(ordered_json& out, const CardInference& inference) {
   }
   for (const auto& pair : inference.correlations) out["correlation"][pair.first][pair.second] = pair.value;
   for (const auto& unseen : inference.not_identified) out["not_identified"][unseen.parameter] = unseen.reason;
+  for (const ConditionEffect& one : inference.conditions) {
+    ordered_json& effect = out["unstated_conditions"][one.place];
+    effect = {{"assumed", one.assumed}, {"lower", one.lower}, {"upper", one.upper}, {"packings", one.packings}};
+    effect["readings"] = ordered_json::object();
+    for (const auto& reading : one.readings)
+      effect["readings"][reading.name] = {{"at_lower", reading.at_lower}, {"at_upper", reading.at_upper}};
+  }
 }
 
 ordered_json rebaseline_to_json(const Rebaseline& change) {

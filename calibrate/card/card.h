@@ -11,6 +11,7 @@
 
 #include "calibrate/study/study.h"
 #include "calibrate/study/tolerance.h"
+#include "calibrate/study/unstated_conditions.h"
 #include "core/observe/observables.h"
 
 namespace pastefit {
@@ -128,6 +129,7 @@ struct CardInference {
   std::vector<Interval> intervals;
   std::vector<Correlation> correlations;
   std::vector<NotIdentified> not_identified;
+  std::vector<ConditionEffect> conditions;  ///< that nobody states; contained in the intervals
 };
 
 /// A change of the baseline that was meant.
@@ -173,8 +175,8 @@ MisfitUnit misfit_unit_of(const Card& card);
 /// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
 /// Derived on writing and not read back: difference = simulated - measured, `standard_error`, `conditions` of each test
 /// (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`,
-/// `correlation`, `not_identified`, `rebaselined` and `rescaled` are written when there is something in them,
-/// `packings` of a reading when a laboratory would reject some of the confirmation's.
+/// `correlation`, `not_identified`, `unstated_conditions`, `rebaselined` and `rescaled` are written when there is
+/// something in them, `packings` of a reading when a laboratory would reject some of the confirmation's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

@@ -228,6 +228,25 @@ void read_inference(ObjectReader& card, const json& document, CardInference& inf
       }
     });
   });
+  card.object("unstated_conditions", kOptional, [&](ObjectReader& conditions) {
+    each_entry(conditions, document["unstated_conditions"], [&](ObjectReader& entry, const std::string& place) {
+      ConditionEffect& effect = inference.conditions.emplace_back();
+      effect.place = place;
+      entry.number("assumed", effect.assumed, kAny, kRequired);
+      entry.number("lower", effect.lower, kAny, kRequired);
+      entry.number("upper", effect.upper, kAny, kRequired);
+      entry.integer("packings", effect.packings, 0, 1000, kRequired);
+      entry.object("readings", kRequired, [&](ObjectReader& readings) {
+        each_entry(readings, document["unstated_conditions"][place]["readings"],
+                   [&](ObjectReader& ends, const std::string& name) {
+                     auto& reading = effect.readings.emplace_back();
+                     reading.name = name;
+                     ends.number("at_lower", reading.at_lower, kAny, kRequired);
+                     ends.number("at_upper", reading.at_upper, kAny, kRequired);
+                   });
+      });
+    });
+  });
   card.object("not_identified", kOptional, [&](ObjectReader& unseen) {
     for (const auto& [name, reason] : document["not_identified"].items()) {
       auto& entry = inference.not_identified.emplace_back();

@@ -81,7 +81,9 @@ int infer_again(const InferOptions& options) {
 
   InferenceOptions inference_options;
   inference_options.seed = card.search.seed;
-  Inference inference = pastefit::infer(training_data_of(study.value(), record), recommended, inference_options);
+  TrainingData evidence = training_data_of(study.value(), record);
+  evidence.conditions = card.inference.conditions;
+  Inference inference = pastefit::infer(evidence, recommended, inference_options);
   inference.recommended_because = reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
   card.inference = card_inference(inference);
   std::string findings = describe(inference);

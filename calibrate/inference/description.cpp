@@ -108,6 +108,21 @@ std::string intervals(const Inference& inference) {
   return out;
 }
 
+/// What nobody states, and what it would move.
+std::string conditions(const Inference& inference) {
+  std::string out;
+  for (const ConditionEffect& one : inference.conditions) {
+    std::vector<std::string> moved;
+    for (const ConditionEffect::Reading& reading : one.readings)
+      moved.push_back(reading.name + " from " + plain(reading.at_lower, 4) + " to " + plain(reading.at_upper, 4));
+    out += "  " + one.place + ", " + plain(one.lower) + " to " + plain(one.upper) + ": " +
+           (moved.empty() ? "not known, as heaps shear off there" : enumerated(moved)) + ".\n";
+  }
+  if (out.empty()) return out;
+  return "What the files do not state, from half to twice the assumed value, and what it moves\n" + out +
+         "  The intervals contain it. State what you know in the laboratory file or the study.\n";
+}
+
 /// A column for each material, so that five of them fit a window of 80 columns.
 std::string family(const Inference& inference) {
   std::string out = "Materials expected to fit these readings as well as the first, the recommended one" +
@@ -158,7 +173,8 @@ std::string enumerated(const std::vector<std::string>& words) {
 
 std::string what_is_determined(const Inference& inference) {
   return "What the readings say of the parameters (" + std::to_string(inference.simulations) + " simulations)\n" +
-         determined(inference) + intervals(inference) + "What to measure next\n" + next(inference);
+         determined(inference) + intervals(inference) + conditions(inference) + "What to measure next\n" +
+         next(inference);
 }
 
 std::string describe(const Inference& inference) {
@@ -180,6 +196,11 @@ CardInference card_inference(const Inference& inference) {
       if (std::abs(inference.correlation[i][j]) >= told)
         out.correlations.push_back({inference.intervals[j].name, one.name, rounded(inference.correlation[i][j], 2)});
   }
+  for (ConditionEffect& condition : out.conditions = inference.conditions)
+    for (ConditionEffect::Reading& reading : condition.readings) {
+      reading.at_lower = rounded(reading.at_lower, 5);
+      reading.at_upper = rounded(reading.at_upper, 5);
+    }
   if (out.intervals.empty()) out.level = 0;
   return out;
 }

@@ -25,11 +25,16 @@ std::string reason_for(bool confirmed, std::size_t packings) {
 }
 
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
-                                 const Calibration& calibration, int simulations, std::uint64_t seed) {
+                                 const Calibration& calibration, int simulations, std::uint64_t seed,
+                                 const std::vector<ConditionEffect>& conditions) {
   std::vector<Response> history = calibration.history;
   InferenceOptions options;
   options.seed = seed;
-  const auto training_data = [&] { return training_data_of(study, record_of(study, store, history)); };
+  const auto training_data = [&] {
+    TrainingData known = training_data_of(study, record_of(study, store, history));
+    known.conditions = conditions;
+    return known;
+  };
   if (training_data().points.empty()) return std::nullopt;
   int left = simulations;
   const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };

@@ -19,7 +19,9 @@ std::string reason_for(bool confirmed, std::size_t packings);
 /// Requirements: the calibration's best candidate did not fail; `objective` stores in `store`.
 /// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation in
 /// the store has run to its end.
+/// `conditions`: what those that nobody states do to the readings.
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
-                                 const Calibration& calibration, int simulations, std::uint64_t seed);
+                                 const Calibration& calibration, int simulations, std::uint64_t seed,
+                                 const std::vector<ConditionEffect>& conditions = {});
 
 }  // namespace pastefit

@@ -385,6 +385,7 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
     out.correlation.push_back(std::move(row));
   }
 
+  out.conditions = evidence.conditions;
   out.family = family_of(model, fitted, sample, recommended, options.family);
 
   for (std::size_t k = 0; k < evidence.readings.size(); ++k)

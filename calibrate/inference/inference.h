@@ -76,6 +76,7 @@ struct Inference {
                                                  ///< intervals rule
   std::vector<EquivalentMaterial> family;        ///< spread out; the recommended one first
   std::vector<MeasurementGain> gains;            ///< best first
+  std::vector<ConditionEffect> conditions;       ///< that nobody states, and what they move; contained in the intervals
   std::string recommended_because;               ///< why the first of the family is the one
   int simulations = 0;                           ///< behind all of it
 };

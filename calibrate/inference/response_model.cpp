@@ -43,6 +43,7 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
   learn_correlation(sites);
   find_shared();
   count_independent();
+  take_conditions();
   if (std::ranges::find(evidence_.rejected, true) != evidence_.rejected.end())
     rejections_.emplace(evidence_.points, evidence_.rejected);
   if (evidence_.failed.empty()) return;
@@ -109,6 +110,20 @@ void ResponseModel::find_shared() {
   }
 }
 
+void ResponseModel::take_conditions() {
+  const auto count = static_cast<Eigen::Index>(fitted_.size());
+  of_conditions_ = Eigen::MatrixXd::Zero(count, count);
+  for (const ConditionEffect& condition : evidence_.conditions) {
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const ReadingEvidence& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
+      for (const ConditionEffect::Reading& one : condition.readings)
+        if (one.name == reading.name) moved[k] = (one.at_upper - one.at_lower) / std::sqrt(reading.weight);
+    }
+    of_conditions_ += moved * moved.transpose() / 12;
+  }
+}
+
 void ResponseModel::count_independent() {
   const auto count = static_cast<Eigen::Index>(fitted_.size());
   Eigen::MatrixXd all(count, 0);
@@ -167,7 +182,7 @@ Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingMod
           correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
     }
   }
-  return out;
+  return out + of_conditions_;
 }
 
 Eigen::MatrixXd ResponseModel::predictive_variance(const std::vector<ReadingModel::Prediction>& predictions) const {

@@ -21,7 +21,9 @@ namespace pastefit {
 ///     into both), L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j
 ///     n_k);
 /// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
-/// What the laboratory's deviation is more than s is the ruler's, and not correlated. With d the differences, the
+/// What the laboratory's deviation is more than s is the ruler's, and not correlated. A condition that the laboratory
+/// does not state adds e_j e_k/12 to L_jk, e what it moves a reading by from one end of its range to the other: it may
+/// lie anywhere there, evenly on a logarithmic scale. With d the differences, the
 /// logarithm of the likelihood is
 ///     -(d' C^-1 d + log det L + n/N (log det C - log det L))/2,   n = (tr R)^2/tr(R^2),
 /// R the correlation of the N readings over all simulations: so many of them are independent. Two heights and two
@@ -60,6 +62,7 @@ class ResponseModel {
   void learn_correlation(const std::vector<std::size_t>& sites);
   void count_independent();
   void find_shared();
+  void take_conditions();
   Eigen::MatrixXd errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const;  // L
   Eigen::MatrixXd predictive_variance(const std::vector<ReadingModel::Prediction>& predictions) const;   // M
   std::vector<ReadingModel::Prediction> predictions(const UnitPoint& point) const;
@@ -68,6 +71,7 @@ class ResponseModel {
   std::vector<ReadingModel> models_;
   std::vector<std::size_t> fitted_;
   Eigen::MatrixXd correlation_;
+  Eigen::MatrixXd of_conditions_;                         // what unstated ones add to L
   double independent_ = 1;                                // n/N
   std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
   std::optional<GaussianProcess> failures_;

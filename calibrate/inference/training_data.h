@@ -8,6 +8,7 @@
 #include "calibrate/search/objective.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
+#include "calibrate/study/unstated_conditions.h"
 
 namespace pastefit {
 
@@ -38,6 +39,7 @@ struct TrainingData {
   std::vector<ReadingEvidence> readings;
   std::vector<bool> rejected;  ///< by a laboratory, e.g. a heap that sheared off; one for each point; empty: not judged
   int accepted_heaps = 0;      ///< of the laboratory: those that it reports, which it would not if it rejected them
+  std::vector<ConditionEffect> conditions;  ///< of which the laboratory says nothing
 };
 
 /// Collects the evidence from a record (`search/record.h`). Of a simulation that ended early the reading that ended it

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
@@ -105,6 +106,11 @@ inline std::string unseen_by(const Specimen&, std::span<const std::string_view>,
 /// Powders are hardly lighter than 250 kg/m^3, but in lb/ft3 and kg/l every paste is.
 inline std::vector<Experience> experience_of(const Specimen& test) {
   return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 250, 10000}};
+}
+
+/// Numbers of the apparatus that move the readings and are often not reported: path in its JSON, place in files.
+inline std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Specimen&) {
+  return {};
 }
 
 /// What these measurements, taken together, cannot be, or can hardly be.

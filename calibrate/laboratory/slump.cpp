@@ -128,6 +128,12 @@ std::span<const std::pair<std::string_view, std::string_view>> places_in_files(c
   return places;
 }
 
+std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const SlumpTest&) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> places{
+      {{"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"}}};
+  return places;
+}
+
 double moved_time_s(const SlumpTest& test) {
   return test.mould.height_m / test.lift_velocity_m_s;
 }

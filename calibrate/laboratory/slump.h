@@ -82,6 +82,9 @@ std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> r
 /// Fresh foams, pastes and heavy concretes, in moulds from a small tube to the cone of a dam's concrete.
 std::vector<Experience> experience_of(const SlumpTest& test);
 
+/// The speed of the lift.
+std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const SlumpTest&);
+
 /// What a fit in this test was made for, for cards, and in words.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);

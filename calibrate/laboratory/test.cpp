@@ -170,6 +170,10 @@ std::string unseen_by(const Test& test, std::span<const std::string_view> readin
   return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
 }
 
+std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Test& test) {
+  return std::visit([](const auto& one) { return often_unstated(one); }, test);
+}
+
 std::vector<Experience> experience_of(const Test& test) {
   return std::visit([](const auto& one) { return experience_of(one); }, test);
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -42,6 +43,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   {read_apparatus(reader, test, Need::required)};
   {read_outline(reader, reading, test)};
   {places_in_files(given).size()};
+  { often_unstated(given) } -> std::same_as<std::span<const std::pair<std::string_view, std::string_view>>>;
   { to_json(given) } -> std::same_as<nlohmann::json>;
   { default_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
@@ -95,6 +97,9 @@ ReadingCheck check_readings(const Test& test, std::span<const Measurement> measu
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);
+/// Numbers of the apparatus that move the readings and that reports of such tests often leave out: each with its path
+/// in the test's JSON and its place in laboratory files.
+std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Test& test);
 double default_tolerance(const Test& test, const Measurement& measured);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.

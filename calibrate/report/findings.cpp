@@ -35,6 +35,7 @@ void infer_from(const Store& store, const std::optional<Inference>& known, Findi
     return;
   }
   findings.evidence = training_data_of(*findings.study, record);
+  findings.evidence->conditions = card.inference.conditions;
   if (card.search.status == "out_of_reach") {
     findings.missing.push_back(
         "The laboratory was out of reach, and readings that no material meets say nothing of the parameters.");

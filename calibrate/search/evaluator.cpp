@@ -35,6 +35,15 @@ Failure stopped(std::string message) {
 
 }  // namespace
 
+EvaluationCounts& EvaluationCounts::operator+=(const EvaluationCounts& other) {
+  core_s += other.core_s;
+  simulated += other.simulated;
+  answered += other.answered;
+  for (const auto& [reason, count] : other.failures) failures[reason] += count;
+  if (best_miss < 0 || (other.best_miss >= 0 && other.best_miss < best_miss)) best_miss = other.best_miss;
+  return *this;
+}
+
 SimulationObjective::SimulationObjective(const Study& study, Store& store, EvaluatorOptions options)
     : StudyScoring(study),
       study_(study),

@@ -33,6 +33,8 @@ struct EvaluationCounts {
   int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
   double best_miss = -1;                  ///< of the candidates that did not fail; negative: none yet
+
+  EvaluationCounts& operator+=(const EvaluationCounts& other);  ///< the same of two objectives
 };
 
 struct EvaluatorOptions {

@@ -127,6 +127,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
                }))
         reader.faults().push_back(surface_of_no_test(reader.place(kind.name), kind.name));
       any_free = any_free || parameter.free;
+      parameter.stated = reader.has(kind.name);
     }
     if (!any_free)
       document.fault("parameters", "none is free, so there is nothing to calibrate",

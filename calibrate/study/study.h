@@ -33,11 +33,12 @@ struct Lab {
   Provenance provenance;
   Test test;
   std::vector<Measurement> measurements;
-  Repeats repeats;                 ///< none made: it is not said
-  std::string content;             ///< what the file and the preset that it names say, as JSON text
-  std::string hash;                ///< of the file's content, with the preset it names (64-bit, hexadecimal)
-  std::string note;                ///< on the preset (`note_on_preset`); empty if there is nothing to say
-  std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
+  Repeats repeats;                  ///< none made: it is not said
+  std::vector<std::string> stated;  ///< of what is `often_unstated` in such tests: the places that the file gives
+  std::string content;              ///< what the file and the preset that it names say, as JSON text
+  std::string hash;                 ///< of the file's content, with the preset it names (64-bit, hexadecimal)
+  std::string note;                 ///< on the preset (`note_on_preset`); empty if there is nothing to say
+  std::vector<std::string> notes;   ///< on its numbers, before anything runs: a sentence each, without a full stop
 };
 
 /// "1 of 4 heaps of the laboratory sheared off".
@@ -60,6 +61,7 @@ struct Parameter {
   double lower = 0, upper = 0;
   Scale scale = Scale::linear;
   std::optional<Prior> prior = std::nullopt;  ///< of a free parameter; without one every value is as good as any other
+  bool stated = false;                        ///< the study names it; else its value is the default
 };
 
 /// What a study asks of one measurement.

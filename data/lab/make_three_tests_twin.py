@@ -32,7 +32,7 @@ GRAINS = {"distribution": "mono", "radius_mm": GRAIN_RADIUS_MM}
 SEEDS = range(9101, 9106)
 TESTS = {
     "cone": ({"preset": "abrams", "lift_velocity_mm_s": 100}, ["step1.height_mm", "step1.spread_mm"]),
-    "plate": ({"preset": "en12350-5"}, ["step1.height_mm", "step2.height_mm", "step1.spread_mm", "step2.spread_mm"]),
+    "plate": ({"preset": "en12350-5", "lift_velocity_mm_s": 100}, ["step1.height_mm", "step2.height_mm", "step1.spread_mm", "step2.spread_mm"]),
     "fast": ({"preset": "abrams", "lift_velocity_mm_s": 1000}, ["step1.height_mm", "step1.spread_mm"]),
 }
 

@@ -48,7 +48,7 @@ def lab(measurements):
             "one a repeat; a ruler's normal noise was added (heights and sag 1 mm, spread 5 mm).",
             "twin": True,
         },
-        "apparatus": {"preset": "en12350-5"},
+        "apparatus": {"preset": "en12350-5", "lift_velocity_mm_s": 100},
         "material": {"bulk_density_kg_m3": BULK_DENSITY_KG_M3},
         "grains": GRAINS,
         "measurements": measurements,

@@ -14,11 +14,13 @@ using namespace pastefit::test;
 
 namespace {
 
-/// A shipped study with coarse grains, its strength alone, and a wide tolerance.
+/// A shipped study with coarse grains, its strength alone, a wide tolerance, and all conditions stated.
 Study coarse_study() {
   Study study = read_study(PASTEFIT_SOURCE_DIR "/data/studies/concrete-mix-20.json").value();
   specimen_of(study.tests.at(0).lab.test).grains.radius_m = 0.018;
+  study.tests.at(0).lab.stated = {"apparatus.lift_velocity_mm_s"};
   for (Parameter& parameter : study.parameters) {
+    parameter.stated = true;
     if (!parameter.free || parameter.name == "strength_pa") continue;
     parameter.value = value_between(parameter, 0.5);
     parameter.free = false;
@@ -72,6 +74,38 @@ TEST_CASE("an examination goes on until its simulations are spent, or all that i
     CHECK(spent <= simulations);
     CHECK((spent == simulations || predicted == 0));
   }
+}
+
+TEST_CASE("a card says what a condition that nobody states moves, and keeps to the budget and to its bytes") {
+  const Folder folder;
+  Study study = coarse_study();
+  study.tests.at(0).lab.stated.clear();
+  study.search.budget_simulations = 40;
+  auto store = store_in(folder, study);
+  Engine standing;  // so few grains shear off as they like
+  standing.run = [](const Test& test, const RunOptions& options) {
+    Outcome outcome = simulate(test, options);
+    if (outcome.observables.find("step1.lateral_shift_mm")) outcome.observables.set("step1.lateral_shift_mm", 0);
+    return outcome;
+  };
+  const auto result = calibrate(study, store, {.threads = 1, .engine = standing}).value();
+  const auto& conditions = result.card.value().inference.conditions;
+  REQUIRE(conditions.size() == 1);
+  CHECK(conditions[0].place == "apparatus.lift_velocity_mm_s");
+  CHECK(conditions[0].lower == 50);
+  CHECK(conditions[0].upper == 200);
+  REQUIRE(conditions[0].packings > 0);
+  // A quicker lift shakes a heap down.
+  const auto height = std::ranges::find(conditions[0].readings, "step1.height_mm", &ConditionEffect::Reading::name);
+  REQUIRE(height != conditions[0].readings.end());
+  CHECK(height->at_upper < height->at_lower);
+  CHECK(result.counts.simulated <= 40);
+  CHECK(result.card->search.simulations == result.counts.simulated);
+  const auto again = calibrate(study, store, {.threads = 2, .engine = standing}).value();
+  CHECK(again.counts.simulated == 0);
+  CHECK(to_json(again.card.value()) == to_json(*result.card));
+  const nlohmann::json written = to_json(*result.card);
+  CHECK(nlohmann::json(to_json(card_from_json(written).value())) == written);
 }
 
 TEST_CASE("a study that cannot be calibrated is told so before anything is simulated") {

@@ -116,6 +116,17 @@ TEST_CASE("repeats narrow an interval as their number does") {
   CHECK(infer(evidence, middle).intervals[0].uncertainty == Approx(once / 2).epsilon(0.12));
 }
 
+TEST_CASE("a condition that nobody states widens an interval by a twelfth of the square of what it moves") {
+  TrainingData evidence = evidence_for({first_alone});  // tells 0.5 +- 0.05
+  const double stated = infer(evidence, middle).intervals[0].uncertainty;
+  evidence.conditions = {{"apparatus.lift_velocity_mm_s", 100, 50, 200, 2, {{"step1.height_mm", 60, 30}}}};
+  const double own = 5, moved = 30 / std::sqrt(12.0);
+  CHECK(infer(evidence, middle).intervals[0].uncertainty ==
+        Approx(stated * std::hypot(own, moved) / own).epsilon(0.12));
+  CHECK(describe(infer(evidence, middle))
+            .find("apparatus.lift_velocity_mm_s, 50 to 200: step1.height_mm from 60 to 30") != std::string::npos);
+}
+
 TEST_CASE("a prior and a reading of the same parameter are weighed by their variances") {
   TrainingData evidence = evidence_for({first_alone});  // tells 0.5 +- 0.05
   evidence.parameters[0].prior = Prior{0.6, 0.05};
