@@ -1,12 +1,14 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace pastefit {
 
-inline constexpr double mm = 1000;  ///< millimetres in a metre
+inline constexpr double mm = 1000;                         ///< millimetres in a metre
+inline constexpr double degrees = 180 / std::numbers::pi;  ///< in a radian
 
 /// A unit that people write, and the one of the keys of pastefit's files for the same quantity.
 struct Unit {

@@ -108,11 +108,6 @@ inline std::vector<Experience> experience_of(const Specimen& test) {
   return {{"material.bulk_density_kg_m3", test.bulk_density_kg_m3, 250, 10000}};
 }
 
-/// Numbers of the apparatus that move the readings and are often not reported: path in its JSON, place in files.
-inline std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Specimen&) {
-  return {};
-}
-
 /// What these measurements, taken together, cannot be, or can hardly be.
 inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>) {
   return {};

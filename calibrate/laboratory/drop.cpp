@@ -15,7 +15,6 @@
 namespace pastefit {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;  // in a radian
 
 constexpr std::string_view drop_lab =
     R"(// What a laboratory measured in a drop test: a ball of the material falls on a plate. Lines like this one are comments;
@@ -82,8 +81,7 @@ constexpr std::string_view drop_study =
 
 template <class Fields, class Test>
 void describe_drop(Fields& fields, Test& test) {
-  fields.number("drop_height_m", test.drop_height_m, any_number, required);
-  fields.number("plate_tilt_rad", test.plate_tilt_rad, any_number, required);
+  describe_dimensions(fields, test, drop_dimensions);
   describe_specimen(fields, test);
 }
 
@@ -110,13 +108,12 @@ double grains_needed(const DropTest&) {
 }
 
 void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need) {
-  apparatus.number("drop_height_mm", test.drop_height_m, {0, 20000, true}, need, mm);
-  apparatus.number("plate_tilt_deg", test.plate_tilt_rad, {0, 80}, Need::optional, degrees);
+  read_dimensions(apparatus, test, drop_dimensions, need);
 }
 
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 2> places{
-      {{"drop_height_m", "apparatus.drop_height_mm"}, {"plate_tilt_rad", "apparatus.plate_tilt_deg"}}};
+std::vector<FilePlace> places_in_files(const DropTest&) {
+  std::vector<FilePlace> places;
+  add_places(places, drop_dimensions);
   return places;
 }
 

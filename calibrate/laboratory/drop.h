@@ -9,6 +9,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/default_answers.h"
+#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
 #include "core/apparatus/drop_test/drop_test.h"
@@ -28,7 +29,7 @@ double grains_needed(const DropTest& test);
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
 void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const DropTest&);
+std::vector<FilePlace> places_in_files(const DropTest&);
 
 nlohmann::json to_json(const DropTest& test);
 DropTest default_test(const DropTest&);

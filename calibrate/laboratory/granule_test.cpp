@@ -4,18 +4,13 @@
 #include <limits>
 
 #include "calibrate/base/format.h"
+#include "calibrate/laboratory/dimension_json.h"
 
 namespace pastefit {
 
 void read_tools(ObjectReader& apparatus, WallContact& tools) {
-  constexpr Range factor{0, 10};
-  constexpr Need optional = Need::optional;
-  apparatus.object("tools", optional, [&](ObjectReader& reader) {
-    reader.number("friction", tools.friction, factor, optional);
-    reader.number("rolling_friction", tools.rolling_friction, factor, optional);
-    reader.number("restitution", tools.restitution, {0.001, 1}, optional);
-    reader.number("cohesion_factor", tools.cohesion_factor, factor, optional);
-  });
+  apparatus.object("tools", Need::optional,
+                   [&](ObjectReader& reader) { read_dimensions(reader, tools, surface_dimensions, Need::optional); });
 }
 
 Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs) {

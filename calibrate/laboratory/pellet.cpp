@@ -83,14 +83,7 @@ constexpr std::string_view pellet_study =
 
 template <class Fields, class Test>
 void describe_pellet(Fields& fields, Test& test) {
-  fields.number("die_diameter_m", test.die_diameter_m, any_number, required);
-  fields.number("fill_height_m", test.fill_height_m, any_number, required);
-  fields.number("pour_speed_m_s", test.pour_speed_m_s, any_number, required);
-  fields.number("pressed_height_m", test.pressed_height_m, any_number, required);
-  fields.number("punch_speed_m_s", test.punch_speed_m_s, any_number, required);
-  fields.number("press_speedup", test.press_speedup, any_number, required);
-  fields.number("platen_speed_m_s", test.platen_speed_m_s, any_number, required);
-  fields.number("final_strain", test.final_strain, any_number, required);
+  describe_dimensions(fields, test, pellet_dimensions);
   describe_specimen(fields, test);
   fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
 }
@@ -98,30 +91,14 @@ void describe_pellet(Fields& fields, Test& test) {
 }  // namespace
 
 void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need) {
-  constexpr Range length{0, 1000, true}, speed{0, 10000, true};
-  constexpr Need optional = Need::optional;
-  apparatus.number("die_diameter_mm", test.die_diameter_m, length, need, mm);
-  apparatus.number("fill_height_mm", test.fill_height_m, length, need, mm);
-  apparatus.number("pour_speed_mm_s", test.pour_speed_m_s, speed, optional, mm);
-  apparatus.number("pressed_height_mm", test.pressed_height_m, length, need, mm);
-  apparatus.number("punch_speed_mm_s", test.punch_speed_m_s, speed, need, mm);
-  apparatus.number("press_speedup", test.press_speedup, {1, 1e6}, optional);
-  apparatus.number("platen_speed_mm_s", test.platen_speed_m_s, speed, need, mm);
-  apparatus.number("final_strain", test.final_strain, {0.01, 0.8}, optional);
+  read_dimensions(apparatus, test, pellet_dimensions, need);
   read_tools(apparatus, test.tools);
 }
 
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const PelletCrush&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> places{
-      {{"die_diameter_m", "apparatus.die_diameter_mm"},
-       {"fill_height_m", "apparatus.fill_height_mm"},
-       {"pour_speed_m_s", "apparatus.pour_speed_mm_s"},
-       {"pressed_height_m", "apparatus.pressed_height_mm"},
-       {"punch_speed_m_s", "apparatus.punch_speed_mm_s"},
-       {"press_speedup", "apparatus.press_speedup"},
-       {"platen_speed_m_s", "apparatus.platen_speed_mm_s"},
-       {"final_strain", "apparatus.final_strain"},
-       {"tools", "apparatus.tools"}}};
+std::vector<FilePlace> places_in_files(const PelletCrush&) {
+  std::vector<FilePlace> places;
+  add_places(places, pellet_dimensions);
+  add_places(places, surface_dimensions, "tools", "apparatus.tools");
   return places;
 }
 

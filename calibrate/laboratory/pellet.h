@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/laboratory/default_answers.h"
+#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/granule_test.h"
 #include "core/apparatus/pellet_crush/pellet_crush.h"
@@ -23,7 +24,7 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need);
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const PelletCrush&);
+std::vector<FilePlace> places_in_files(const PelletCrush&);
 
 /// Of the punch and the platen.
 double moved_time_s(const PelletCrush& test);

@@ -84,76 +84,31 @@ constexpr std::string_view shear_study =
 }
 )";
 
-template <class Fields, class Sizes>
-void describe_ribs(Fields& fields, Sizes& ribs) {
-  fields.number("height_m", ribs.height_m, any_number, required);
-  fields.number("thickness_m", ribs.thickness_m, any_number, required);
-  fields.number("pitch_m", ribs.pitch_m, any_number, required);
-}
-
 template <class Fields, class Test>
 void describe_shear(Fields& fields, Test& test) {
-  fields.number("length_m", test.length_m, any_number, required);
-  fields.number("width_m", test.width_m, any_number, required);
-  fields.number("fill_height_m", test.fill_height_m, any_number, required);
-  fields.number("pour_speed_m_s", test.pour_speed_m_s, any_number, required);
-  fields.object("lid_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.lid_ribs); });
-  fields.object("base_ribs", required, [&](auto& ribs) { describe_ribs(ribs, test.base_ribs); });
-  fields.number("normal_stress_pa", test.normal_stress_pa, any_number, required);
-  fields.number("lid_speed_m_s", test.lid_speed_m_s, any_number, required);
-  fields.number("shear_speed_m_s", test.shear_speed_m_s, any_number, required);
-  fields.number("shear_speedup", test.shear_speedup, any_number, required);
-  fields.number("final_displacement_m", test.final_displacement_m, any_number, required);
+  describe_dimensions(fields, test, shear_dimensions);
+  for (auto [name, ribs] : {std::pair{"lid_ribs", &test.lid_ribs}, std::pair{"base_ribs", &test.base_ribs}})
+    fields.object(name, required, [&, own = ribs](auto& inner) { describe_dimensions(inner, *own, rib_dimensions); });
   describe_specimen(fields, test);
   fields.object("tools", required, [&](auto& wall) { describe_wall(wall, test.tools); });
-}
-
-void read_ribs(ObjectReader& apparatus, const char* key, RibSizes& ribs, Need need) {
-  constexpr Range height{0, 1000}, length{0, 1000, true};
-  apparatus.object(key, need, [&](ObjectReader& reader) {
-    reader.number("height_mm", ribs.height_m, height, need, mm);
-    reader.number("thickness_mm", ribs.thickness_m, length, need, mm);
-    reader.number("pitch_mm", ribs.pitch_m, length, need, mm);
-  });
 }
 
 }  // namespace
 
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need) {
-  constexpr Range length{0, 1000, true}, speed{0, 10000, true};
-  constexpr Need optional = Need::optional;
-  apparatus.number("length_mm", test.length_m, length, need, mm);
-  apparatus.number("width_mm", test.width_m, length, need, mm);
-  apparatus.number("fill_height_mm", test.fill_height_m, length, need, mm);
-  apparatus.number("pour_speed_mm_s", test.pour_speed_m_s, speed, optional, mm);
-  read_ribs(apparatus, "lid_ribs", test.lid_ribs, need);
-  read_ribs(apparatus, "base_ribs", test.base_ribs, need);
-  apparatus.number("normal_stress_pa", test.normal_stress_pa, Range{}, need);
-  apparatus.number("lid_speed_mm_s", test.lid_speed_m_s, speed, optional, mm);
-  apparatus.number("shear_speed_mm_s", test.shear_speed_m_s, speed, need, mm);
-  apparatus.number("shear_speedup", test.shear_speedup, {1, 1e6}, optional);
-  apparatus.number("final_displacement_mm", test.final_displacement_m, length, need, mm);
+  read_dimensions(apparatus, test, shear_dimensions, need);
+  for (auto [name, ribs] : {std::pair{"lid_ribs", &test.lid_ribs}, std::pair{"base_ribs", &test.base_ribs}})
+    apparatus.object(name, need,
+                     [&, own = ribs](ObjectReader& reader) { read_dimensions(reader, *own, rib_dimensions, need); });
   read_tools(apparatus, test.tools);
 }
 
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 16> places{
-      {{"length_m", "apparatus.length_mm"},
-       {"width_m", "apparatus.width_mm"},
-       {"fill_height_m", "apparatus.fill_height_mm"},
-       {"pour_speed_m_s", "apparatus.pour_speed_mm_s"},
-       {"lid_ribs.height_m", "apparatus.lid_ribs.height_mm"},
-       {"lid_ribs.thickness_m", "apparatus.lid_ribs.thickness_mm"},
-       {"lid_ribs.pitch_m", "apparatus.lid_ribs.pitch_mm"},
-       {"base_ribs.height_m", "apparatus.base_ribs.height_mm"},
-       {"base_ribs.thickness_m", "apparatus.base_ribs.thickness_mm"},
-       {"base_ribs.pitch_m", "apparatus.base_ribs.pitch_mm"},
-       {"normal_stress_pa", "apparatus.normal_stress_pa"},
-       {"lid_speed_m_s", "apparatus.lid_speed_mm_s"},
-       {"shear_speed_m_s", "apparatus.shear_speed_mm_s"},
-       {"shear_speedup", "apparatus.shear_speedup"},
-       {"final_displacement_m", "apparatus.final_displacement_mm"},
-       {"tools", "apparatus.tools"}}};
+std::vector<FilePlace> places_in_files(const ShearCell&) {
+  std::vector<FilePlace> places;
+  add_places(places, shear_dimensions);
+  add_places(places, rib_dimensions, "lid_ribs", "apparatus.lid_ribs");
+  add_places(places, rib_dimensions, "base_ribs", "apparatus.base_ribs");
+  add_places(places, surface_dimensions, "tools", "apparatus.tools");
   return places;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/laboratory/default_answers.h"
+#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/granule_test.h"
 #include "core/apparatus/shear_cell/shear_cell.h"
@@ -23,7 +24,7 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const ShearCell&);
+std::vector<FilePlace> places_in_files(const ShearCell&);
 
 /// Of the base.
 double moved_time_s(const ShearCell& test);

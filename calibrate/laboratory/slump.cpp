@@ -18,30 +18,19 @@ namespace pastefit {
 namespace {
 
 constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
-constexpr Range apparatus_length{0, 5000, true};
 constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
 constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
 
 template <class Fields, class Test>
 void describe_slump(Fields& fields, Test& test) {
-  fields.object("mould", required, [&](auto& mould) {
-    mould.number("base_radius_m", test.mould.base_radius_m, any_number, required);
-    mould.number("top_radius_m", test.mould.top_radius_m, any_number, required);
-    mould.number("height_m", test.mould.height_m, any_number, required);
-  });
-  fields.number("lift_velocity_m_s", test.lift_velocity_m_s, any_number, required);
-  fields.number("table_length_m", test.table_length_m, any_number, required);
-  fields.nullable_object("drop", test.drop, required, [](auto& drop, auto& plate) {
-    drop.number("length_m", plate.length_m, any_number, required);
-    drop.number("mass_kg", plate.mass_kg, any_number, required);
-    drop.number("lift_height_m", plate.lift_height_m, any_number, required);
-    drop.number("lift_duration_s", plate.lift_duration_s, any_number, required);
-  });
+  fields.object("mould", required, [&](auto& mould) { describe_dimensions(mould, test.mould, mould_dimensions); });
+  describe_dimensions(fields, test, slump_dimensions);
+  fields.nullable_object("drop", test.drop, required,
+                         [](auto& drop, auto& plate) { describe_dimensions(drop, plate, plate_dimensions); });
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
-    reading.number("probe_diameter_m", test.reading.probe_diameter_m, any_number, required);
-    reading.number("sag_window_m", test.reading.sag_window_m, any_number, Need::optional);
+    describe_dimensions(reading, test.reading, reading_dimensions);
     reading.pairs("outline_step1_m", test.reading.outline_step1, any_number, any_number, Need::optional, 0);
     reading.pairs("outline_step2_m", test.reading.outline_step2, any_number, any_number, Need::optional, 0);
   });
@@ -74,24 +63,16 @@ double grains_needed(const SlumpTest& test) {
 }
 
 void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
-  apparatus.object("mould", need, [&](ObjectReader& mould) {
-    mould.number("base_diameter_mm", test.mould.base_radius_m, apparatus_length, need, diameter_mm);
-    mould.number("top_diameter_mm", test.mould.top_radius_m, apparatus_length, need, diameter_mm);
-    mould.number("height_mm", test.mould.height_m, apparatus_length, need, mm);
-  });
-  apparatus.number("table_length_mm", test.table_length_m, {0, 20000, true}, need, mm);
-  apparatus.number("lift_velocity_mm_s", test.lift_velocity_m_s, {0, 5000, true}, need, mm);
+  apparatus.object("mould", need,
+                   [&](ObjectReader& mould) { read_dimensions(mould, test.mould, mould_dimensions, need); });
+  read_dimensions(apparatus, test, slump_dimensions, need);
   const Need plate_need = test.drop ? Need::optional : Need::required;
   apparatus.nullable_object("drop_plate", test.drop, Need::optional, [&](ObjectReader& plate, DropPlate& drop) {
-    plate.number("length_mm", drop.length_m, {0, 20000, true}, plate_need, mm);
-    plate.number("mass_kg", drop.mass_kg, {0, 1000, true}, plate_need);
-    plate.number("lift_height_mm", drop.lift_height_m, {0, 1000, true}, plate_need, mm);
-    plate.number("lift_duration_s", drop.lift_duration_s, {0, 60, true}, Need::optional);
+    read_dimensions(plate, drop, plate_dimensions, plate_need);
   });
   apparatus.object("reading", need, [&](ObjectReader& reading) {
     reading.choice("height", test.reading.height, height_readings, need);
-    reading.number("probe_diameter_mm", test.reading.probe_diameter_m, {0, 1000, true}, Need::optional, mm);
-    reading.number("sag_window_mm", test.reading.sag_window_m, {0, 1000, true}, Need::optional, mm);
+    read_dimensions(reading, test.reading, reading_dimensions, need);
   });
 }
 
@@ -110,27 +91,12 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
   (kind.stage == kStep2 ? test.reading.outline_step2 : test.reading.outline_step1) = std::move(points);
 }
 
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> places{
-      {{"mould.base_radius_m", "apparatus.mould.base_diameter_mm"},
-       {"mould.top_radius_m", "apparatus.mould.top_diameter_mm"},
-       {"mould.height_m", "apparatus.mould.height_mm"},
-       {"mould_wall", "parameters: mould_wall"},
-       {"mould", "apparatus.mould"},
-       {"table_wall", "parameters: table_wall"},
-       {"table_length_m", "apparatus.table_length_mm"},
-       {"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"},
-       {"drop.length_m", "apparatus.drop_plate.length_mm"},
-       {"drop.lift_height_m", "apparatus.drop_plate.lift_height_mm"},
-       {"drop", "apparatus.drop_plate"},
-       {"reading.probe_diameter_m", "apparatus.reading.probe_diameter_mm"},
-       {"reading.sag_window_m", "apparatus.reading.sag_window_mm"}}};
-  return places;
-}
-
-std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const SlumpTest&) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> places{
-      {{"lift_velocity_m_s", "apparatus.lift_velocity_mm_s"}}};
+std::vector<FilePlace> places_in_files(const SlumpTest&) {
+  std::vector<FilePlace> places{{"mould_wall", "parameters: mould_wall"}, {"table_wall", "parameters: table_wall"}};
+  add_places(places, mould_dimensions, "mould", "apparatus.mould");
+  add_places(places, slump_dimensions);
+  add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
+  add_places(places, reading_dimensions, "reading", "apparatus.reading");
   return places;
 }
 

@@ -11,6 +11,7 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/default_answers.h"
+#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
@@ -40,7 +41,7 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need);
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
 
 /// The apparatus' places in `validate`'s words and in those of laboratory and apparatus files.
-std::span<const std::pair<std::string_view, std::string_view>> places_in_files(const SlumpTest&);
+std::vector<FilePlace> places_in_files(const SlumpTest&);
 
 /// Of the mould, until it is off the heap.
 double moved_time_s(const SlumpTest& test);
@@ -81,9 +82,6 @@ std::string unseen_by(const SlumpTest& test, std::span<const std::string_view> r
 
 /// Fresh foams, pastes and heavy concretes, in moulds from a small tube to the cone of a dam's concrete.
 std::vector<Experience> experience_of(const SlumpTest& test);
-
-/// The speed of the lift.
-std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const SlumpTest&);
 
 /// What a fit in this test was made for, for cards, and in words.
 nlohmann::ordered_json conditions_of(const SlumpTest& test);

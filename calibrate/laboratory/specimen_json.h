@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibrate/laboratory/names.h"
+#include "core/apparatus/dimension.h"
 #include "core/apparatus/specimen.h"
 
 namespace pastefit {
@@ -53,10 +54,7 @@ template <class Fields, class Wall>
 void describe_wall(Fields& fields, Wall& wall) {
   fields.number("youngs_modulus_pa", wall.youngs_modulus_pa, any_number, required);
   fields.number("poissons_ratio", wall.poissons_ratio, any_number, required);
-  fields.number("restitution", wall.restitution, any_number, required);
-  fields.number("friction", wall.friction, any_number, required);
-  fields.number("rolling_friction", wall.rolling_friction, any_number, required);
-  fields.number("cohesion_factor", wall.cohesion_factor, any_number, required);
+  for (const auto& one : surface_dimensions) fields.number(one.field.data(), wall.*one.value, any_number, required);
 }
 
 /// All of it.

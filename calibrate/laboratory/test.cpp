@@ -170,8 +170,8 @@ std::string unseen_by(const Test& test, std::span<const std::string_view> readin
   return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
 }
 
-std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Test& test) {
-  return std::visit([](const auto& one) { return often_unstated(one); }, test);
+std::vector<FilePlace> places_in_files(const Test& test) {
+  return std::visit([](const auto& one) { return places_in_files(one); }, test);
 }
 
 std::vector<Experience> experience_of(const Test& test) {
@@ -200,28 +200,27 @@ Fault in_unit_of(std::string_view field, Fault fault) {
 }  // namespace
 
 Faults validate_in_file_words(const Test& test) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> specimen{
-      {{"bulk_density_kg_m3", "material.bulk_density_kg_m3"},
-       {"grains.radius_m", "grains.radius_mm"},
-       {"grains.standard_deviation_m", "grains.standard_deviation_mm"},
-       {"grains.smallest_m", "grains.smallest_mm"},
-       {"grains.largest_m", "grains.largest_mm"},
-       {"contact", "parameters: contact"}}};
-  const auto renamed = [](Fault& fault, auto places) {
-    for (const auto& [ours, theirs] : places) {
-      if (!fault.where.starts_with(ours)) continue;
-      if (fault.where.size() > ours.size() && fault.where[ours.size()] != '.') continue;
+  static const std::vector<FilePlace> specimen{{"bulk_density_kg_m3", "material.bulk_density_kg_m3"},
+                                               {"grains.radius_m", "grains.radius_mm"},
+                                               {"grains.standard_deviation_m", "grains.standard_deviation_mm"},
+                                               {"grains.smallest_m", "grains.smallest_mm"},
+                                               {"grains.largest_m", "grains.largest_mm"},
+                                               {"contact", "parameters: contact"}};
+  const auto renamed = [](Fault& fault, const std::vector<FilePlace>& places) {
+    for (const FilePlace& one : places) {
+      if (!fault.where.starts_with(one.field)) continue;
+      if (fault.where.size() > one.field.size() && fault.where[one.field.size()] != '.') continue;
       const std::string field = fault.where;
-      fault.where.replace(0, ours.size(), theirs);
+      fault.where.replace(0, one.field.size(), one.place);
       fault = in_unit_of(field, std::move(fault));
       return true;
     }
     return false;
   };
   Faults faults = validate(test);
+  const std::vector<FilePlace> own = places_in_files(test);
   for (Fault& fault : faults)
-    if (!renamed(fault, std::visit([](const auto& one) { return places_in_files(one); }, test)))
-      renamed(fault, std::span(specimen));
+    if (!renamed(fault, own)) renamed(fault, specimen);
   return faults;
 }
 

@@ -42,8 +42,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
   {read_apparatus(reader, test, Need::required)};
   {read_outline(reader, reading, test)};
-  {places_in_files(given).size()};
-  { often_unstated(given) } -> std::same_as<std::span<const std::pair<std::string_view, std::string_view>>>;
+  { places_in_files(given) } -> std::same_as<std::vector<FilePlace>>;
   { to_json(given) } -> std::same_as<nlohmann::json>;
   { default_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
@@ -97,9 +96,8 @@ ReadingCheck check_readings(const Test& test, std::span<const Measurement> measu
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);
-/// Numbers of the apparatus that move the readings and that reports of such tests often leave out: each with its path
-/// in the test's JSON and its place in laboratory files.
-std::span<const std::pair<std::string_view, std::string_view>> often_unstated(const Test& test);
+/// The fields of the apparatus, and where laboratory files have them; an object behind those that it holds.
+std::vector<FilePlace> places_in_files(const Test& test);
 double default_tolerance(const Test& test, const Measurement& measured);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.

@@ -111,8 +111,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, questions);
     read_repeats(reader, lab, lab.repeats);
-    for (const auto& [field, place] : often_unstated(lab.test))
-      if (has_place(document, place)) lab.stated.emplace_back(place);
+    for (const FilePlace& one : places_in_files(lab.test))
+      if (one.often_unstated && has_place(document, one.place)) lab.stated.push_back(one.place);
     if (values_are_good(faults, before)) {
       ReadingCheck check = check_readings(lab.test, lab.measurements);
       for (Fault& fault : check.faults) faults.push_back(std::move(fault));

@@ -34,7 +34,7 @@ struct Lab {
   Test test;
   std::vector<Measurement> measurements;
   Repeats repeats;                  ///< none made: it is not said
-  std::vector<std::string> stated;  ///< of what is `often_unstated` in such tests: the places that the file gives
+  std::vector<std::string> stated;  ///< of what is often unstated (`FilePlace`): the places that the file gives
   std::string content;              ///< what the file and the preset that it names say, as JSON text
   std::string hash;                 ///< of the file's content, with the preset it names (64-bit, hexadecimal)
   std::string note;                 ///< on the preset (`note_on_preset`); empty if there is nothing to say

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "calibrate/base/units.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
@@ -17,12 +16,6 @@ using nlohmann::json;
 json::json_pointer pointer_to(std::string field) {
   std::ranges::replace(field, '.', '/');
   return json::json_pointer("/" + field);
-}
-
-/// A number of the test's JSON, in SI, in the unit of its place in the files: "apparatus.lift_velocity_mm_s".
-double in_unit_of_place(double value, std::string_view place) {
-  const auto unit = unit_of_place(place);
-  return unit && unit->key.starts_with("mm") ? mm * value : value;
 }
 
 Parameter& parameter_of(Study& study, const std::string& name) {
@@ -50,11 +43,11 @@ std::vector<UnstatedCondition> unstated_conditions(const Study& study) {
   Study copy = study;
   for (const std::size_t test : tests_of(study, false)) {
     const Lab& lab = study.tests[test].lab;
-    for (const auto& [field, place] : often_unstated(lab.test)) {
-      if (std::ranges::count(lab.stated, place) > 0) continue;
-      const double value = to_json(lab.test).at(pointer_to(std::string(field))).get<double>();
+    for (const FilePlace& one : places_in_files(lab.test)) {
+      if (!one.often_unstated || std::ranges::count(lab.stated, one.place) > 0) continue;
+      const double in_si = to_json(lab.test).at(pointer_to(one.field)).get<double>();
       out.push_back(
-          {reading_name(study.tests[test], place), std::string(field), {test}, in_unit_of_place(value, place), false});
+          {reading_name(study.tests[test], one.place), one.field, {test}, in_si * file_key(one.field).per_si, false});
     }
     add_frictions(copy, test, out);
   }

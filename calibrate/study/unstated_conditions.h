@@ -8,7 +8,7 @@
 namespace pastefit {
 
 /// A condition of the tests that moves the readings and that neither the laboratory files nor the study state: what an
-/// apparatus has by its preset (`often_unstated` of its kind), and the sliding friction of its surfaces where it is the
+/// apparatus has by its preset (`Dimension::often_unstated`), and the sliding friction of its surfaces where it is the
 /// default.
 struct UnstatedCondition {
   std::string place;               ///< in the files: "apparatus.lift_velocity_mm_s", "parameters.mould_friction"

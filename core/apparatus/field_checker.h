@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/apparatus/specimen.h"
@@ -13,12 +15,15 @@ namespace pastefit {
 /// Collects faults of numbers that are not finite or not in their range.
 class FieldChecker {
  public:
-  void range(const char* where, double value, double lower, double upper, const char* unit) {
+  /// Not of a place that has a fault already.
+  void range(std::string where, double value, double lower, double upper, std::string_view unit) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
-    faults_.push_back(fault_of(where, {value, lower, upper, unit}));
+    const auto at_place = [&](const Fault& fault) { return fault.where == where; };
+    if (std::ranges::any_of(faults_, at_place)) return;
+    faults_.push_back(fault_of(std::move(where), {value, lower, upper, std::string(unit)}));
   }
-  void require(bool holds, const char* where, std::string what, std::string remedy) {
-    if (!holds) faults_.push_back({where, std::move(what), std::move(remedy)});
+  void require(bool holds, std::string where, std::string what, std::string remedy) {
+    if (!holds) faults_.push_back({std::move(where), std::move(what), std::move(remedy)});
   }
   static Fault fault_of(std::string where, OutOfRange range) {
     const std::string unit = range.unit.empty() ? "" : " " + range.unit;

@@ -103,13 +103,11 @@ double impact_speed_m_s(const DropTest& test) {
 }
 
 Faults validate(const DropTest& test) {
-  constexpr double kSteepest = 1.4;  // 80 degrees
   FieldChecker check;
   check_specimen(check, test);
   check.require(test.grains.distribution == SizeDistribution::mono, "grains.distribution",
                 "is not mono: one ball falls", "give \"mono\" with the radius of the ball");
-  check.range("drop_height_m", test.drop_height_m, 1e-3, 20, "m");
-  check.range("plate_tilt_rad", test.plate_tilt_rad, 0, kSteepest, "rad");
+  check_dimensions(check, test, drop_dimensions);
   return check.take();
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <numbers>
 #include <vector>
 
+#include "core/apparatus/dimension.h"
 #include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
 #include "core/result.h"
@@ -23,6 +26,12 @@ struct DropTest : Specimen {
   double drop_height_m = 0.5;  ///< the way the ball falls until it touches the plate
   double plate_tilt_rad = 0;   ///< of the second drop; 0: there is none
 };
+
+inline constexpr std::array<Dimension<DropTest>, 2> drop_dimensions{{
+    {"drop_height_m", &DropTest::drop_height_m, 1e-3, 20, "the way the ball falls until it touches the plate"},
+    {"plate_tilt_rad", &DropTest::plate_tilt_rad, 0, 80 * std::numbers::pi / 180,
+     "of the tilted plate; 0 or left out: only the level one", true},
+}};
 
 /// Every fault that keeps this test from being simulated; places are paths of fields, e.g. "drop_height_m".
 Faults validate(const DropTest& test);

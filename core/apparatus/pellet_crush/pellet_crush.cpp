@@ -13,7 +13,6 @@ namespace pastefit {
 namespace {
 
 constexpr double kGranulesAcross = 6;  // a pellet of fewer says nothing about a continuum
-constexpr double kMostStrain = 0.8;
 
 }  // namespace
 
@@ -28,14 +27,7 @@ double filled_volume_m3(const PelletCrush& test) {
 Faults validate(const PelletCrush& test) {
   FieldChecker check;
   check_specimen(check, test);
-  check.range("die_diameter_m", test.die_diameter_m, 1e-4, 1, "m");
-  check.range("fill_height_m", test.fill_height_m, 1e-4, 1, "m");
-  check.range("pressed_height_m", test.pressed_height_m, 1e-4, 1, "m");
-  check.range("pour_speed_m_s", test.pour_speed_m_s, 1e-3, 10, "m/s");
-  check.range("punch_speed_m_s", test.punch_speed_m_s, 1e-7, 10, "m/s");
-  check.range("press_speedup", test.press_speedup, 1, 1e6, "");
-  check.range("platen_speed_m_s", test.platen_speed_m_s, 1e-4, 10, "m/s");
-  check.range("final_strain", test.final_strain, 0.01, kMostStrain, "");
+  check_dimensions(check, test, pellet_dimensions);
   check.require(test.pressed_height_m <= test.fill_height_m, "pressed_height_m",
                 "is above the fill height: the punch would press nothing", "give pressed height <= fill height");
   const double largest = largest_radius(test.grains);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "core/apparatus/dimension.h"
 #include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
 #include "core/result.h"
@@ -32,6 +34,17 @@ struct PelletCrush : Specimen {
 
   WallContact tools{2.11e11, 0.33, 0.2, 0.0, 0.0, 0.0};  ///< die, punch, platen and floor: polished steel
 };
+
+inline constexpr std::array<Dimension<PelletCrush>, 8> pellet_dimensions{{
+    {"die_diameter_m", &PelletCrush::die_diameter_m, 1e-4, 1, "inner"},
+    {"fill_height_m", &PelletCrush::fill_height_m, 1e-4, 1, "at which the granules are struck off"},
+    {"pour_speed_m_s", &PelletCrush::pour_speed_m_s, 1e-3, 10, "at which granules arrive in the die", true},
+    {"pressed_height_m", &PelletCrush::pressed_height_m, 1e-4, 1, "of the bed when the punch turns round"},
+    {"punch_speed_m_s", &PelletCrush::punch_speed_m_s, 1e-7, 10, "of the punch that presses the granules"},
+    {"press_speedup", &PelletCrush::press_speedup, 1, 1e6, "the simulation presses so many times as fast", true},
+    {"platen_speed_m_s", &PelletCrush::platen_speed_m_s, 1e-4, 10, "of the platen that crushes the pellet"},
+    {"final_strain", &PelletCrush::final_strain, 0.01, 0.8, "of the pellet, at which the platen stops", true},
+}};
 
 /// Every fault that keeps this test from being simulated; places are paths of fields, e.g. "die_diameter_m".
 Faults validate(const PelletCrush& test);

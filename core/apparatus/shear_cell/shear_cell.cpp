@@ -17,13 +17,14 @@ constexpr double kFastestInertial = 0.01;  // inertial number beyond which stres
 void check_ribs(FieldChecker& check, const ShearCell& test, const RibSizes& ribs, const std::string& name) {
   const auto at = [&](const char* field) { return name + "." + field; };
   const double height = test.fill_height_m, length = test.length_m, granule = 2 * largest_radius(test.grains);
-  check.range(at("height_m").c_str(), ribs.height_m, 0, height, "m");
-  check.range(at("thickness_m").c_str(), ribs.thickness_m, 1e-6, length, "m");
-  check.range(at("pitch_m").c_str(), ribs.pitch_m, 1e-6, length, "m");
+  check_dimensions(check, ribs, rib_dimensions, name + ".");
+  check.range(at("height_m"), ribs.height_m, 0, height, "m");
+  check.range(at("thickness_m"), ribs.thickness_m, 1e-6, length, "m");
+  check.range(at("pitch_m"), ribs.pitch_m, 1e-6, length, "m");
   if (!(ribs.pitch_m > 0 && length >= ribs.pitch_m)) return;
   const double gap = even_pitch_m(ribs, length) - ribs.thickness_m;
   check.require(
-      ribs.height_m == 0 || gap >= granule, at("pitch_m").c_str(),
+      ribs.height_m == 0 || gap >= granule, at("pitch_m"),
       "leaves " + FieldChecker::in_mm(gap) + " between two ribs, less than a granule of " +
           FieldChecker::in_mm(granule) + " (largest)",
       "set the ribs farther apart, or take granules of at most " + FieldChecker::in_mm(0.5 * gap) + " radius");
@@ -80,18 +81,7 @@ double poured_grains(const ShearCell& test) {
 Faults validate(const ShearCell& test) {
   FieldChecker check;
   check_specimen(check, test);
-  check.range("length_m", test.length_m, 1e-4, 1, "m");
-  check.range("width_m", test.width_m, 1e-4, 1, "m");
-  check.range("fill_height_m", test.fill_height_m, 1e-4, 1, "m");
-  check.range("pour_speed_m_s", test.pour_speed_m_s, 1e-3, 10, "m/s");
-  check.require(!(test.normal_stress_pa <= 0), "normal_stress_pa",
-                "is " + FieldChecker::text(test.normal_stress_pa) + " Pa: the lid would be drawn off the bed",
-                "give the pressure of the lid, above 0");
-  if (!(test.normal_stress_pa <= 0)) check.range("normal_stress_pa", test.normal_stress_pa, 1, 1e7, "Pa");
-  check.range("lid_speed_m_s", test.lid_speed_m_s, 1e-4, 10, "m/s");
-  check.range("shear_speed_m_s", test.shear_speed_m_s, 1e-8, 1, "m/s");
-  check.range("shear_speedup", test.shear_speedup, 1, 1e6, "");
-  check.range("final_displacement_m", test.final_displacement_m, 1e-5, 10, "m");
+  check_dimensions(check, test, shear_dimensions);
   check_ribs(check, test, test.lid_ribs, "lid_ribs");
   check_ribs(check, test, test.base_ribs, "base_ribs");
   check_across(check, test);

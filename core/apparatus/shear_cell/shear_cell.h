@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "core/apparatus/dimension.h"
 #include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
 #include "core/result.h"
@@ -39,6 +41,24 @@ struct ShearCell : Specimen {
 
   WallContact tools{2.11e11, 0.33, 0.2, 0.0, 0.0, 0.0};  ///< plates, ribs and sides: polished steel
 };
+
+inline constexpr std::array<Dimension<RibSizes>, 3> rib_dimensions{{
+    {"height_m", &RibSizes::height_m, 0, 1, "from the plate to the crest; 0: none"},
+    {"thickness_m", &RibSizes::thickness_m, 1e-6, 1, "along the motion"},
+    {"pitch_m", &RibSizes::pitch_m, 1e-6, 1, "from one rib to the next"},
+}};
+inline constexpr std::array<Dimension<ShearCell>, 9> shear_dimensions{{
+    {"length_m", &ShearCell::length_m, 1e-4, 1,
+     "of the piece that is simulated, along the motion; it repeats without end"},
+    {"width_m", &ShearCell::width_m, 1e-4, 1, "between the sides"},
+    {"fill_height_m", &ShearCell::fill_height_m, 1e-4, 1, "above the base plate, at which the granules are struck off"},
+    {"pour_speed_m_s", &ShearCell::pour_speed_m_s, 1e-3, 10, "at which granules arrive in the cell", true},
+    {"normal_stress_pa", &ShearCell::normal_stress_pa, 1, 1e7, "of the lid, its weight and what presses on it"},
+    {"lid_speed_m_s", &ShearCell::lid_speed_m_s, 1e-4, 10, "at which the lid sinks where nothing resists", true},
+    {"shear_speed_m_s", &ShearCell::shear_speed_m_s, 1e-8, 1, "of the base"},
+    {"shear_speedup", &ShearCell::shear_speedup, 1, 1e6, "the simulation shears so many times as fast", true},
+    {"final_displacement_m", &ShearCell::final_displacement_m, 1e-5, 1, "of the base"},
+}};
 
 /// Every fault that keeps this test from being simulated; places are paths of fields, e.g. "lid_ribs.height_m".
 Faults validate(const ShearCell& test);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "core/apparatus/dimension.h"
 #include "core/apparatus/specimen.h"
 #include "core/observe/outline.h"
 #include "core/result.h"
@@ -63,6 +65,29 @@ struct SlumpTest : Specimen {
   WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
   WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
 };
+
+inline constexpr std::array<Dimension<Mould>, 3> mould_dimensions{{
+    {"base_radius_m", &Mould::base_radius_m, 1e-3, 2, "inner, below"},
+    {"top_radius_m", &Mould::top_radius_m, 1e-3, 2, "inner, above; wider than below: a cone upside down"},
+    {"height_m", &Mould::height_m, 1e-3, 2, "to the rim"},
+}};
+inline constexpr std::array<Dimension<SlumpTest>, 2> slump_dimensions{{
+    {"table_length_m", &SlumpTest::table_length_m, 2e-3, 10, "side of the square table, and of the plate"},
+    {"lift_velocity_m_s", &SlumpTest::lift_velocity_m_s, 1e-3, 5, "at which the mould is lifted, straight upwards",
+     false, true},
+}};
+inline constexpr std::array<Dimension<DropPlate>, 4> plate_dimensions{{
+    {"length_m", &DropPlate::length_m, 2e-3, 10, "side of the square plate"},
+    {"mass_kg", &DropPlate::mass_kg, 0.1, 1000, "of the plate alone"},
+    {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1, "of its free edge, before it drops"},
+    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is lifted; default 0.5", true},
+}};
+inline constexpr std::array<Dimension<Reading>, 2> reading_dimensions{{
+    {"probe_diameter_m", &Reading::probe_diameter_m, 1e-6, 4, "of the disc over which a height at the axis is taken",
+     true},
+    {"sag_window_m", &Reading::sag_window_m, 1e-6, 10,
+     "width about the axis over which the sag of the plateau is taken", true},
+}};
 
 /// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few
 /// grains). Places are named by the field's path, e.g. "contact.bridge.d_c_m". Empty: fit to run.

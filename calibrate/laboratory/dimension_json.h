@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/base/json_reader.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/laboratory/specimen_json.h"
+#include "core/apparatus/dimension.h"
+
+namespace pastefit {
+
+// The dimensions of an apparatus (core/apparatus/dimension.h) in JSON, in SI, and in files for people, in their units.
+
+/// A field's key in files for people, and how many of the key's unit one of SI is: "base_radius_m" is
+/// "base_diameter_mm", 2000.
+struct FileKey {
+  std::string name;
+  double per_si = 1;
+};
+FileKey file_key(std::string_view field);
+
+/// A field of a test: its path in JSON, "mould.base_radius_m", and its place in laboratory files,
+/// "apparatus.mould.base_diameter_mm". Of a dimension also what the schemas say of it; of an object, which holds some,
+/// only that.
+struct FilePlace {
+  std::string field, place;
+  Range range = {};  ///< in the unit of the key
+  std::string_view meaning = {};
+  bool has_default = false, often_unstated = false;
+};
+
+template <class Owner>
+Range range_in_files(const Dimension<Owner>& dimension) {
+  const double per_si = file_key(dimension.field).per_si;
+  return {rounded(dimension.smallest * per_si, 12), rounded(dimension.largest * per_si, 12)};
+}
+
+/// Adds the places of an object's dimensions; `field` and `place` are those of the object, empty for the test itself.
+template <class Owner, std::size_t count>
+void add_places(std::vector<FilePlace>& out, const std::array<Dimension<Owner>, count>& dimensions,
+                const std::string& field = "", const std::string& place = "apparatus") {
+  const std::string prefix = field.empty() ? "" : field + ".";
+  for (const Dimension<Owner>& one : dimensions)
+    out.push_back({prefix + std::string(one.field), place + "." + file_key(one.field).name, range_in_files(one),
+                   one.meaning, one.has_default, one.often_unstated});
+  if (!field.empty()) out.push_back({field, place});
+}
+
+/// Names them to an `ObjectReader` or `ObjectWriter` of JSON in SI.
+template <class Fields, class Object, class Owner, std::size_t count>
+void describe_dimensions(Fields& fields, Object& object, const std::array<Dimension<Owner>, count>& dimensions) {
+  for (const Dimension<Owner>& one : dimensions)
+    fields.number(one.field.data(), object.*one.value, any_number, required);
+}
+
+/// Reads them from a file for people. `need`: of those without a default.
+template <class Owner, std::size_t count>
+void read_dimensions(ObjectReader& reader, Owner& owner, const std::array<Dimension<Owner>, count>& dimensions,
+                     Need need) {
+  for (const Dimension<Owner>& one : dimensions) {
+    const FileKey key = file_key(one.field);
+    reader.number(key.name, owner.*one.value, range_in_files(one), one.has_default ? Need::optional : need, key.per_si);
+  }
+}
+
+}  // namespace pastefit
