@@ -11,7 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 AS_MEASURED = "by the names of `measurements`"  # in the description of an object: its keys are those of laboratory files
-NAMES = ("lab", "study", "apparatus", "card", "case")
+NAMES = ("lab", "study", "apparatus", "card", "case", "laws")
 
 
 def number_of(value):
@@ -44,6 +44,9 @@ class Tables:
     def value_of(self, schema):
         """What may stand there, in words."""
         schema = self.resolved(schema)
+        if schema.get("$ref", "#")[0] != "#":  # of another schema: "laws.schema.json#/properties/normal"
+            file, key = schema["$ref"].split(".schema.json#/properties/")
+            return f"as [{key}]({file}.md)"
         if "$ref" in schema:
             place, name = schema["$ref"].removeprefix("#/").rsplit("/", 1)
             return f"as [{name}](#{name.lower()})" if place == "definitions" else f"as `{name}`"

@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 STUDY = SOURCE / "data/studies/concrete-mix-20.json"
 CARD = SOURCE / "data/cards/concrete-mix-79.json"
 LAB = SOURCE / "data/lab/concrete-mix-20.json"

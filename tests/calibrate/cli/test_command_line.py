@@ -22,6 +22,7 @@ import xml.etree.ElementTree as xml
 
 import jsonschema
 from desk import CARD, PROGRAM, SOURCE, LAB, APPARATUS, TWO, COARSE, Desk, run
+import schemas
 
 
 class CommandLine(Desk):
@@ -115,7 +116,7 @@ class CommandLine(Desk):
         for word in ("strength_pa", "attraction at touch", "step1.height_mm", "laboratory"):
             self.assertIn(word, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
-        jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
+        jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))
         with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
             (stored,) = store.execute("SELECT count(*) FROM evaluations").fetchone()
         self.assertEqual(stored, card["search"]["simulations"])
@@ -217,7 +218,7 @@ class CommandLine(Desk):
                       "formation_ratio was known to be 0.8 +- 0.1"):
             self.assertIn(words, result.stdout)
         card = json.loads((self.out / "card.json").read_text())
-        jsonschema.validate(card, json.loads((SOURCE / "data/schema/card.schema.json").read_text()))
+        jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))
         self.assertEqual([test["name"] for test in card["tests"]], ["slow", "fast", "later"])
         slow, fast, later = card["tests"]
         self.assertNotIn("within_noise", slow)

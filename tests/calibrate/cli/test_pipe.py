@@ -12,6 +12,7 @@ import unittest
 
 import jsonschema
 from desk import SOURCE, Desk, run
+import schemas
 
 LAWS = ("edem-notes", "csv", "mercurydpm")  # the first has every law
 DECKS = {"lammps-tables": ("in.two_grains", ("lmp", "-log", "none", "-in")),
@@ -27,7 +28,7 @@ def template(name):
 
 
 def schema(name):
-    return json.loads((SOURCE / f"data/schema/{name}.schema.json").read_text())
+    return schemas.schema(SOURCE / "data", name)
 
 
 def kinds():

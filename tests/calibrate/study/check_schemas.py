@@ -11,13 +11,16 @@ import sys
 
 import jsonschema
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import schemas
+
 FOLDERS = {"apparatus": "apparatus", "lab": "lab", "study": "studies", "card": "cards", "case": "../tests/cases"}
 
 
 def validator(data, kind):
-    schema = json.loads((data / "schema" / f"{kind}.schema.json").read_text(encoding="utf-8"))
-    jsonschema.Draft7Validator.check_schema(schema)
-    return jsonschema.Draft7Validator(schema)
+    known = schemas.schema(data, kind)
+    jsonschema.Draft7Validator.check_schema(known)
+    return jsonschema.Draft7Validator(known)
 
 
 def spoiled(document, path, value=None):
