@@ -19,7 +19,13 @@ export async function openPage(browser, file, options = {}, prepare = async () =
   const page = await context.newPage();
   page.faults = [];
   page.requests = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && page.faults.push(message.text()));
+  page.on(
+    "console",
+    (message) =>
+      ["error", "warning"].includes(message.type()) &&
+      !/GPU stall|GL Driver/.test(message.text()) &&
+      page.faults.push(message.text()),
+  );
   page.on("pageerror", (error) => page.faults.push(String(error)));
   page.on("request", (request) => page.requests.push(request.url()));
   page.on("dialog", (dialog) => {
@@ -35,19 +41,24 @@ export async function openPage(browser, file, options = {}, prepare = async () =
 
 /// Until the film of a page is there; in milliseconds since the page was asked for.
 export async function filmIsThere(page) {
-  await page.waitForFunction(() => document.querySelector(".player")?.player?.scene.pictures > 0, null, { timeout: 60_000 });
+  await page.waitForFunction(() => document.querySelector(".player")?.player?.scene.pictures > 0, null, {
+    timeout: 60_000,
+  });
   return page.evaluate(() => performance.now());
 }
 
 /// Two pictures later, so that what was asked for is drawn.
 export async function drawn(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  await page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))),
+  );
 }
 
 /// What the canvas shows: how many different colours, and a number that another picture hardly has too.
 export async function pixels(page) {
   return page.evaluate(() => {
-    const canvas = document.querySelector("canvas.stage"), copy = document.createElement("canvas");
+    const canvas = document.querySelector("canvas.stage"),
+      copy = document.createElement("canvas");
     [copy.width, copy.height] = [canvas.width, canvas.height];
     const context = copy.getContext("2d");
     context.drawImage(canvas, 0, 0);

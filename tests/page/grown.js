@@ -5,7 +5,8 @@ import { readFileSync, readdirSync } from "node:fs";
 /// enough. Gives how many there are.
 export async function grow(page, least) {
   return page.evaluate((count) => {
-    const place = document.querySelector(".player"), { film, constructor: Player } = place.player;
+    const place = document.querySelector(".player"),
+      { film, constructor: Player } = place.player;
     const same = (value) => value;
     let grown = film;
     while (Math.min(...grown.reels.map((reel) => reel.count)) < count) {
@@ -24,7 +25,11 @@ export async function grow(page, least) {
           radii: eightfold(reel.radii, (radius) => radius / 2),
           frames: reel.frames.map((frame) => ({
             ...frame,
-            places: frame.places.map((list, axis) => eightfold(list, (at, i, k) => Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * reel.radii[i]) / old.quantum))),
+            places: frame.places.map((list, axis) =>
+              eightfold(list, (at, i, k) =>
+                Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * reel.radii[i]) / old.quantum),
+              ),
+            ),
             speeds: eightfold(frame.speeds, same),
             touching: eightfold(frame.touching, same),
             pulls: eightfold(frame.pulls, same),
@@ -44,12 +49,14 @@ export function processorSeconds() {
   const known = new Map();
   for (const name of readdirSync("/proc").filter((one) => /^\d+$/.test(one)))
     try {
-      const told = readFileSync(`/proc/${name}/stat`, "utf8"), rest = told.slice(told.lastIndexOf(")") + 2).split(" ");
+      const told = readFileSync(`/proc/${name}/stat`, "utf8"),
+        rest = told.slice(told.lastIndexOf(")") + 2).split(" ");
       known.set(Number(name), { parent: Number(rest[1]), ticks: Number(rest[11]) + Number(rest[12]) });
     } catch {
       // it has ended
     }
-  const isOurs = (id) => id !== 0 && known.has(id) && (known.get(id).parent === process.pid || isOurs(known.get(id).parent));
+  const isOurs = (id) =>
+    id !== 0 && known.has(id) && (known.get(id).parent === process.pid || isOurs(known.get(id).parent));
   let ticks = 0;
   for (const [id, one] of known) if (isOurs(id)) ticks += one.ticks;
   return ticks / 100;
@@ -70,26 +77,31 @@ export async function drawTest(page, count) {
 
 /// The share of the picture's pixels that are another colour where all grains are drawn, also those behind others.
 export async function shareHidden(page, view, sliced, share) {
-  return page.evaluate(([name, cut, along]) => {
-    const { scene, film } = document.querySelector(".player").player;
-    const from = film.phases().find(({ name: phase }) => !phase.startsWith("fill.")).begin;
-    scene.look(name);
-    scene.slice(cut);
-    scene.time = from + along * (film.end - from);
-    const gl = scene.renderer.getContext(), { cover } = scene.grains;
-    const picture = () => {
-      scene.draw();
-      const bytes = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
-      gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-      return new Uint32Array(bytes.buffer);
-    };
-    const seen = picture(), drawn = scene.drawn;
-    cover.look = (camera, { count }) => {
-      for (let i = 0; i < count; ++i) cover.seen[i] = i;
-      return count;
-    };
-    const all = picture();
-    delete cover.look;
-    return { lost: seen.filter((colour, i) => colour !== all[i]).length / seen.length, drawn: drawn / scene.drawn };
-  }, [view, sliced, share]);
+  return page.evaluate(
+    ([name, cut, along]) => {
+      const { scene, film } = document.querySelector(".player").player;
+      const from = film.phases().find(({ name: phase }) => !phase.startsWith("fill.")).begin;
+      scene.look(name);
+      scene.slice(cut);
+      scene.time = from + along * (film.end - from);
+      const gl = scene.renderer.getContext(),
+        { cover } = scene.grains;
+      const picture = () => {
+        scene.draw();
+        const bytes = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+        gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+        return new Uint32Array(bytes.buffer);
+      };
+      const seen = picture(),
+        drawn = scene.drawn;
+      cover.look = (camera, { count }) => {
+        for (let i = 0; i < count; ++i) cover.seen[i] = i;
+        return count;
+      };
+      const all = picture();
+      delete cover.look;
+      return { lost: seen.filter((colour, i) => colour !== all[i]).length / seen.length, drawn: drawn / scene.drawn };
+    },
+    [view, sliced, share],
+  );
 }

@@ -10,7 +10,8 @@ await filmIsThere(shown);
 await shown.evaluate(() => {
   const { player } = document.querySelector(".player");
   const frame = document.createElement("div");
-  frame.style.cssText = "position:fixed;inset:0;z-index:9;background:var(--card);display:grid;grid-template-columns:290px 290px 1fr;gap:12px;padding:12px;align-items:start";
+  frame.style.cssText =
+    "position:fixed;inset:0;z-index:9;background:var(--card);display:grid;grid-template-columns:290px 290px 1fr;gap:12px;padding:12px;align-items:start";
   const still = (time) => {
     player.show(time);
     player.scene.resize();
@@ -25,7 +26,11 @@ await shown.evaluate(() => {
   camera.position.sub(controls.target).multiplyScalar(0.62).add(controls.target);
   player.scene.slice(true);
   const lift = player.film.phases().find(({ name }) => name === "step1.lift");
-  frame.append(still(lift.begin + 0.45 * (lift.end - lift.begin)), still(player.film.end), document.querySelector(".test-drawing"));
+  frame.append(
+    still(lift.begin + 0.45 * (lift.end - lift.begin)),
+    still(player.film.end),
+    document.querySelector(".test-drawing"),
+  );
   frame.querySelector("figcaption").remove(); // the README has its own
   document.body.append(frame);
 });

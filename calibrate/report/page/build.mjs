@@ -42,7 +42,11 @@ const packages = [
 const licences = packages.map((place) => {
   const about = JSON.parse(readFileSync(join(here, place, "package.json"), "utf8"));
   const file = readdirSync(join(here, place)).find((name) => /^licen[cs]e/i.test(name));
-  const text = file ? readFileSync(join(here, place, file), "utf8").replace(/\r/g, "").trim() : "(no text in the package)";
+  const text = file
+    ? readFileSync(join(here, place, file), "utf8")
+        .replace(/\r/g, "")
+        .trim()
+    : "(no text in the package)";
   return `${about.name} ${about.version}, ${about.license}\n\n${text}\n`;
 });
 

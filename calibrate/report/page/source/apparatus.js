@@ -6,7 +6,10 @@ const around = 72; // corners of what is round
 function shellOf({ base_m: base, radii_m: [lower, upper], height_m: height }) {
   const side = new THREE.CylinderGeometry(upper, lower, height, around, 1, true);
   side.rotateX(Math.PI / 2).translate(base[0], base[1], base[2] + height / 2);
-  const rims = [[lower, 0], [upper, height]].map(([radius, z]) => {
+  const rims = [
+    [lower, 0],
+    [upper, height],
+  ].map(([radius, z]) => {
     const corners = Array.from({ length: around + 1 }, (_, k) => {
       const angle = (2 * Math.PI * k) / around;
       return new THREE.Vector3(base[0] + radius * Math.cos(angle), base[1] + radius * Math.sin(angle), base[2] + z);
@@ -17,7 +20,8 @@ function shellOf({ base_m: base, radii_m: [lower, upper], height_m: height }) {
 }
 
 function rectangleOf(centre, along, across, [half, halfAcross]) {
-  const corner = (a, b) => new THREE.Vector3(...centre).addScaledVector(along, a * half).addScaledVector(across, b * halfAcross);
+  const corner = (a, b) =>
+    new THREE.Vector3(...centre).addScaledVector(along, a * half).addScaledVector(across, b * halfAcross);
   const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
   const side = new THREE.BufferGeometry().setFromPoints([0, 1, 2, 0, 2, 3].map((k) => corners[k]));
   side.computeVertexNormals();
@@ -41,10 +45,16 @@ function planeOf(wall, { reach, centre }) {
 function ribsOf({ base_m: [x, , z], thickness_m: thickness, height_m: height, pitch_m: pitch }, { reach, centre }) {
   const corners = [];
   const rims = [];
-  const from = centre.x - reach, to = centre.x + reach;
+  const from = centre.x - reach,
+    to = centre.x + reach;
   for (let middle = x + Math.ceil((from - x) / pitch) * pitch; middle <= to; middle += pitch) {
     const [left, right] = [middle - thickness / 2, middle + thickness / 2];
-    const outline = [[left, z], [left, z + height], [right, z + height], [right, z]];
+    const outline = [
+      [left, z],
+      [left, z + height],
+      [right, z + height],
+      [right, z],
+    ];
     const near = outline.map(([a, b]) => new THREE.Vector3(a, centre.y - reach, b));
     const far = outline.map(([a, b]) => new THREE.Vector3(a, centre.y + reach, b));
     for (const k of [0, 1, 2]) corners.push(near[k], near[k + 1], far[k + 1], near[k], far[k + 1], far[k]);

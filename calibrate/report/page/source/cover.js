@@ -1,7 +1,8 @@
 // Which grains of a picture can be seen: in a heap of ten thousand most lie behind others, and each that is drawn costs,
 // seen or not.
 
-const cellsPerRadius = 4, mostCells = 640;
+const cellsPerRadius = 4,
+  mostCells = 640;
 
 /// A picture in cells, filled from the front to the back with the discs that grains cover.
 export class Cover {
@@ -21,12 +22,14 @@ export class Cover {
     const size = this.empty(placed, radii, up, across / up);
     let kept = 0;
     for (const i of placed) {
-      const [x, y, z] = [this.places[3 * i], this.places[3 * i + 1], -this.places[3 * i + 2]], radius = radii[i];
+      const [x, y, z] = [this.places[3 * i], this.places[3 * i + 1], -this.places[3 * i + 2]],
+        radius = radii[i];
       // What is cut, or about the camera itself, is drawn and hides nothing.
       const whole = z > 2 * radius && !(slice && this.side(i, slice) < radius);
       if (!whole) this.seen[kept++] = i;
       else {
-        const column = (0.5 + (0.5 * across * x) / z) * size.columns, row = (0.5 + (0.5 * up * y) / z) * size.rows;
+        const column = (0.5 + (0.5 * across * x) / z) * size.columns,
+          row = (0.5 + (0.5 * up * y) / z) * size.rows;
         const reach = (0.5 * up * radius * size.rows) / z;
         // Off the axis a sphere looks longer than it is: asked about generously, covered sparingly.
         if (this.covers(size, column, row, 1.08 * reach + 1, 0.94 * reach)) this.seen[kept++] = i;
@@ -45,7 +48,8 @@ export class Cover {
     let there = 0;
     for (let i = 0; i < count; ++i) {
       const [x, y, z] = [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]];
-      for (let row = 0; row < 3; ++row) this.places[3 * i + row] = m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row];
+      for (let row = 0; row < 3; ++row)
+        this.places[3 * i + row] = m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row];
       this.away[i] = Math.hypot(this.places[3 * i], this.places[3 * i + 1], this.places[3 * i + 2]);
       if (this.places[3 * i + 2] > radii[i] || (slice && this.side(i, slice) < -radii[i])) continue;
       this.order[there++] = i;
@@ -70,16 +74,22 @@ export class Cover {
     let free = false;
     const last = Math.min(Math.floor(row + asked), rows - 1);
     for (let r = Math.max(Math.floor(row - asked), 0); r <= last; ++r) {
-      const off = r + 0.5 - row, half = asked * asked - off * off;
+      const off = r + 0.5 - row,
+        half = asked * asked - off * off;
       if (half < 0) continue;
-      const wide = Math.sqrt(half), from = Math.max(Math.floor(column - wide), 0), to = Math.min(Math.floor(column + wide), columns - 1);
+      const wide = Math.sqrt(half),
+        from = Math.max(Math.floor(column - wide), 0),
+        to = Math.min(Math.floor(column + wide), columns - 1);
       if (!free) for (let c = from; c <= to && !free; ++c) free = this.cells[r * columns + c] === 0;
     }
     if (!free) return false;
     for (let r = Math.max(Math.ceil(row - covered), 0); r < Math.min(row + covered, rows) - 1; ++r) {
-      const off = Math.max(Math.abs(r - row), Math.abs(r + 1 - row)), half = covered * covered - off * off;
+      const off = Math.max(Math.abs(r - row), Math.abs(r + 1 - row)),
+        half = covered * covered - off * off;
       if (half <= 0) continue;
-      const wide = Math.sqrt(half), from = Math.max(Math.ceil(column - wide), 0), to = Math.min(Math.floor(column + wide), columns);
+      const wide = Math.sqrt(half),
+        from = Math.max(Math.ceil(column - wide), 0),
+        to = Math.min(Math.floor(column + wide), columns);
       if (to > from) this.cells.fill(1, r * columns + from, r * columns + to);
     }
     return true;

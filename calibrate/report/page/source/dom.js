@@ -23,14 +23,22 @@ export function svgElement(tag, attributes = {}, ...children) {
 
 /// A part of the page with a heading and, below it, a sentence that says what is to be seen.
 export function section(id, heading, lead, ...children) {
-  return element("section", { id, "aria-labelledby": `${id}-heading` },
-    element("h2", { id: `${id}-heading` }, heading), lead ? element("p", { class: "lead" }, lead) : null, ...children);
+  return element(
+    "section",
+    { id, "aria-labelledby": `${id}-heading` },
+    element("h2", { id: `${id}-heading` }, heading),
+    lead ? element("p", { class: "lead" }, lead) : null,
+    ...children,
+  );
 }
 
 /// A labelled choice; options are [value, text]; `changed` is called with the value.
 export function choice(label, options, value, changed) {
-  const select = element("select", { onchange: (event) => changed(event.target.value) },
-    ...options.map(([key, text]) => element("option", { value: key, selected: key === value }, text)));
+  const select = element(
+    "select",
+    { onchange: (event) => changed(event.target.value) },
+    ...options.map(([key, text]) => element("option", { value: key, selected: key === value }, text)),
+  );
   return element("label", { class: "choice" }, element("span", {}, label), select);
 }
 

@@ -28,7 +28,8 @@ class Columns {
   }
   /// `count` numbers of 16 bits, each added to that of `before`.
   words(count, before) {
-    const low = this.take(count), high = this.take(count);
+    const low = this.take(count),
+      high = this.take(count);
     const out = new Uint16Array(count);
     for (let i = 0; i < count; ++i) out[i] = low[i] + 256 * high[i] + (before ? before[i] : 0);
     return out;
@@ -97,14 +98,16 @@ export class Film {
     const frames = reel.frames;
     let next = frames.findIndex((frame) => frame.time > time);
     if (next < 0) next = frames.length;
-    const one = frames[Math.max(next - 1, 0)], other = frames[Math.min(next, frames.length - 1)];
+    const one = frames[Math.max(next - 1, 0)],
+      other = frames[Math.min(next, frames.length - 1)];
     const gap = other.time - one.time;
     return { reel, one, other, share: gap > 0 ? Math.min(Math.max((time - one.time) / gap, 0), 1) : 0 };
   }
 
   /// The largest of heights [m], neighbours and pulls [N] in the film, for scales of colour.
   extremes() {
-    let height = 0, touching = 1;
+    let height = 0,
+      touching = 1;
     for (const { frames } of this.reels) {
       for (const frame of frames.filter((one) => !one.phase.startsWith("fill.pour"))) {
         for (const steps of frame.places[2]) height = Math.max(height, steps);

@@ -70,7 +70,8 @@ void main() {
 export const rampColour = interpolateViridis;
 
 function rampTexture() {
-  const count = 256, bytes = new Uint8Array(4 * count);
+  const count = 256,
+    bytes = new Uint8Array(4 * count);
   for (let i = 0; i < count; ++i) {
     const { r, g, b } = new THREE.Color(rampColour(i / (count - 1)));
     bytes.set([255 * r, 255 * g, 255 * b, 255], 4 * i);
@@ -87,7 +88,8 @@ export class Grains {
     this.film = film;
     this.extremes = film.extremes();
     const geometry = new THREE.BufferGeometry();
-    const dynamic = (width) => new THREE.BufferAttribute(new Float32Array(width * film.most), width).setUsage(THREE.DynamicDrawUsage);
+    const dynamic = (width) =>
+      new THREE.BufferAttribute(new Float32Array(width * film.most), width).setUsage(THREE.DynamicDrawUsage);
     geometry.setAttribute("position", dynamic(3));
     geometry.setAttribute("radius", dynamic(1));
     geometry.setAttribute("value", dynamic(1));
@@ -115,7 +117,8 @@ export class Grains {
     const { position, radius, value } = this.points.geometry.attributes;
     const [places, radii, values] = [position.array, radius.array, value.array];
     for (let axis = 0; axis < 3; ++axis) {
-      const from = one.places[axis], to = other.places[axis];
+      const from = one.places[axis],
+        to = other.places[axis];
       for (let i = 0; i < reel.count; ++i)
         places[3 * i + axis] = low[axis] + quantum * (from[i] + share * (to[i] - from[i]));
     }

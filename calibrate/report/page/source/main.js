@@ -11,7 +11,8 @@ import { testsPart } from "./tests.js";
 import { typeInPart } from "./type_in.js";
 import { missingPart, verdictPart } from "./verdict.js";
 
-const always = () => true, withCard = (content) => content.tests !== undefined;
+const always = () => true,
+  withCard = (content) => content.tests !== undefined;
 const parts = [
   ["", certificatePart, withCard],
   ["", verdictPart, always],
@@ -37,14 +38,26 @@ function build(content) {
       made = part(content);
     } catch (error) {
       console.error(error);
-      made = element("p", { class: "notice" }, `A part of the page could not be drawn (${name || "top"}): ${error.message}`);
+      made = element(
+        "p",
+        { class: "notice" },
+        `A part of the page could not be drawn (${name || "top"}): ${error.message}`,
+      );
     }
     if (!made) continue;
     page.append(made);
     if (name && made.id) links.push(element("a", { href: `#${made.id}` }, name));
   }
-  document.getElementById("verdict")?.after(element("nav", { "aria-label": "Parts of the page" }, ...links,
-    element("button", { type: "button", onclick: () => print() }, "Print")));
+  document
+    .getElementById("verdict")
+    ?.after(
+      element(
+        "nav",
+        { "aria-label": "Parts of the page" },
+        ...links,
+        element("button", { type: "button", onclick: () => print() }, "Print"),
+      ),
+    );
   if (content.under_way) setTimeout(() => location.reload(), 10_000);
   document.title = `${content.title ?? "calibration"} \u2013 pastefit`;
 }
@@ -54,5 +67,7 @@ try {
   build(JSON.parse(source.textContent));
 } catch (error) {
   console.error(error);
-  document.getElementById("page").replaceChildren(element("p", { class: "notice" }, `The content of this page cannot be read: ${error.message}`));
+  document
+    .getElementById("page")
+    .replaceChildren(element("p", { class: "notice" }, `The content of this page cannot be read: ${error.message}`));
 }

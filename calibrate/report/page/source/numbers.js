@@ -8,7 +8,10 @@ export function number(value, digits = 4) {
   const size = Math.abs(value);
   const text =
     size !== 0 && (size >= 1e6 || size < 1e-3)
-      ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+      ? value
+          .toExponential(digits - 1)
+          .replace(/\.?0+e/, "e")
+          .replace("e+", "e")
       : String(Number(value.toPrecision(digits)));
   return text.replace(/-/g, minus);
 }
@@ -21,7 +24,9 @@ export function atNoise(value, deviation, digits = 4) {
 }
 
 export function plusMinus(value, deviation, digits = 4) {
-  return deviation > 0 ? `${atNoise(value, deviation, digits)} \u00b1 ${atNoise(deviation, deviation, 2)}` : number(value, digits);
+  return deviation > 0
+    ? `${atNoise(value, deviation, digits)} \u00b1 ${atNoise(deviation, deviation, 2)}`
+    : number(value, digits);
 }
 
 /// A difference, with its sign.
@@ -34,7 +39,15 @@ export function errorWords({ standard_error: error }) {
   return error === undefined ? " (one packing, error unknown)" : "";
 }
 
-const unitsOfNames = [["_mm", "mm"], ["_pa", "Pa"], ["_kg", "kg"], ["_g", "g"], ["_rad_s", "rad/s"], ["_s", "s"], ["_n", "N"]];
+const unitsOfNames = [
+  ["_mm", "mm"],
+  ["_pa", "Pa"],
+  ["_kg", "kg"],
+  ["_g", "g"],
+  ["_rad_s", "rad/s"],
+  ["_s", "s"],
+  ["_n", "N"],
+];
 
 /// The unit that stands at the end of a name: "step1.height_mm" -> "mm".
 export function unitOf(name) {
@@ -49,7 +62,12 @@ export function fullName(test, reading) {
 /// The name without its unit, for people: "plate/step1.height_mm" -> "plate: step 1, height".
 export function words(name) {
   const unit = unitsOfNames.find(([end]) => name.endsWith(end))?.[0] ?? "";
-  return name.slice(0, name.length - unit.length).replace("/", ": ").replace(/\bstep(\d)\./, "step $1, ").replace(/\./g, ", ").replace(/_/g, " ");
+  return name
+    .slice(0, name.length - unit.length)
+    .replace("/", ": ")
+    .replace(/\bstep(\d)\./, "step $1, ")
+    .replace(/\./g, ", ")
+    .replace(/_/g, " ");
 }
 
 export function duration(seconds) {

@@ -20,8 +20,13 @@ function scaleOf(by, extremes) {
     pull: ["0", `${number(1e3 * extremes.pull, 3)} mN, the sum of what bridges and sticking contacts pull on a grain`],
   }[by];
   const stops = Array.from({ length: 11 }, (_, k) => rampColour(k / 10)).join(", ");
-  return element("p", { class: "scale" }, element("span", {}, ends[0]),
-    element("span", { class: "ramp", style: `background: linear-gradient(to right, ${stops})` }), element("span", {}, ends[1]));
+  return element(
+    "p",
+    { class: "scale" },
+    element("span", {}, ends[0]),
+    element("span", { class: "ramp", style: `background: linear-gradient(to right, ${stops})` }),
+    element("span", {}, ends[1]),
+  );
 }
 
 class Player {
@@ -31,8 +36,12 @@ class Player {
     this.speed = 1;
     this.playing = false;
     this.time = film.begin;
-    this.canvas = element("canvas", { class: "stage", tabindex: 0, role: "img",
-      "aria-label": "The grains of the confirmed run in three dimensions. Arrow keys turn, space plays." });
+    this.canvas = element("canvas", {
+      class: "stage",
+      tabindex: 0,
+      role: "img",
+      "aria-label": "The grains of the confirmed run in three dimensions. Arrow keys turn, space plays.",
+    });
     this.scene = new Scene(this.canvas, film);
     this.scale = element("div");
     place.append(this.canvas, this.controls(), this.scale);
@@ -46,19 +55,68 @@ class Player {
 
   controls() {
     this.button = element("button", { type: "button", class: "play", onclick: () => this.toggle() }, "\u25b6 Play");
-    this.slider = element("input", { type: "range", min: this.film.begin, max: this.film.end, step: "any",
-      "aria-label": "Time in the film", oninput: () => this.show(Number(this.slider.value)) });
+    this.slider = element("input", {
+      type: "range",
+      min: this.film.begin,
+      max: this.film.end,
+      step: "any",
+      "aria-label": "Time in the film",
+      oninput: () => this.show(Number(this.slider.value)),
+    });
     this.clock = element("output", { class: "clock" });
-    const phases = element("div", { class: "phases" }, ...this.film.phases().map(({ name, begin }) =>
-      element("button", { type: "button", onclick: () => this.show(begin), "data-phase": name }, phaseWords(name))));
+    const phases = element(
+      "div",
+      { class: "phases" },
+      ...this.film
+        .phases()
+        .map(({ name, begin }) =>
+          element("button", { type: "button", onclick: () => this.show(begin), "data-phase": name }, phaseWords(name)),
+        ),
+    );
     this.phases = phases;
-    return element("div", { class: "controls" },
-      element("div", { class: "row" }, this.button, this.slider, this.clock), phases,
-      element("div", { class: "row" },
-        choice("Speed", [["0.25", "a quarter"], ["1", "as it is"], ["4", "four times"]], "1", (value) => (this.speed = Number(value))),
-        choice("Colour", [["height", "height"], ["speed", "speed"], ["coordination", "coordination"], ...(this.film.mostPull > 0 ? [["pull", "bridge force"]] : [])], "height", (value) => this.recolour(value)),
-        choice("View", [["slanted", "slanted"], ["front", "front"], ["side", "side"], ["top", "top"]], "slanted", (value) => this.scene.look(value)),
-        toggle("Slice at the symmetry plane", false, (on) => this.scene.slice(on))));
+    return element(
+      "div",
+      { class: "controls" },
+      element("div", { class: "row" }, this.button, this.slider, this.clock),
+      phases,
+      element(
+        "div",
+        { class: "row" },
+        choice(
+          "Speed",
+          [
+            ["0.25", "a quarter"],
+            ["1", "as it is"],
+            ["4", "four times"],
+          ],
+          "1",
+          (value) => (this.speed = Number(value)),
+        ),
+        choice(
+          "Colour",
+          [
+            ["height", "height"],
+            ["speed", "speed"],
+            ["coordination", "coordination"],
+            ...(this.film.mostPull > 0 ? [["pull", "bridge force"]] : []),
+          ],
+          "height",
+          (value) => this.recolour(value),
+        ),
+        choice(
+          "View",
+          [
+            ["slanted", "slanted"],
+            ["front", "front"],
+            ["side", "side"],
+            ["top", "top"],
+          ],
+          "slanted",
+          (value) => this.scene.look(value),
+        ),
+        toggle("Slice at the symmetry plane", false, (on) => this.scene.slice(on)),
+      ),
+    );
   }
 
   recolour(by) {

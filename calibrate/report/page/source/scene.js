@@ -51,13 +51,18 @@ export class Scene {
     const frames = film.reels.flatMap((reel) => reel.frames);
     const first = frames.find(({ phase }) => !phase.startsWith("fill.")) ?? frames.at(-1);
     const sides = [0, 1].map((axis) => {
-      let low = Infinity, high = -Infinity;
+      let low = Infinity,
+        high = -Infinity;
       for (const steps of first.places[axis]) [low, high] = [Math.min(low, steps), Math.max(high, steps)];
-      const middle = film.low[axis] + 0.5 * (low + high) * film.quantum, width = (high - low) * film.quantum;
+      const middle = film.low[axis] + 0.5 * (low + high) * film.quantum,
+        width = (high - low) * film.quantum;
       // What stands about the axis does so but for its grains.
       return { middle: Math.abs(middle) < 0.05 * width ? 0 : middle, width };
     });
-    return { centre: new THREE.Vector3(...sides.map(({ middle }) => middle), 0), across: Math.hypot(...sides.map(({ width }) => width)) };
+    return {
+      centre: new THREE.Vector3(...sides.map(({ middle }) => middle), 0),
+      across: Math.hypot(...sides.map(({ width }) => width)),
+    };
   }
 
   /// How wide the grains lie about it in the end.
@@ -126,7 +131,9 @@ export class Scene {
 
   /// Takes coarser pictures where one takes too long: `milliseconds` since the last one, 0 when the film stops.
   pace(milliseconds) {
-    const tooLong = 80, coarsest = 0.5, before = this.sharpness;
+    const tooLong = 80,
+      coarsest = 0.5,
+      before = this.sharpness;
     this.interval = milliseconds > 0 ? 0.7 * this.interval + 0.3 * milliseconds : 0;
     if (milliseconds === 0) this.sharpness = 1;
     else if (this.interval > tooLong) this.sharpness = Math.max(coarsest, 0.8 * this.sharpness);

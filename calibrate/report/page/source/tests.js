@@ -11,14 +11,19 @@ function lasts({ reels }) {
 function shownWords({ run_shown: shown, film }) {
   if (film && !lasts(film)) return "The grains meet between two pictures of a film: there is none.";
   if (!shown || !film) return "This test was not simulated for this page: there is no film of it.";
-  const same = shown.same_as_card ? "It is the same run as the card's, to the last bit." : `Its readings are not the card's to the last bit: it was simulated by ${shown.program}, on this machine or another.`;
+  const same = shown.same_as_card
+    ? "It is the same run as the card's, to the last bit."
+    : `Its readings are not the card's to the last bit: it was simulated by ${shown.program}, on this machine or another.`;
   return `One run with the fitted parameters, on packing ${shown.packing}. ${same} Between its pictures grains move in straight lines.`;
 }
 
 /// The drawing, its simulated lengths with the standard errors of the readings that they are.
 export function withNoise(drawing, readings) {
   const error = (name) => readings.find((one) => one.name === name)?.standard_error ?? 0;
-  return { ...drawing, lengths: drawing.lengths.map((one) => (one.by === "simulation" ? { ...one, deviation: error(one.reading) } : one)) };
+  return {
+    ...drawing,
+    lengths: drawing.lengths.map((one) => (one.by === "simulation" ? { ...one, deviation: error(one.reading) } : one)),
+  };
 }
 
 function testPart(test, index) {
@@ -32,5 +37,12 @@ function testPart(test, index) {
 }
 
 export function testsPart({ tests }) {
-  return section("tests", "The test", tests.some(({ film }) => film && lasts(film)) ? "Drag to turn; click, then scroll to zoom; keys: arrows and space." : null, ...tests.flatMap(testPart));
+  return section(
+    "tests",
+    "The test",
+    tests.some(({ film }) => film && lasts(film))
+      ? "Drag to turn; click, then scroll to zoom; keys: arrows and space."
+      : null,
+    ...tests.flatMap(testPart),
+  );
 }
