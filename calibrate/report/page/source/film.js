@@ -23,9 +23,9 @@ const perDecade = 51;
 
 /** @param {string} text in base64 */
 async function inflated(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   try {
+    const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
     return new Uint8Array(await new Response(stream).arrayBuffer());
   } catch {
     // What the browser says of it, "Failed to fetch", sends people to look at their network.
@@ -109,6 +109,7 @@ export class Film {
   static async read(index, text) {
     const columns = new Columns(await inflated(text));
     const reels = index.reels.map((reel) => reelOf(columns, reel, index.quantum_m));
+    if (columns.place < columns.bytes.length) throw new Error("the film goes on behind its last frame");
     return new Film(index, reels);
   }
 

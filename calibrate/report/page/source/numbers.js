@@ -9,15 +9,20 @@ const none = "\u2013";
  */
 export function number(value, digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return none;
-  const size = Math.abs(value);
-  const text =
-    size !== 0 && (size >= 1e6 || size < 1e-3)
-      ? value
-          .toExponential(digits - 1)
-          .replace(/\.?0+e/, "e")
-          .replace("e+", "e")
-      : String(Number(value.toPrecision(digits)));
-  return text.replace(/-/g, minus);
+  const rounded = Number(value.toPrecision(digits));
+  const size = Math.abs(rounded);
+  if (size === 0 || (size >= 1e-3 && size < 1e6)) return signed(String(rounded));
+  return signed(
+    rounded
+      .toExponential(digits - 1)
+      .replace(/\.?0+e/, "e")
+      .replace("e+", "e"),
+  );
+}
+
+/** @param {string} text of a number; without the sign of one that is rounded to zero */
+function signed(text) {
+  return Number(text) === 0 ? text.replace("-", "") : text.replace(/-/g, minus);
 }
 
 /**
@@ -26,9 +31,13 @@ export function number(value, digits = 4) {
  * @param {number | undefined} deviation
  */
 export function atNoise(value, deviation, digits = 4) {
-  if (!deviation || !(deviation > 0) || !Number.isFinite(value)) return number(value, digits);
-  const decimals = 1 - Math.floor(Math.log10(deviation));
-  return decimals < 0 || decimals > 6 ? number(value, digits) : value.toFixed(decimals).replace(/-/g, minus);
+  if (!deviation || !(deviation > 0) || !Number.isFinite(deviation) || !Number.isFinite(value))
+    return number(value, digits);
+  const decimals = 1 - Math.floor(Math.log10(Number(deviation.toPrecision(2))));
+  if (decimals > 6) return number(value, digits);
+  if (decimals >= 0) return signed(value.toFixed(decimals));
+  const step = 10 ** -decimals;
+  return number(Math.round(value / step) * step, 15);
 }
 
 /**
@@ -46,7 +55,8 @@ export function plusMinus(value, deviation, digits = 4) {
  * @param {number | undefined} deviation
  */
 export function plusMinusSigned(value, deviation) {
-  return `${value > 0 ? "+" : ""}${plusMinus(value, deviation, 3)}`;
+  const isAbove = value > 0 && /[1-9]/.test(atNoise(value, deviation, 3));
+  return `${isAbove ? "+" : ""}${plusMinus(value, deviation, 3)}`;
 }
 
 /**
@@ -60,6 +70,6 @@ export function errorWords({ standard_error: error }) {
 /** @param {number} seconds */
 export function duration(seconds) {
   if (seconds < 90) return `${number(seconds, 2)} s`;
-  if (seconds < 5400) return `${Math.round(seconds / 60)} min`;
+  if (seconds < 5400) return `${number(seconds / 60, 2)} min`;
   return `${number(seconds / 3600, 2)} h`;
 }
