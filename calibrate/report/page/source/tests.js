@@ -8,12 +8,14 @@ import { filmPlayer } from "./player.js";
 /** @typedef {import("./content.js").Reading} Reading */
 /** @typedef {import("./content.js").Test} Test */
 
+const interval = 0.02; // [s] between two pictures of a film, as RunRecorder takes them
+
 /**
  * Whether there is something to be seen between the first picture of a film and its last.
  * @param {FilmIndex} film
  */
 export function lasts({ reels }) {
-  return reels.some(({ frames }) => frames[frames.length - 1].time_s - frames[0].time_s > 0.02);
+  return reels.some(({ frames }) => frames[frames.length - 1].time_s - frames[0].time_s > 1.5 * interval);
 }
 
 /** @param {Test} test */
