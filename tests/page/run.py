@@ -38,7 +38,10 @@ def need(*commands):
 
 
 def packages_of(page, place):
-    """Installs in `place` what the page's package-lock.json locks, unless that was done. Tests run side by side."""
+    """Installs in `place` what the page's package-lock.json locks, unless that was done.
+
+    Tests run side by side: one installs, the others wait, also for an npm whose test was killed (it has the lock).
+    """
     place.mkdir(parents=True, exist_ok=True)
     with open(place / "lock", "w") as busy:
         fcntl.flock(busy, fcntl.LOCK_EX)
@@ -48,7 +51,7 @@ def packages_of(page, place):
         for name in ("package.json", "package-lock.json"):
             shutil.copy(page / name, place)
         result = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=place,
-                                capture_output=True, text=True)
+                                pass_fds=[busy.fileno()], capture_output=True, text=True)
         if result.returncode != 0:
             skip(f"npm could not install the packages of the page:\n{result.stderr}")
         shutil.copy(lock, installed)
