@@ -38,7 +38,7 @@ export function words(name) {
   return name
     .slice(0, name.length - unitEnd(name).length)
     .replace("/", ": ")
-    .replace(/\bstep(\d+)\./, "step $1, ")
+    .replace(/([a-z])(\d+)\./, "$1 $2, ")
     .replace(/\./g, ", ")
     .replace(/_/g, " ");
 }

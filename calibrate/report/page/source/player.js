@@ -12,7 +12,7 @@ import { Scene } from "./scene.js";
 export function phaseWords(phase) {
   const [stage, ...rest] = phase.split(".");
   if (stage === "fill") return `filling: ${rest.join(" ")}`;
-  return `${stage.replace(/^step(\d+)$/, "step $1")}${rest.length ? `: ${rest.join(" ")}` : ""}`;
+  return `${stage.replace(/([a-z])(\d+)$/, "$1 $2")}${rest.length ? `: ${rest.join(" ")}` : ""}`;
 }
 
 /**
