@@ -195,6 +195,13 @@ class Includes(unittest.TestCase):
                 known.add(str(here.relative_to("calibrate")))
         self.assertEqual(known, SLUMP_FILES)
 
+    def test_the_page_speaks_of_no_kind_of_test(self):
+        words = re.compile(r"slump|mould|\bcone\b|drop[ _]?plate", re.I)
+        page = SOURCE / "calibrate/report/page"
+        files = [file for part in ("source", "style") for file in sorted((page / part).iterdir())]
+        self.assertTrue(files)
+        self.assertEqual([file.name for file in files if words.search(file.read_text())], [])
+
     def test_core_includes_nothing_of_calibrate(self):
         places = [place for (one, other), found in arrows().items() if one.startswith("core")
                   and other.startswith("calibrate") for place in found]

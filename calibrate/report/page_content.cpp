@@ -91,6 +91,17 @@ std::string drawn_by(DrawnBy by) {
   return names[static_cast<std::size_t>(by)];
 }
 
+ordered_json json_of_length(const DrawnLength& length) {
+  return {{"reading", length.reading},
+          {"by", drawn_by(length.by)},
+          {"from", rounded_point(length.from)},
+          {"to", rounded_point(length.to)},
+          {"first", rounded_point(length.first)},
+          {"last", rounded_point(length.last)},
+          {"value", length.value},
+          {"deviation", length.deviation}};
+}
+
 ordered_json json_of_drawing(const Drawing& drawing) {
   ordered_json out{{"name", drawing.name}, {"x", drawing.x}, {"y", drawing.y}, {"to_scale", drawing.to_scale}};
   for (const char* part : {"bands", "lines", "lengths"}) out[part] = ordered_json::array();
@@ -107,15 +118,7 @@ ordered_json json_of_drawing(const Drawing& drawing) {
                             {"points", std::move(points)},
                             {"deviation", rounded(line.deviation)}});
   }
-  for (const DrawnLength& length : drawing.lengths)
-    out["lengths"].push_back({{"reading", length.reading},
-                              {"by", drawn_by(length.by)},
-                              {"from", rounded_point(length.from)},
-                              {"to", rounded_point(length.to)},
-                              {"first", rounded_point(length.first)},
-                              {"last", rounded_point(length.last)},
-                              {"value", length.value},
-                              {"deviation", length.deviation}});
+  for (const DrawnLength& length : drawing.lengths) out["lengths"].push_back(json_of_length(length));
   return out;
 }
 
@@ -228,8 +231,22 @@ ordered_json measured_in(const Study& study) {
   return out;
 }
 
+/// What the laboratory measured of what a test leaves behind, by the names of the tests: the lengths of the last
+/// drawing that has some.
+ordered_json lengths_measured_in(const Study& study) {
+  auto out = ordered_json::object();
+  for (const StudyTest& test : study.tests)
+    for (const Drawing& drawing : drawings_of(test.lab.test, {}, test.lab.measurements)) {
+      if (drawing.lengths.empty()) continue;
+      auto& lengths = out[test.name] = ordered_json::array();
+      for (const DrawnLength& length : drawing.lengths) lengths.push_back(json_of_length(length));
+    }
+  return out;
+}
+
 ordered_json search_of(const Findings& findings) {
-  ordered_json out{{"program", findings.program}, {"measured", ordered_json::object()}};
+  ordered_json out{
+      {"program", findings.program}, {"measured", ordered_json::object()}, {"laboratory", ordered_json::object()}};
   double seconds = 0;
   for (const StoredEvaluation& one : findings.evaluations) seconds += one.wall_s;
   out["wall_s"] = seconds;
@@ -238,6 +255,7 @@ ordered_json search_of(const Findings& findings) {
     out["misfit_unit"] = unit.name();
     out["misfit_asked"] = unit.of(1);
     out["measured"] = measured_in(*findings.study);
+    out["laboratory"] = lengths_measured_in(*findings.study);
   }
   if (findings.card) {
     const SearchRecord& search = findings.card->search;

@@ -3,7 +3,11 @@ import { existsSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-export const chromiumPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync);
+/** @typedef {import("playwright-core").Browser} Browser */
+/** @typedef {import("playwright-core").Page} Page */
+/** @typedef {Page & {faults: string[], requests: string[], own: string}} OpenedPage what failed, what it asked for */
+
+const chromiumPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync);
 
 export async function openBrowser() {
   return chromium.launch({
@@ -12,46 +16,70 @@ export async function openBrowser() {
   });
 }
 
-/// Opens a file; what goes wrong there is kept in `page.faults`, what it asks of a network in `page.requests`. `prepare` is
-/// given the page before it is opened.
+/**
+ * Opens a file; what goes wrong there is kept in `faults`, what it asks of a network in `requests`.
+ * @param {Browser} browser
+ * @param {string} file
+ * @param {import("playwright-core").BrowserContextOptions} options
+ * @param {(page: Page) => Promise<unknown>} prepare is given the page before it is opened
+ * @returns {Promise<OpenedPage>}
+ */
 export async function openPage(browser, file, options = {}, prepare = async () => {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const own = pathToFileURL(file).href;
   const page = await context.newPage();
-  page.faults = [];
-  page.requests = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && page.faults.push(message.text()));
-  page.on("pageerror", (error) => page.faults.push(String(error)));
-  page.on("request", (request) => page.requests.push(request.url()));
+  /** @type {string[]} */
+  const faults = [];
+  /** @type {string[]} */
+  const requests = [];
+  page.on("console", (message) => {
+    const ofDriver = /GPU stall|GL Driver/.test(message.text());
+    if (["error", "warning"].includes(message.type()) && !ofDriver) faults.push(message.text());
+  });
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("request", (request) => requests.push(request.url()));
   page.on("dialog", (dialog) => {
-    page.faults.push(`a dialog: ${dialog.message()}`);
+    faults.push(`a dialog: ${dialog.message()}`);
     dialog.dismiss();
   });
   await prepare(page);
-  const url = pathToFileURL(file).href;
-  await page.goto(url);
-  page.own = url;
-  return page;
+  await page.goto(own);
+  return Object.assign(page, { faults, requests, own });
 }
 
-/// Until the film of a page is there; in milliseconds since the page was asked for.
+/**
+ * Until the film of a page is there; in milliseconds since the page was asked for.
+ * @param {Page} page
+ */
 export async function filmIsThere(page) {
-  await page.waitForFunction(() => document.querySelector(".player")?.player?.scene.pictures > 0, null, { timeout: 60_000 });
+  const isDrawn = () => document.getElementsByClassName("player")[0]?.player?.scene.pictures > 0;
+  await page.waitForFunction(isDrawn, null, { timeout: 60_000 });
   return page.evaluate(() => performance.now());
 }
 
-/// Two pictures later, so that what was asked for is drawn.
+/**
+ * Two pictures later, so that what was asked for is drawn.
+ * @param {Page} page
+ */
 export async function drawn(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  await page.evaluate(async () => {
+    for (let k = 0; k < 3; ++k) await new Promise(requestAnimationFrame);
+  });
 }
 
-/// What the canvas shows: how many different colours, and a number that another picture hardly has too.
+/**
+ * What the canvas shows: how many different colours, and a number that another picture hardly has too.
+ * @param {Page} page
+ */
 export async function pixels(page) {
   return page.evaluate(() => {
-    const canvas = document.querySelector("canvas.stage"), copy = document.createElement("canvas");
+    const { canvas } = document.getElementsByClassName("player")[0].player;
+    const copy = document.createElement("canvas");
     [copy.width, copy.height] = [canvas.width, canvas.height];
-    const context = copy.getContext("2d");
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext("2d"));
     context.drawImage(canvas, 0, 0);
     const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    /** @type {Map<number, number>} */
     const colours = new Map();
     let sum = 0;
     for (let i = 0; i < data.length; i += 4) {

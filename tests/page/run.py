@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Tests of the page of a calibration that need npm, node and a browser; without them they are skipped (status 77).
 
-usage: run.py bundle SOURCE_DIR WORK_DIR              builds the page anew and compares it with the one that is shipped
-       run.py browser PROGRAM SOURCE_DIR WORK_DIR     looks at the page of a calibration in Chromium
-       run.py picture PROGRAM SOURCE_DIR WORK_DIR     makes the picture of the README, of the shipped card of the first example
-       run.py map PROGRAM SOURCE_DIR WORK_DIR         calibrates that, some minutes, and makes the picture of what is open
+usage: run.py sources SOURCE_DIR WORK_DIR            checks the page's scripts: format, ESLint, types, unit tests
+       run.py bundle SOURCE_DIR WORK_DIR             builds the page anew and compares it with the one that is shipped
+       run.py browser PROGRAM SOURCE_DIR WORK_DIR    looks at the page of a calibration in Chromium
+       run.py picture PROGRAM SOURCE_DIR WORK_DIR    makes the picture of the README, of the first example's card
+       run.py map PROGRAM SOURCE_DIR WORK_DIR        calibrates that, some minutes, and draws what is open
 
 WORK_DIR keeps the packages of npm between runs, the pages, and pictures of them (WORK_DIR/shots).
 """
 
+import fcntl
 import json
 import os
 import pathlib
@@ -19,6 +21,7 @@ import sys
 import time
 
 SKIPPED = 77
+PAGE, TESTS = "calibrate/report/page", "tests/page"
 EXAMPLE = "concrete-mix-79"  # that of .ci/try
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> &lt;b&gt;"
 
@@ -34,28 +37,53 @@ def need(*commands):
             skip(f"there is no {command} (.ci/install .ci/packages-page.txt)")
 
 
-def with_packages(source, work):
-    """Copies a folder with a package-lock.json, without what was built in it, and installs what it locks."""
-    work.mkdir(parents=True, exist_ok=True)
-    shutil.copytree(source, work, dirs_exist_ok=True, ignore=shutil.ignore_patterns("node_modules", "built"))
-    lock, installed = work / "package-lock.json", work / "node_modules/installed.json"
-    if installed.exists() and installed.read_bytes() == lock.read_bytes():
-        return
-    result = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=work, capture_output=True,
-                            text=True)
-    if result.returncode != 0:
-        skip(f"npm could not install the packages of {source.name}:\n{result.stderr}")
-    shutil.copy(lock, installed)
+def packages_of(page, place):
+    """Installs in `place` what the page's package-lock.json locks, unless that was done.
+
+    Tests run side by side: one installs, the others wait, also for an npm whose test was killed (it has the lock).
+    """
+    place.mkdir(parents=True, exist_ok=True)
+    with open(place / "lock", "w") as busy:
+        fcntl.flock(busy, fcntl.LOCK_EX)
+        lock, installed = page / "package-lock.json", place / "node_modules/installed.json"
+        if installed.exists() and installed.read_bytes() == lock.read_bytes():
+            return
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(page / name, place)
+        result = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=place,
+                                pass_fds=[busy.fileno()], capture_output=True, text=True)
+        if result.returncode != 0:
+            skip(f"npm could not install the packages of the page:\n{result.stderr}")
+        shutil.copy(lock, installed)
+
+
+def with_packages(source, work, name):
+    """Copies the page's sources and tests, without what was built of them, and gives them packages: both folders."""
+    packages_of(source / PAGE, work / "packages")
+    tree = work / name
+    shutil.rmtree(tree, ignore_errors=True)
+    for folder in (PAGE, TESTS):
+        shutil.copytree(source / folder, tree / folder, ignore=shutil.ignore_patterns("node_modules", "built"))
+        (tree / folder / "node_modules").symlink_to(work / "packages/node_modules")
+    shutil.copy(source / ".prettierrc.json", tree)
+    return tree / PAGE, tree / TESTS
+
+
+def sources(source, work):
+    page, _ = with_packages(source, work, "sources")
+    sys.exit(subprocess.run(["npm", "run", "--silent", "check"], cwd=page).returncode)
 
 
 def bundle(source, work):
-    page = source / "calibrate/report/page"
-    with_packages(page, work / "bundle")
-    subprocess.run(["node", "build.mjs", "built"], cwd=work / "bundle", check=True)
-    different = [name for name in ("page.html", "licences.txt")
-                 if (work / "bundle/built" / name).read_bytes() != (page / "built" / name).read_bytes()]
+    page, _ = with_packages(source, work, "bundle")
+    subprocess.run(["node", "build.mjs", "built"], cwd=page, check=True)
+    shipped = source / PAGE / "built"
+    if sorted(os.listdir(shipped)) != sorted(os.listdir(page / "built")):
+        sys.exit(f"{shipped} has other files than a build makes")
+    different = [name for name in sorted(os.listdir(shipped))
+                 if (page / "built" / name).read_bytes() != (shipped / name).read_bytes()]
     if different:
-        sys.exit(f"{', '.join(different)} in {page / 'built'} is not what its sources give: npm ci && npm run build there")
+        sys.exit(f"{', '.join(different)} in {shipped} is not what its sources give: npm ci && npm run build there")
     print("the shipped page is what its sources give")
 
 
@@ -125,7 +153,7 @@ def interrupted(program, study, place):
 def browser(program, source, work):
     if not any(pathlib.Path("/usr/bin", name).exists() for name in ("chromium-headless-shell", "chromium")):
         skip("there is no Chromium (.ci/install .ci/packages-page.txt)")
-    with_packages(source / "tests/page", work / "browser")
+    _, tests = with_packages(source, work, "browser")
     result = work / "result"
     study = source / "tests/reliability/coarse-study.json"
     made = pastefit(program, "calibrate", study, "--out", result, "--force")
@@ -140,31 +168,34 @@ def browser(program, source, work):
                        PASTEFIT_DROP=str(work / "drop/report.html"),
                        PASTEFIT_LIVE=str(work / "interrupted/live.html"), PASTEFIT_PARTS=str(work / "parts"),
                        PASTEFIT_SHOTS=str(work / "shots"))
-    sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=work / "browser", env=environment).returncode)
+    sys.exit(subprocess.run(["node", "--test", "page.test.js"], cwd=tests, env=environment).returncode)
 
 
 def picture(program, source, work):
-    with_packages(source / "tests/page", work / "browser")
+    _, tests = with_packages(source, work, "picture")
     result = work / EXAMPLE
     result.mkdir(exist_ok=True)
     shutil.copy(source / f"data/cards/{EXAMPLE}.json", result / "card.json")
     pastefit(program, "report", result)
-    subprocess.run(["node", "picture.js", result / "report.html", source / f"tests/page/{EXAMPLE}.jpg"], cwd=work / "browser", check=True)
+    shown = source / TESTS / f"{EXAMPLE}.jpg"
+    subprocess.run(["node", "picture.js", result / "report.html", shown], cwd=tests, check=True)
 
 
 def picture_of_map(program, source, work):
-    with_packages(source / "tests/page", work / "browser")
+    _, tests = with_packages(source, work, "picture")
     result = work / f"{EXAMPLE}-search"
     if not (result / "report.html").exists():
         pastefit(program, "calibrate", source / f"data/studies/{EXAMPLE}.json", "--out", result, "--force")
     pastefit(program, "report", result)
-    subprocess.run(["node", "map.js", result / "report.html", source / "calibrate/manual/open.jpg"], cwd=work / "browser", check=True)
+    shown = source / "calibrate/manual/open.jpg"
+    subprocess.run(["node", "map.js", result / "report.html", shown], cwd=tests, check=True)
 
 
 def main():
     need("node", "npm")
     what, *places = sys.argv[1:]
-    {"bundle": bundle, "browser": browser, "picture": picture, "map": picture_of_map}[what](*[pathlib.Path(place).resolve() for place in places])
+    verbs = {"sources": sources, "bundle": bundle, "browser": browser, "picture": picture, "map": picture_of_map}
+    verbs[what](*[pathlib.Path(place).resolve() for place in places])
 
 
 if __name__ == "__main__":

@@ -57,6 +57,20 @@ TEST_CASE("a page tells what each packing read, and the error of a mean over sev
   CHECK_FALSE(reading().contains("standard_error"));
 }
 
+TEST_CASE("a page tells the lengths that the laboratory measured, also where nothing was simulated") {
+  const test::Folder folder;
+  folder.write("card.json", shipped_card());
+  Findings findings = findings_in(folder);
+  findings.views.clear();
+  const auto search = page_content(findings, "").at("search");
+  const auto& lengths = search.at("laboratory").at("");
+  CHECK(lengths.size() >= 2);  // height and spread
+  for (const auto& length : lengths) {
+    CHECK(length.at("by") == "laboratory");
+    CHECK(length.at("value") == search.at("measured").at(length.at("reading").get<std::string>()));
+  }
+}
+
 TEST_CASE("a folder that is none, or has no result in it, has no page") {
   const test::Folder folder;
   CHECK_FALSE(read_findings(folder.path() / "none", "evaluations.sqlite").ok());

@@ -1,68 +1,139 @@
 // The first sheet of the page on paper: the material and how it meets the laboratory, to be signed and handed over.
-import { element } from "./dom.js";
+import { element, pairs, table } from "./dom.js";
 import { drawingSheet } from "./drawing.js";
-import { errorWords, fullName, number, plusMinus, unitOf, words } from "./numbers.js";
-import { judged } from "./readings.js";
+import { fullName, wordsAndUnit } from "./names.js";
+import { errorWords, number, plusMinus } from "./numbers.js";
+import { conditionsOf } from "./provenance.js";
+import { isMeasured, judged } from "./readings.js";
 import { packingStrip } from "./strip.js";
-import { withNoise } from "./tests.js";
-import { groupRows } from "./type_in.js";
+import { drawingsOf } from "./tests.js";
+import { typeInTable } from "./type_in.js";
 import { answerOf } from "./verdict.js";
 
-const mostDrawings = 2, drawnWidth = 520;
+/** @typedef {import("./content.js").CardContent} CardContent */
+/** @typedef {import("./content.js").MeasuredReading} MeasuredReading */
+/** @typedef {import("./content.js").Test} Test */
 
+const mostDrawings = 2;
+const drawnWidth = 520;
+
+/** @param {Test[]} tests */
 function drawings(tests) {
-  const found = tests.flatMap((test) => test.drawings.map((drawing) => ({ test, drawing })));
-  return element("div", { class: found.length > 1 ? "sheet-drawings several" : "sheet-drawings" },
-    ...found.slice(0, mostDrawings).map(({ test, drawing }) => drawingSheet(withNoise(drawing, test.readings), drawnWidth, test.name ? `${test.name}: ${drawing.name}` : drawing.name)));
+  const found = tests.flatMap((test) =>
+    drawingsOf(test).map((drawing) => ({
+      drawing,
+      heading: test.name ? `${test.name}: ${drawing.name}` : drawing.name,
+    })),
+  );
+  const sheets = found.slice(0, mostDrawings).map(({ drawing, heading }) => drawingSheet(drawing, drawnWidth, heading));
+  return element("div", { class: found.length > 1 ? "sheet-drawings several" : "sheet-drawings" }, ...sheets);
 }
 
+/**
+ * @param {Test} test
+ * @param {MeasuredReading} one
+ */
 function readingRow(test, one) {
-  const [kind, said] = judged(one, test), unit = unitOf(one.name);
-  return element("tr", { class: kind }, element("th", { scope: "row" }, words(fullName(test.name, one.name)), unit ? ` [${unit}]` : ""),
-    element("td", { class: "number" }, plusMinus(one.measured, one.standard_deviation)),
-    element("td", { class: "number" }, plusMinus(one.simulated, one.standard_error), errorWords(one)),
-    element("td", { class: "number" }, number(one.tolerance, 3)),
-    element("td", {}, packingStrip(one)), element("td", {}, said));
+  const [kind, said] = judged(one, test);
+  const numbers = [
+    plusMinus(one.measured, one.standard_deviation),
+    plusMinus(one.simulated, one.standard_error) + errorWords(one),
+    number(one.tolerance, 3),
+  ];
+  return element(
+    "tr",
+    { class: kind },
+    element("th", { scope: "row" }, wordsAndUnit(fullName(test.name, one.name))),
+    ...numbers.map((text) => element("td", { class: "number" }, text)),
+    element("td", {}, packingStrip(one)),
+    element("td", {}, said),
+  );
 }
 
+/** @param {Test[]} tests */
 function readings(tests) {
-  const rows = tests.flatMap((test) => test.readings.filter((one) => one.measured !== undefined).map((one) => readingRow(test, one)));
-  return element("table", { class: "readings" },
-    element("thead", {}, element("tr", {}, ...["Reading", "Measured", "Simulated", "Allowed", "Each packing", ""].map((head) => element("th", {}, head)))),
-    element("tbody", {}, ...rows));
+  const heads = ["Reading", "Measured", "Simulated", "Allowed", "Each packing", ""];
+  const head = element("tr", {}, ...heads.map((text) => element("th", {}, text)));
+  const rows = tests.flatMap((test) => test.readings.filter(isMeasured).map((one) => readingRow(test, one)));
+  return table(head, rows, { class: "readings" });
 }
 
+/** @param {CardContent} content */
 function origin({ provenance, program, tests, verdict, search }) {
-  const laboratories = tests.flatMap((test) => [[test.name ? `Laboratory, ${test.name}` : "Laboratory", `${test.lab_file} (${test.lab_hash})${test.source ? `, ${test.source}` : ""}`],
-    ["Conditions", test.conditions.trim().replace(/\s*\n\s*/g, "; ").replace(/ {2,}/g, " ")]]);
-  const rows = [...laboratories, ["Study", `${provenance.study_file} (${provenance.study_hash}), ${search.strategy} search, seed ${search.seed}`],
-    ["Confirmed on", `${verdict.fresh ? "fresh packings" : "packings that the search had seen"}: ${verdict.packings.join(", ")}`],
-    ["Versions", provenance.program === program ? program : `card ${provenance.program}, page ${program}`]];
-  return element("dl", { class: "pairs" }, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+  const laboratories = tests.flatMap((test) => {
+    const file = `${test.lab_file} (${test.lab_hash})${test.source ? `, ${test.source}` : ""}`;
+    /** @type {[string, string][]} */
+    const rows = [
+      [test.name ? `Laboratory, ${test.name}` : "Laboratory", file],
+      ["Conditions", conditionsOf(test)],
+    ];
+    return rows;
+  });
+  const study = `${provenance.study_file} (${provenance.study_hash})`;
+  const packings = verdict.fresh ? "fresh packings" : "packings that the search had seen";
+  const versions = provenance.program === program ? program : `card ${provenance.program}, page ${program}`;
+  return pairs([
+    ...laboratories,
+    ["Study", `${study}, ${search.strategy} search, seed ${search.seed}`],
+    ["Confirmed on", `${packings}: ${verdict.packings.join(", ")}`],
+    ["Versions", versions],
+  ]);
 }
 
-/// Dates as ISO 8601 writes them, of this place.
-function today() {
-  const now = new Date(), two = (value) => String(value).padStart(2, "0");
-  return `${now.getFullYear()}-${two(now.getMonth() + 1)}-${two(now.getDate())}`;
+/**
+ * The date as ISO 8601 writes it, of this place.
+ * @param {Date} date
+ */
+export function dateWords(date) {
+  const two = (/** @type {number} */ value) => String(value).padStart(2, "0");
+  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())}`;
 }
 
+/** @param {CardContent} content */
+function answer(content) {
+  const { sign, heading, sentence } = answerOf(content);
+  const reservations = content.verdict.reservations.map((one) => element("li", {}, one));
+  return element(
+    "div",
+    { class: "answer" },
+    element("span", { class: "badge", "aria-hidden": "true" }, sign),
+    element("div", {}, element("strong", {}, heading), element("p", {}, sentence), element("ul", {}, ...reservations)),
+  );
+}
+
+/** @param {CardContent} content */
+function halves({ tests, type_in: groups, radius_mm: radius }) {
+  const note =
+    "Each packing: dots, their mean (line), and the laboratory's mean with what is allowed (shaded). " +
+    "\u00b1: the laboratory's standard deviation, the standard error of the simulated mean.";
+  return element(
+    "div",
+    { class: "halves" },
+    element("div", {}, drawings(tests), readings(tests), element("p", { class: "note" }, note)),
+    element(
+      "div",
+      {},
+      element("h2", {}, "Numbers to type in"),
+      element("p", { class: "note" }, `For grains of ${radius} mm radius.`),
+      typeInTable(groups),
+    ),
+  );
+}
+
+/** @param {CardContent} content */
 export function certificatePart(content) {
-  const { title, tests, type_in: groups, radius_mm: radius } = content;
-  const [kind, sign, heading, sentence] = answerOf(content);
-  const date = element("span", {}, today());
-  addEventListener("beforeprint", () => date.replaceChildren(today()));
-  return element("section", { id: "certificate", class: kind, "aria-label": "Certificate, for paper" },
-    element("p", { class: "brand" }, "pastefit \u00b7 certificate of a calibrated material", element("span", { class: "printed" }, "printed ", date)),
-    element("p", { class: "title" }, title),
-    element("div", { class: "answer" }, element("span", { class: "badge", "aria-hidden": "true" }, sign),
-      element("div", {}, element("strong", {}, heading), element("p", {}, sentence),
-        element("ul", {}, ...(content.verdict.reservations ?? []).map((one) => element("li", {}, one))))),
-    element("div", { class: "halves" },
-      element("div", {}, drawings(tests), readings(tests),
-        element("p", { class: "note" }, `Each packing: dots, their mean (line), and the laboratory's mean with what is allowed (shaded). \u00b1: the laboratory's standard deviation, the standard error of the simulated mean.`)),
-      element("div", {}, element("h2", {}, "Numbers to type in"), element("p", { class: "note" }, `For grains of ${radius} mm radius.`),
-        element("table", { class: "type-in" }, ...groups.map((group) => element("tbody", {}, ...groupRows(group)))))),
+  const date = element("span", {}, dateWords(new Date()));
+  addEventListener("beforeprint", () => date.replaceChildren(dateWords(new Date())));
+  const brand = "pastefit \u00b7 certificate of a calibrated material";
+  const lines = ["Name", "Date", "Signature"].map((what) => element("div", {}, what));
+  return element(
+    "section",
+    { id: "certificate", class: answerOf(content).kind, "aria-label": "Certificate, for paper" },
+    element("p", { class: "brand" }, brand, element("span", { class: "printed" }, "printed ", date)),
+    element("p", { class: "title" }, content.title),
+    answer(content),
+    halves(content),
     origin(content),
-    element("div", { class: "signatures" }, ...["Name", "Date", "Signature"].map((what) => element("div", {}, what))));
+    element("div", { class: "signatures" }, ...lines),
+  );
 }

@@ -66,11 +66,12 @@ void main() {
   colour = vec4(rim * bright * own, 1.0);
 }`;
 
-/// The colours from 0 to 1, also for legends.
+/** The colours from 0 to 1, also for legends. */
 export const rampColour = interpolateViridis;
 
 function rampTexture() {
-  const count = 256, bytes = new Uint8Array(4 * count);
+  const count = 256;
+  const bytes = new Uint8Array(4 * count);
   for (let i = 0; i < count; ++i) {
     const { r, g, b } = new THREE.Color(rampColour(i / (count - 1)));
     bytes.set([255 * r, 255 * g, 255 * b, 255], 4 * i);
@@ -81,18 +82,22 @@ function rampTexture() {
   return texture;
 }
 
-/// The grains of a film in a scene.
+/** The grains of a film in a scene. */
 export class Grains {
+  /** @param {import("./film.js").Film} film */
   constructor(film) {
     this.film = film;
     this.extremes = film.extremes();
     const geometry = new THREE.BufferGeometry();
-    const dynamic = (width) => new THREE.BufferAttribute(new Float32Array(width * film.most), width).setUsage(THREE.DynamicDrawUsage);
+    /** @param {number} width */
+    const dynamic = (width) =>
+      new THREE.BufferAttribute(new Float32Array(width * film.most), width).setUsage(THREE.DynamicDrawUsage);
     geometry.setAttribute("position", dynamic(3));
     geometry.setAttribute("radius", dynamic(1));
     geometry.setAttribute("value", dynamic(1));
     this.cover = new Cover(film.most);
-    geometry.setIndex(new THREE.BufferAttribute(this.cover.seen, 1).setUsage(THREE.DynamicDrawUsage));
+    this.index = new THREE.BufferAttribute(this.cover.seen, 1).setUsage(THREE.DynamicDrawUsage);
+    geometry.setIndex(this.index);
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader,
@@ -106,34 +111,44 @@ export class Grains {
     });
     this.points = new THREE.Points(geometry, this.material);
     this.points.frustumCulled = false;
+    this.count = 0;
   }
 
-  /// Moves the grains to a time, straight from one frame to the next; `by`: "height", "speed", "coordination" or "pull".
+  /**
+   * Moves the grains to a time, straight from one frame to the next.
+   * @param {number} time
+   * @param {string} by "height", "speed", "coordination" or "pull"
+   */
   show(time, by) {
     const { reel, one, other, share } = this.film.at(time);
     const { low, quantum } = this.film;
     const { position, radius, value } = this.points.geometry.attributes;
     const [places, radii, values] = [position.array, radius.array, value.array];
     for (let axis = 0; axis < 3; ++axis) {
-      const from = one.places[axis], to = other.places[axis];
+      const from = one.places[axis];
+      const to = other.places[axis];
       for (let i = 0; i < reel.count; ++i)
         places[3 * i + axis] = low[axis] + quantum * (from[i] + share * (to[i] - from[i]));
     }
     radii.set(reel.radii);
-    const [fastest, top, most] = [255, this.extremes.height, this.extremes.touching];
+    const { height: top, touching: most } = this.extremes;
     for (let i = 0; i < reel.count; ++i) {
-      if (by === "speed") values[i] = (one.speeds[i] + share * (other.speeds[i] - one.speeds[i])) / fastest;
+      if (by === "speed") values[i] = (one.speeds[i] + share * (other.speeds[i] - one.speeds[i])) / 255;
       else if (by === "coordination") values[i] = one.touching[i] / most;
       else if (by === "pull") values[i] = (one.pulls[i] + share * (other.pulls[i] - one.pulls[i])) / 255;
       else values[i] = places[3 * i + 2] / top;
     }
     this.count = reel.count;
     for (const attribute of [position, radius, value]) attribute.needsUpdate = true;
-    return { one, share, other };
+    return one;
   }
 
-  /// To be called before every picture, after show(): `height` of the picture in pixels; `plane` in the world, or null.
-  /// Gives how many grains are drawn.
+  /**
+   * To be called before every picture, after show(). Gives how many grains are drawn.
+   * @param {THREE.PerspectiveCamera} camera
+   * @param {number} height of the picture in pixels
+   * @param {THREE.Plane | null} plane in the world
+   */
   prepare(camera, height, plane) {
     const { pixels, sliced, slice } = this.material.uniforms;
     pixels.value = height;
@@ -142,10 +157,10 @@ export class Grains {
       const seen = plane.clone().applyMatrix4(camera.matrixWorldInverse);
       slice.value.set(seen.normal.x, seen.normal.y, seen.normal.z, seen.constant);
     }
-    const { attributes, index } = this.points.geometry;
+    const { attributes } = this.points.geometry;
     const grains = { count: this.count, positions: attributes.position.array, radii: attributes.radius.array };
     const drawn = this.cover.look(camera, grains, plane ? slice.value : null);
-    index.needsUpdate = true;
+    this.index.needsUpdate = true;
     this.points.geometry.setDrawRange(0, drawn);
     return drawn;
   }

@@ -1,10 +1,13 @@
 // What all plots of the page have in common.
 import * as Plot from "@observablehq/plot";
+import { element } from "./dom.js";
 
 export { Plot };
 
-/// Colours by meaning, from the style sheet, so that a change of theme needs no redrawing. Of the palette of Okabe and
-/// Ito, which people with every kind of colour vision tell apart; shapes differ as well.
+/**
+ * Colours by meaning, from the style sheet, so that a change of theme needs no redrawing. Of the palette of Okabe and
+ * Ito, which people with every kind of colour vision tell apart; shapes differ as well.
+ */
 export const colour = {
   laboratory: "var(--laboratory)",
   simulation: "var(--simulation)",
@@ -15,6 +18,12 @@ export const colour = {
   band: "var(--band)",
 };
 
+export const lettering = { fontSize: "13px", background: "none" };
+
+/**
+ * @param {number} width
+ * @param {Plot.PlotOptions} options
+ */
 export function plot(width, options) {
   return Plot.plot({
     width,
@@ -23,23 +32,24 @@ export function plot(width, options) {
     marginRight: 24,
     marginBottom: 42,
     marginTop: 24,
-    style: { fontSize: "13px", background: "none" },
+    style: lettering,
     ...options,
     x: { nice: true, ticks: Math.max(3, width / 110), labelAnchor: "center", labelArrow: "none", ...options.x },
     y: { nice: true, grid: true, labelArrow: "none", ...options.y },
   });
 }
 
-/// Entries of a legend: [name, class of its sign].
+/**
+ * Says what a mark of a plot is when it is pointed at.
+ * @param {any[]} data
+ * @param {{x: Plot.ChannelValue, y: Plot.ChannelValue, title: Plot.ChannelValue}} channels
+ */
+export function tip(data, channels) {
+  return Plot.tip(data, Plot.pointer({ ...channels, fill: "var(--card)" }));
+}
+
+/** @param {[name: string, sign: string][]} entries of a legend; signs are classes */
 export function legend(entries) {
-  const list = document.createElement("ul");
-  list.className = "legend";
-  for (const [name, sign] of entries) {
-    const item = document.createElement("li");
-    const mark = document.createElement("span");
-    mark.className = `sign ${sign}`;
-    item.append(mark, name);
-    list.append(item);
-  }
-  return list;
+  const items = entries.map(([name, sign]) => element("li", {}, element("span", { class: `sign ${sign}` }), name));
+  return element("ul", { class: "legend" }, ...items);
 }
