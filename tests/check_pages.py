@@ -32,7 +32,7 @@ QUESTIONS = {
     "where a slump's spread is read": ("core/apparatus/slump/README.md", "`ruler` reads the heap: height, spread"),
     "where the polynomial is evaluated": ("core/README.md", "evaluated in `laws/attraction.h`"),
     "where NLopt is called": ("calibrate/search/README.md", "`calibrate/optimisers`, the adapters of NLopt"),
-    "how to add a law": ("core/README.md", "One header, one row, one case file"),
+    "how to add a law": ("core/README.md", "One header, one row, one word, one case file"),
     "why the default step is safe": ("core/step/README.md", "## Why the default step is safe"),
     "how the search decides to stop": ("calibrate/search/README.md", "The search stops when"),
     "what was measured of rolling friction": ("tests/results/ruler.md", "## The table's rolling friction"),
