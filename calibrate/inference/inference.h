@@ -4,65 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/inference/combination.h"
+#include "calibrate/inference/equivalent_material.h"
+#include "calibrate/inference/measurement_gain.h"
+#include "calibrate/inference/parameter_interval.h"
 #include "calibrate/inference/training_data.h"
 
 namespace pastefit {
-
-/// What the data say about one free parameter, in its own unit.
-struct ParameterInterval {
-  std::string name;
-  Scale scale = Scale::linear;
-  double bound_lower = 0, bound_upper = 0;  ///< of the study
-  double recommended = 0;
-  double lower = 0, upper = 0;  ///< 95 %, all parameters free; the study's bound
-                                ///< where the data set none
-  bool lower_known = false,
-       upper_known = false;  ///< the end was set by the data, not by the study's bound
-  double held_lower = 0,
-         held_upper = 0;        ///< 95 %, the other parameters held at the recommended values
-  std::optional<Prior> prior;   ///< what was known beforehand, contained in all of these
-  double deviation_before = 0;  ///< of its coordinate, by the bounds and the prior alone
-  double uncertainty = 1;       ///< standard deviation after the measurement over that one
-
-  bool interval_exists() const { return lower_known && upper_known; }
-  bool not_identified() const { return !lower_known && !upper_known; }
-};
-
-/// A combination of the parameters, as the readings see it near the recommended
-/// candidate.
-struct Combination {
-  std::vector<double> direction;      ///< over the free parameters in units of what is open of each beforehand
-                                      ///< (`deviation_before`), of length 1
-  double singular_value = 0;          ///< of the Jacobian in standard deviations, readings over parameters
-  double uncertainty = 1;             ///< as above: 1/sqrt(1 + singular_value^2), or that of the sample if larger
-  std::size_t lead = 0;               ///< the parameter with the largest part; its part is positive
-  double lead_width = 0;              ///< 95 % half width, as a change of the lead alone: a
-                                      ///< share of it if logarithmic, else in its unit
-  std::vector<std::string> readings;  ///< that see it, the most important one first
-
-  bool determined() const { return uncertainty <= 0.5; }
-};
-
-/// A candidate that meets the laboratory as well as any other, as far as is
-/// known.
-struct EquivalentMaterial {
-  UnitPoint point;
-  std::vector<double> values;    ///< of the free parameters
-  std::vector<double> readings;  ///< predicted, in the order of `Inference::fitted`
-  bool simulated = false;        ///< else predicted from its neighbours
-  double normalised_error = 0;   ///< root of the sum of squares, each in standard deviations of one measurement
-};
-
-/// What further measurements would bring.
-struct MeasurementGain {
-  std::string reading;
-  int measurements = 0;       ///< how many, by the same person
-  double deviation = 0;       ///< of one of them, in the reading's unit
-  std::string parameter;      ///< that gains most
-  double narrowing = 1;       ///< its standard deviation after over before
-  double lead_narrowing = 1;  ///< the same of the parameter that leads the best
-                              ///< determined combination
-};
 
 /// What a calibration knows, and what it does not.
 struct Inference {

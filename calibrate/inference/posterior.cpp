@@ -145,4 +145,14 @@ std::vector<UnitPoint> posterior_sample(const std::function<double(const UnitPoi
   return Population(log_likelihood, dimension, count, seed).run();
 }
 
+Moments moments_of(const std::vector<UnitPoint>& sample) {
+  const auto dimension = sample.front().size();
+  const auto count = static_cast<double>(sample.size());
+  Moments out{Eigen::VectorXd::Zero(dimension), Eigen::MatrixXd::Zero(dimension, dimension)};
+  for (const UnitPoint& member : sample) out.mean += member / count;
+  for (const UnitPoint& member : sample)
+    out.covariance += (member - out.mean) * (member - out.mean).transpose() / (count - 1);
+  return out;
+}
+
 }  // namespace pastefit

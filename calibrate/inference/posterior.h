@@ -20,4 +20,11 @@ namespace pastefit {
 std::vector<UnitPoint> posterior_sample(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension,
                                         int count, std::uint64_t seed);
 
+/// Of a sample.
+struct Moments {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+Moments moments_of(const std::vector<UnitPoint>& sample);
+
 }  // namespace pastefit

@@ -5,23 +5,12 @@
 #include <variant>
 
 #include "core/step/state.h"
-#include "core/world/nearest.h"
 
 namespace pastefit {
 
 namespace {
 
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
-
-void put(const Vec3& v, float (&rows)[3][kBatch], int lane) {
-  rows[0][lane] = static_cast<float>(v.x);
-  rows[1][lane] = static_cast<float>(v.y);
-  rows[2][lane] = static_cast<float>(v.z);
-}
-
-Vec3 taken(const float (&rows)[3][kBatch], int lane) {
-  return {rows[0][lane], rows[1][lane], rows[2][lane]};
-}
 
 double speed_of(const Wall& wall) {
   // The farthest point of a turning wall is not known here; walls that turn are plates of at most a few metres.
@@ -36,35 +25,6 @@ double stiffest_grain(const Particles& particles) {
   for (std::int32_t i = 0; i < particles.count(); ++i)
     stiffest = std::max(stiffest, particles.load[i].stiffness * particles.velocity[i].inverse_mass);
   return stiffest;
-}
-
-/// What the overlaps of all contacts hold [J].
-double elastic_energy(const World& world) {
-  const auto held = [&](const PairConstants& pair, double sqrt_radius, double overlap) {
-    return with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
-      const NormalForce<double> normal_force = law.at(pair, sqrt_radius, std::max(overlap, 0.0), 0.0);
-      double energy = law.energy(pair, sqrt_radius * sqrt_radius, normal_force, overlap);
-      if constexpr (law.adheres) energy += law.surface(pair, sqrt_radius * sqrt_radius, normal_force.contact_radius);
-      return energy;
-    });
-  };
-  double sum = 0;
-  for (const Block& block : world.pairs.blocks)
-    for (std::int32_t k = 0; k < block.contacts.count; ++k) {
-      const std::int32_t i = block.contacts.first(k), j = block.contacts.second(k);
-      if (i == j) continue;  // padding
-      const Motion &a = world.particles.motion[i], &b = world.particles.motion[j];
-      const double overlap = a.radius + b.radius - norm(world.domain.minimum_image(a.position, b.position));
-      sum += held(world.grain_pair, block.contacts.sqrt_radius(k), overlap);
-    }
-  for (const Block& block : world.pairs.blocks)
-    for (std::size_t w = 0; w < block.walls.size(); ++w)
-      for (std::int32_t k = 0; k < block.walls[w].count; ++k) {
-        const Motion& grain = world.particles.motion[block.walls[w].contacts.first(k)];
-        const double overlap = grain.radius - nearest(world.walls[w].shape, grain.position).distance;
-        sum += held(world.walls[w].pair, block.walls[w].contacts.sqrt_radius(k), overlap);
-      }
-  return sum;
 }
 
 }  // namespace
@@ -203,166 +163,6 @@ void Stepper::act_on_pairs(int b) {
     bridges(mine);
   }
   if (sleepers_) sleepers_->hold(world_, b, mine, pairs, bridges);
-}
-
-void Stepper::act_on_walls(int b, int member) {
-  const Timed timed(options_.clock, StageClock::wall);
-  for (std::size_t w = 0; w < world_.walls.size(); ++w)
-    if (world_.pairs.blocks[b].walls[w].count > 0) act_on_wall(w, b, wall_batches_[member]);
-}
-
-void Stepper::act_on_wall(std::size_t w, int b, Column<WallBatch>& batches) {
-  const Wall& wall = world_.walls[w];
-  WallContacts& touching = world_.pairs.blocks[b].walls[w];
-  WallShare& share = wall_shares_[b * world_.walls.size() + w];
-  share.pierced = find_wall(wall, touching, batches);
-  act_on(wall, touching, batches, task(wall.pair, b));
-  add_loads(wall, touching, batches, share);
-}
-
-void Stepper::act_on(const Wall& wall, WallContacts& touching, Column<WallBatch>& batches, KernelTask task) const {
-  task.contacts = touching.contacts.batches.data();
-  task.wall = batches.data();
-  task.stretch = {0, 0, touching.contacts.batch_count()};
-  const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](task);
-}
-
-void Stepper::add_up_walls() {
-  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
-    Wall& wall = world_.walls[w];
-    wall.force = wall.torque = {};
-    for (std::size_t at = w; at < wall_shares_.size(); at += world_.walls.size()) {
-      const WallShare& share = wall_shares_[at];
-      wall.force += share.force;
-      wall.torque += share.torque;
-      if (share.pierced >= 0) pierced_ = share.pierced;
-    }
-  }
-}
-
-/// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
-std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const {
-  batches.resize(std::max<std::size_t>(batches.size(), touching.contacts.batch_count()));
-  WallBatch& padded = batches[touching.contacts.batch_count() - 1];
-  padded = {};
-  for (float& overlap : padded.overlap) overlap = -1;
-  std::int32_t pierced = -1;
-  const auto find = [&](const auto& shape) {
-    for (std::int32_t k = 0; k < touching.count; ++k) {
-      WallBatch& batch = batches[k / kBatch];
-      const int lane = k % kBatch;
-      const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
-      const Nearest point = nearest_on(shape, grain.position);
-      const double overlap = grain.radius - point.distance;
-      if (overlap > options_.overlap_limit * grain.radius) pierced = touching.contacts.first(k);
-      const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
-      put(point.direction, batch.normal, lane);
-      put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
-      batch.overlap[lane] = static_cast<float>(overlap);
-    }
-  };
-  std::visit(find, wall.shape);
-  return pierced;
-}
-
-/// What the kernel found, on the grains, and summed up on the wall.
-void Stepper::add_loads(const Wall& wall, const WallContacts& touching, const Column<WallBatch>& batches,
-                        WallShare& sum) {
-  for (std::int32_t k = 0; k < touching.count; ++k) {
-    const WallBatch& batch = batches[k / kBatch];
-    const int lane = k % kBatch;
-    const std::int32_t i = touching.contacts.first(k);
-    Load& load = world_.particles.load[i];
-    const Vec3 force = taken(batch.force, lane);
-    for (int c = 0; c < 3; ++c) {
-      load.force[c] += batch.force[c][lane];
-      load.torque[c] += batch.moment[c][lane];
-    }
-    load.damping += batch.damping[lane];
-    // A wall does not give way: half of what two equal grains would count in the bound 2 sum(k)/m.
-    load.stiffness += 0.5F * batch.stiffness[lane];
-    sum.force += -force;
-    const Motion& grain = world_.particles.motion[i];
-    const Vec3 arm = grain.position + (grain.radius - batch.overlap[lane]) * taken(batch.normal, lane) - wall.pivot;
-    sum.torque += cross(arm, -force);
-  }
-}
-
-/// A force acts for half of the step before and half of the step after.
-void Stepper::account_walls(double dt) {
-  for (const Wall& wall : world_.walls) {
-    const double before = dot(wall.force, wall.velocity_before) + dot(wall.torque, wall.angular_velocity_before);
-    const double after = dot(wall.force, wall.velocity) + dot(wall.torque, wall.angular_velocity);
-    energy_balance_.work_of_walls -= 0.5 * (dt_ * before + dt * after);
-    energy_balance_.effort_of_walls += 0.5 * (dt_ * std::fabs(before) + dt * std::fabs(after));
-  }
-}
-
-/// What the contacts and bridges of a wall hold now [J]. They are asked in a step of no length, whose history is thrown
-/// away.
-double Stepper::held_by(std::size_t w) {
-  const Wall& wall = world_.walls[w];
-  std::vector<EnergySums> energy(1);
-  for (std::size_t b = 0; b < world_.pairs.blocks.size(); ++b) {
-    WallContacts touching = world_.pairs.blocks[b].walls[w];
-    if (touching.count == 0) continue;
-    find_wall(wall, touching, wall_batches_[0]);
-    KernelTask asked = task(wall.pair, static_cast<int>(b));
-    asked.dt = 0;
-    asked.energy = energy.data();
-    asked.energies = Energies::all;
-    act_on(wall, touching, wall_batches_[0], asked);
-  }
-  return total(energy, EnergySums::stored);
-}
-
-void Stepper::take_away_last_wall() {
-  if (options_.energy_balance) {
-    const double held = held_by(world_.walls.size() - 1);
-    energy_balance_.stored -= held;
-    energy_balance_.work_of_walls -= held;
-    energy_balance_.effort_of_walls += std::fabs(held);
-  }
-  world_.walls.pop_back();
-  forget_lists();
-}
-
-/// Energies at the time of the positions: the velocities there are the means of the half steps around it.
-void Stepper::look_at_energy(double dt) {
-  const Particles& particles = world_.particles;
-  const double half_kick = 0.25 * (dt_ + dt);
-  if (!looks_at_energy()) return;
-  energy_balance_.kinetic = energy_balance_.height = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Motion& motion = particles.motion[i];
-    const Load& load = particles.load[i];
-    const Velocity& velocity = particles.velocity[i];
-    const double m = 1 / velocity.inverse_mass, inertia = 1 / velocity.inverse_inertia;
-    Vec3 v = velocity.linear + (half_kick / m) * vector_of(load.force);
-    v.z -= half_kick * world_.gravity;
-    const Vec3 w = velocity.angular + (half_kick / inertia) * vector_of(load.torque);
-    energy_balance_.kinetic += 0.5 * (m * dot(v, v) + inertia * dot(w, w));
-    energy_balance_.height += m * world_.gravity * motion.position.z;
-  }
-  energy_balance_.stored = total(energy_, EnergySums::stored);
-  energy_balance_.dissipation_normal = total(energy_, EnergySums::normal_damping);
-  energy_balance_.dissipation_sliding = total(energy_, EnergySums::sliding);
-  energy_balance_.dissipation_rolling = total(energy_, EnergySums::rolling);
-  energy_balance_.dissipation_bridges = total(energy_, EnergySums::bridges);
-  if (sleepers_) sleepers_->enter(energy_balance_);
-  if (looked_) return;
-  looked_ = true;
-  energy_balance_.start = energy_balance_.mechanical() + energy_balance_.dissipation() - energy_balance_.work_of_walls;
-  energy_balance_.start_height = energy_balance_.height;
-  if (energy_balance_.earlier_put_in > 0) return;
-  energy_balance_.start_kinetic = energy_balance_.kinetic;
-  energy_balance_.start_elastic = elastic_energy(world_);
-}
-
-void Stepper::follow(const EnergyBalance& before) {
-  energy_balance_.earlier_error = before.error();
-  energy_balance_.earlier_put_in = before.put_in();
 }
 
 void Stepper::move_block(int b, double dt) {

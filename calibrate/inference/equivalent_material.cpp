@@ -1,0 +1,81 @@
+#include "calibrate/inference/equivalent_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+constexpr double neighbourhood = 0.2;  // of the cube: materials nearer than this are one to a person
+
+}  // namespace
+
+void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& points, std::size_t count, double apart) {
+  while (chosen.size() < count) {
+    const UnitPoint* farthest = nullptr;
+    double most = apart;
+    for (const UnitPoint& point : points) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const UnitPoint& other : chosen) nearest = std::min(nearest, (point - other).norm());
+      if (nearest <= most) continue;
+      most = nearest;
+      farthest = &point;
+    }
+    if (!farthest) return;
+    chosen.push_back(*farthest);
+  }
+}
+
+std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points) {
+  std::vector<std::pair<double, std::size_t>> by_miss;
+  for (std::size_t i = 0; i < points.size(); ++i) by_miss.emplace_back(model.normalised_error(points[i]), i);
+  std::ranges::sort(by_miss);
+  std::vector<UnitPoint> half;
+  for (std::size_t i = 0; i < (points.size() + 1) / 2; ++i) half.push_back(points[by_miss[i].second]);
+  return half;
+}
+
+std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
+                                          const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
+                                          int count) {
+  const TrainingData& evidence = model.training_data();
+  const auto error = [&](std::size_t k, const UnitPoint& point) {
+    const ReadingEvidence& reading = evidence.readings[k];
+    return std::abs(model.predict(k, point).mean - *reading.measured) / reading.deviation;
+  };
+  const double as_well = std::max(1.0, model.normalised_error(recommended));  // priors included
+  const auto fits = [&](const UnitPoint& point) {
+    return model.normalised_error(point) <= as_well && std::ranges::all_of(fitted, [&](std::size_t k) {
+             return error(k, point) <= std::max(1.0, error(k, recommended));
+           });
+  };
+  const auto fitting = [&](const std::vector<UnitPoint>& candidates) {
+    std::vector<UnitPoint> chosen;
+    std::ranges::copy_if(candidates, std::back_inserter(chosen), fits);
+    return chosen;
+  };
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<UnitPoint> points{recommended};
+  spread_out(points, fitting(evidence.points), size, neighbourhood);
+  spread_out(points, fitting(better_half(model, sample)), size);
+  std::vector<EquivalentMaterial> family;
+  for (const UnitPoint& point : points) {
+    EquivalentMaterial member;
+    member.point = point;
+    for (Eigen::Index j = 0; j < point.size(); ++j)
+      member.values.push_back(value_between(evidence.parameters[static_cast<std::size_t>(j)], point[j]));
+    for (const std::size_t k : fitted) member.readings.push_back(model.predict(k, point).mean);
+    member.simulated = std::ranges::find(evidence.points, point) != evidence.points.end();
+    member.normalised_error = model.normalised_error(point);
+    family.push_back(std::move(member));
+  }
+  return family;
+}
+
+}  // namespace pastefit
