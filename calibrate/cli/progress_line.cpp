@@ -1,24 +1,18 @@
 #include "calibrate/cli/progress_line.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <chrono>
 
-#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 
-namespace {
-
-constexpr std::chrono::milliseconds kRewrite{100};
-constexpr std::chrono::seconds kPlain{5};
-
-}  // namespace
-
 ProgressLine::ProgressLine(const WorkAhead& work, const MisfitUnit& unit)
-    : terminal_(is_terminal()), work_(work), unit_(unit) {}
+    : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(5)}),
+      work_(work),
+      unit_(unit) {}
 
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);
@@ -27,7 +21,7 @@ void ProgressLine::show(const Progress& progress) {
   phase_ = progress.phase;
   best_miss_ = progress.best_miss;
   rewrite(new_phase);
-  if (!progress.note.empty()) note("%s%s\n", terminal_ ? "\n" : "", progress.note.c_str());
+  if (!progress.note.empty()) note("%s%s\n", line_.is_terminal() ? "\n" : "", progress.note.c_str());
 }
 
 void ProgressLine::show(const EvaluationCounts& counts) {
@@ -37,7 +31,7 @@ void ProgressLine::show(const EvaluationCounts& counts) {
 }
 
 std::string ProgressLine::time_left() const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double elapsed = line_.gone_s();
   if (counts_.simulated == 0 || elapsed <= 0) return "";
   const int in_phase = done() - done_before_;
   const int budget = std::max(0, work_.budget - done());
@@ -55,11 +49,11 @@ std::string ProgressLine::text() const {
   int failed = 0;
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
-      fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, terminal_ ? "" : " simulations"),
+      fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, line_.is_terminal() ? "" : " simulations"),
               best_miss_ < 0 ? "no misfit yet" : "misfit " + unit_.words(best_miss_, "%.2f"), time_left(),
               failed > 0 ? format("%d failed", failed) : "",
               counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
-  if (terminal_) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));
+  if (line_.is_terminal()) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));
   return line;
 }
 
@@ -74,23 +68,17 @@ std::string ProgressLine::bar(std::size_t columns) const {
 }
 
 void ProgressLine::rewrite(bool now) {
-  if (is_quiet()) return;
-  const auto time = Clock::now();
-  if (!now && time - printed_ < (terminal_ ? Clock::duration(kRewrite) : Clock::duration(kPlain))) return;
+  if (!now && !line_.is_due()) return;
   const auto line = text();
   if (line == last_) return;
-  printed_ = time;
   last_ = line;
-  if (terminal_)
-    std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
-  else
-    note("%s\n", line.c_str());
+  line_.show(line);
 }
 
 void ProgressLine::end() {
   const std::lock_guard lock(mutex_);
   rewrite(true);
-  if (terminal_ && !last_.empty()) note("\n");
+  line_.keep();
 }
 
 }  // namespace pastefit

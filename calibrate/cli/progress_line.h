@@ -1,9 +1,9 @@
 #pragma once
 
-#include <chrono>
 #include <mutex>
 #include <string>
 
+#include "calibrate/cli/status_line.h"
 #include "calibrate/search/evaluator.h"
 #include "calibrate/search/search.h"
 
@@ -17,9 +17,8 @@ struct WorkAhead {
   int examination = 0;   ///< after the search, hold-outs included
 };
 
-/// Live progress on standard error, unless it is quiet: one line that is rewritten on a terminal, cut to its width,
-/// with a bar where there is room; elsewhere a plain line of at most 80 columns at the start of each phase and every
-/// few seconds. Thread-safe.
+/// Live progress (`status_line.h`): on a terminal a line cut to its width, with a bar where there is room; elsewhere
+/// one of at most 80 columns at the start of each phase and every few seconds. Thread-safe.
 ///
 /// The time that is left is a range: from what the phases still have to do if the next candidate holds, to what the
 /// budget allows, both at the rate of simulations so far.
@@ -37,9 +36,7 @@ class ProgressLine {
   std::string time_left() const;
   int done() const { return counts_.simulated + counts_.answered; }
 
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start_ = Clock::now();
-  const bool terminal_;
+  StatusLine line_;
   const WorkAhead work_;
   const MisfitUnit unit_;
   std::mutex mutex_;
@@ -47,7 +44,6 @@ class ProgressLine {
   int done_before_ = 0;  // the phase
   double best_miss_ = -1;
   EvaluationCounts counts_;
-  Clock::time_point printed_{};
   std::string last_;
 };
 

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <chrono>
 #include <mutex>
 #include <string>
 
 #include "calibrate/check/check.h"
+#include "calibrate/cli/status_line.h"
 
 namespace pastefit {
 
-/// Tells on standard error, unless it is quiet, how many of some pieces of work are done and what is left of them, once
-/// they have taken two seconds: rewritten in place on a terminal, else a line every ten seconds. Thread-safe.
+/// Tells how many of some pieces of work are done and what is left of them, once they have taken two seconds
+/// (`status_line.h`). Thread-safe.
 class WorkLine {
  public:
   /// `pieces`: what they are, e.g. "simulations".
@@ -24,17 +24,13 @@ class WorkLine {
   void clear();
 
  private:
-  using Clock = std::chrono::steady_clock;
-  std::string text(Clock::time_point now) const;
+  std::string text() const;
 
   const std::string pieces_;
   const int total_;
-  const bool terminal_;
-  const Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
+  StatusLine line_;
   int done_ = 0;
-  bool shown_ = false;
-  Clock::time_point next_;
 };
 
 /// An engine whose simulations are the pieces of this work, which it must not outlive.

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "tests/bench/front_figure.h"
 #include "tests/bench/ladder_csv.h"
 #include "tests/bench/phases.h"
 
@@ -76,7 +75,7 @@ void print_phases(int packings) {
 
 int main(int argc, char** argv) {
   bool quick = false, phases = false;
-  std::string ladder, csv_path, svg_path;
+  std::string ladder, csv_path;
   int most_packings = 1000;
   CLI::App app{"Error of h1, h2, sag and spread of the slump test against run time."};
   app.add_flag("--quick", quick, "few coarse settings, to see that the program works");
@@ -84,7 +83,6 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(std::vector<std::string>(kLadders.begin(), kLadders.end())));
   app.add_option("--packings", most_packings, "at most so many for each setting")->check(CLI::Range(1, 1000));
   app.add_option("--csv", csv_path, "file for one row per run; settings that it has already are not run again");
-  app.add_option("--svg", svg_path, "file for the figure");
   app.add_flag("--phases", phases, "what each phase of the test takes, and nothing else");
   CLI11_PARSE(app, argc, argv);
   if (phases) {
@@ -114,8 +112,4 @@ int main(int argc, char** argv) {
       "Of a reference: mean +- standard error over packings. Else: deviation from it +- noise of the difference "
       "(one standard\nerror); in brackets where it is within twice the noise, which is no difference.\n");
   for (const char* scene : kScenes) print_table(rows, scene);
-  if (!svg_path.empty()) {
-    std::ofstream svg(svg_path);
-    write_figure(svg, rows, 0);
-  }
 }

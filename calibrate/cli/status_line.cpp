@@ -1,0 +1,44 @@
+#include "calibrate/cli/status_line.h"
+
+#include <cstdio>
+
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
+
+namespace pastefit {
+
+StatusLine::StatusLine() : StatusLine(Pace{}) {}
+
+StatusLine::StatusLine(const Pace& pace)
+    : pace_(pace), terminal_(pastefit::is_terminal()), next_(start_ + pace.first) {}
+
+double StatusLine::gone_s() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+bool StatusLine::is_due() const {
+  return !is_quiet() && Clock::now() >= next_;
+}
+
+void StatusLine::show(const std::string& line) {
+  if (is_quiet()) return;
+  next_ = Clock::now() + (terminal_ ? pace_.on_terminal : pace_.elsewhere);
+  shown_ = true;
+  if (terminal_)
+    std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
+  else
+    note("%s\n", line.c_str());
+}
+
+void StatusLine::clear() {
+  if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+void StatusLine::keep() {
+  if (shown_ && terminal_) note("\n");
+  shown_ = false;
+}
+
+}  // namespace pastefit
