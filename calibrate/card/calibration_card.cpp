@@ -139,8 +139,9 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
     card.tests.push_back(card_test_of(study, i, values, shown.packings.at(0), baselines.at(i)));
   card.material = material_of(study, values, card.tests.front());
 
-  card.confirmation = {shown.packings, fresh, shown.normalised_error,
-                       fresh && verdict_on(shown, rejected_share_of(study)) == Verdict::holds};
+  const Verdict verdict = verdict_on(shown, rejected_share_of(study));
+  card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::holds,
+                       fresh && verdict == Verdict::refuted};
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

@@ -189,6 +189,7 @@ ordered_json to_json(const Card& card) {
                          {"fresh", card.confirmation.fresh},
                          {"misfit", card.confirmation.misfit},
                          {"meets_laboratory", card.confirmation.meets_laboratory}};
+  if (card.confirmation.refuted) out["confirmation"]["refuted"] = true;
   const auto& search = card.search;
   out["search"] = {{"strategy", search.strategy},      {"status", search.status},
                    {"reason", search.reason},          {"seed", search.seed},

@@ -85,6 +85,7 @@ struct Confirmation {
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
   double misfit = 0;                    ///< largest difference of a fitted reading over its tolerance; 1 is asked for
   bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
+  bool refuted = false;  ///< likewise it does not: its readings, or the heaps that a laboratory would reject
 };
 
 /// How the material was found.

@@ -334,6 +334,7 @@ Result<Card> card_from_json(const json& document) {
       confirmation.flag("fresh", card.confirmation.fresh, kRequired);
       confirmation.number("misfit", card.confirmation.misfit, kNotNegative, kRequired);
       confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
+      confirmation.flag("refuted", card.confirmation.refuted, kOptional);
     });
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
     reader.object("provenance", kRequired,

@@ -35,7 +35,7 @@ Result<Card> rescaled(Card card, double radius) {
   }
   if (!all.empty()) return all;
   card.confirmation.packings.clear();
-  card.confirmation.fresh = card.confirmation.meets_laboratory = false;
+  card.confirmation.fresh = card.confirmation.meets_laboratory = card.confirmation.refuted = false;
   card.confirmation.misfit = 0;
   card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
   card.rebaselined.clear();

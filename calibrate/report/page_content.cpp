@@ -284,6 +284,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
     out["verdict"] = {{"words", verdict_of(card)},
                       {"reservations", reservations_on(card)},
                       {"meets_laboratory", card.confirmation.meets_laboratory},
+                      {"refuted", card.confirmation.refuted},
                       {"status", card.search.status},
                       {"misfit", card.confirmation.misfit},
                       {"fresh", card.confirmation.fresh},

@@ -120,7 +120,7 @@ std::string verdict_on_fitted(const Card& card) {
   if (!confirmation.fresh)
     return "Not confirmed on fresh packings: " + largest + ", on packings that the search has seen. " +
            card.search.reason;
-  if (confirmation.misfit <= 1)
+  if (confirmation.misfit <= 1 && !confirmation.refuted)
     return "It is uncertain whether the material meets the laboratory: " + largest + ". " + card.search.reason;
   return "The material does not meet the laboratory: " + largest + ". " + card.search.reason;
 }

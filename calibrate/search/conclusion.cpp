@@ -18,7 +18,9 @@ std::string doubt_about(const Calibration& result, const MisfitUnit& unit, doubl
   if (told.rejected > 0 && verdict_on(told, rejected_share) != verdict_on(told))
     return format("Of the best candidate's %zu heaps a laboratory would reject %d: ", told.evaluations.size(),
                   told.rejected) +
-           format("a share of %g is not certain", rejected_share) + spent + " Allow more simulations.";
+           (verdict_on(told, rejected_share) == Verdict::refuted
+                ? format("more than a share of %g", rejected_share) + spent
+                : format("a share of %g is not certain", rejected_share) + spent + " Allow more simulations.");
   const std::string tolerance = tolerance_in_words(unit);
   std::string words = "The best candidate misses the laboratory by " + unit.words(told.normalised_error);
   if (told.normalised_error > 1) return words + ", more than " + tolerance + spent;

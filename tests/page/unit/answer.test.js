@@ -93,6 +93,8 @@ test("a misfit beyond what is asked for fails only on fresh packings", () => {
   assert.equal(verdictKind({ under_way: false, verdict: verdictWith() }), "fails");
   assert.equal(verdictKind({ under_way: false, verdict: verdictWith({ fresh: false }) }), "open");
   assert.equal(verdictKind({ under_way: false, verdict: verdictWith({ misfit: 0.9 }) }), "open");
+  const sheared = verdictWith({ misfit: 0.9, refuted: true });
+  assert.equal(verdictKind({ under_way: false, verdict: sheared }), "fails");
 });
 
 test("the sentence of an answer does not repeat its heading", () => {

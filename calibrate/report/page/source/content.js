@@ -28,6 +28,7 @@
  * @property {string} words
  * @property {string[]} reservations
  * @property {boolean} meets_laboratory
+ * @property {boolean} [refuted]
  * @property {string} status
  * @property {number} misfit over the one that is asked for
  * @property {boolean} fresh confirmed on packings that the search had not seen

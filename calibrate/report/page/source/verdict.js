@@ -25,7 +25,8 @@ const answers = {
 export function verdictKind({ verdict, under_way }) {
   if (!verdict) return under_way ? "goes" : "none";
   if (verdict.meets_laboratory) return verdict.reservations.length > 0 ? "reserved" : "meets";
-  return verdict.misfit <= 1 || !verdict.fresh ? "open" : "fails";
+  if (!verdict.fresh) return "open";
+  return verdict.misfit > 1 || verdict.refuted ? "fails" : "open";
 }
 
 /**
