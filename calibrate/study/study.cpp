@@ -202,19 +202,16 @@ Faults validate_points(const Study& study) {
 
 }  // namespace
 
-Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes) {
-  Faults faults;
-  std::optional<json> document = read_json(file, faults);
-  if (!document) return faults;
-  if (changes.of_study) changes.of_study(*document);
+Result<Study> study_from_json(json document, const std::filesystem::path& file, const StudyChanges& changes) {
+  if (changes.of_study) changes.of_study(document);
   Faults found;
   Faults in_labs;
   Study study;
-  if (has_format(*document, "pastefit-study-1", found)) {
-    ObjectReader reader(*document, "", found);
+  if (has_format(document, "pastefit-study-1", found)) {
+    ObjectReader reader(document, "", found);
     reader.known("format");
     reader.text("title", study.title, Need::required);
-    study.tests = read_tests(reader, *document, {file.parent_path(), changes.of_lab, in_labs});
+    study.tests = read_tests(reader, document, {file.parent_path(), changes.of_lab, in_labs});
     const ContactModel laws = read_contact(reader);
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
     study.parameters = read_parameters(reader, laws, study.tests);
@@ -222,12 +219,22 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
     read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);
-  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
+  Faults faults = in_file(std::move(found), file);
   faults.insert(faults.end(), in_labs.begin(), in_labs.end());
   if (!faults.empty()) return faults;
-  study.content = document->dump();
+  study.content = document.dump();
   study.hash = content_hash(study.content);
   return study;
+}
+
+Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes) {
+  Faults faults;
+  std::optional<json> document = read_json(file, faults);
+  if (!document) return faults;
+  Result<Study> study = study_from_json(std::move(*document), file, changes);
+  if (study.ok() && faults.empty()) return study;
+  if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
+  return faults;
 }
 
 }  // namespace pastefit
