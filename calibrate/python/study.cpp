@@ -1,0 +1,77 @@
+#include "calibrate/study/study.h"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/laboratory/names.h"
+#include "calibrate/python/faults.h"
+#include "calibrate/python/module.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
+
+namespace pastefit::python {
+
+namespace py = pybind11;
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json parameter_json(const Parameter& parameter) {
+  ordered_json out{{"name", parameter.name}, {"free", parameter.free}};
+  if (parameter.free) {
+    out["lower"] = parameter.lower;
+    out["upper"] = parameter.upper;
+    out["scale"] = word_of(parameter.scale, scales);
+  } else {
+    out["value"] = parameter.value;
+  }
+  if (parameter.prior)
+    out["prior"] = {{"value", parameter.prior->value}, {"standard_deviation", parameter.prior->standard_deviation}};
+  return out;
+}
+
+ordered_json reading_json(const StudyReading& reading) {
+  return {{"name", reading.name},
+          {"measured", reading.measurement.value},
+          {"standard_deviation", reading.measurement.standard_deviation},
+          {"repeats", reading.measurement.repeats},
+          {"weight", reading.weight},
+          {"tolerance", reading.tolerance}};
+}
+
+/// What the study fits and to what.
+std::string description_of(const Study& study) {
+  ordered_json out{{"title", study.title}, {"parameters", ordered_json::array()}, {"readings", ordered_json::array()}};
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free || parameter.stated) out["parameters"].push_back(parameter_json(parameter));
+  for (const StudyReading& reading : readings_of(study)) out["readings"].push_back(reading_json(reading));
+  out["budget_simulations"] = study.search.budget_simulations;
+  return out.dump();
+}
+
+}  // namespace
+
+nlohmann::json parsed(const std::string& text) {
+  return nlohmann::json::parse(text);
+}
+
+void add_stop(py::module_& module) {
+  py::class_<Stop, std::shared_ptr<Stop>>(module, "Stop").def(py::init<>()).def("set", [](Stop& stop) {
+    stop.asked = true;
+  });
+}
+
+void add_study(py::module_& module) {
+  py::class_<Study, std::shared_ptr<Study>>(module, "Study")
+      .def_static("load", [](const std::string& file) { return value_or_throw(read_study(file)); })
+      .def_static("from_json",
+                  [](const std::string& text, const std::string& file) {
+                    return value_or_throw(study_from_json(parsed(text), file));
+                  })
+      .def_readonly("content", &Study::content)
+      .def("description", description_of);
+}
+
+}  // namespace pastefit::python
