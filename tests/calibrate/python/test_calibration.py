@@ -3,11 +3,15 @@
 usage: test_calibration.py PROGRAM SOURCE_DIR [unittest options]
 """
 
+import contextlib
+import importlib.util
+import io
 import os
 import signal
 import subprocess
 import sys
 import time
+import unittest
 
 import numpy as np
 from studies import PROGRAM, THREADS, Desk, coarse_study, main
@@ -40,6 +44,19 @@ class Calibration(Desk):
         self.assertEqual(told[-1]["budget"], 16)
         for part in ("<table>", "<svg", "strength_pa"):
             self.assertIn(part, result._repr_html_())
+
+    def test_a_bar_shows_how_far_it_is(self):
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            pf.calibrate(pf.Study(coarse_study()), progress=True)
+        self.assertRegex(shown.getvalue(), r"\d+.*16.*")
+        self.assertIn("tolerance", shown.getvalue())
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "there is no pandas")
+    def test_a_data_frame_has_a_row_for_each_evaluation(self):
+        result = pf.calibrate(pf.Study(coarse_study()))
+        frame = result.to_pandas()
+        self.assertEqual(len(frame), result.simulated)
+        self.assertEqual(list(frame["step1.height_mm"]), list(result.evaluations["step1.height_mm"]))
 
     def test_a_folder_with_a_result_is_not_replaced_by_chance_and_resumes_without_a_simulation(self):
         study = pf.Study(coarse_study())
