@@ -5,6 +5,10 @@
 #include <atomic>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
+
+#include "calibrate/study/study.h"
+#include "calibrate/study/tests.h"
 
 namespace pastefit::python {
 
@@ -15,6 +19,10 @@ struct Stop {
 
 /// The document of a text that Python's json wrote.
 nlohmann::json parsed(const std::string& text);
+
+/// {"title", "parameters", "readings", "budget_simulations"}: what a study or a problem fits, and to what.
+nlohmann::ordered_json description_json(const std::string& title, const std::vector<Parameter>& parameters,
+                                        const std::vector<StudyReading>& readings, const SearchOptions& search);
 
 // Each adds the classes and functions of one file.
 void add_stop(pybind11::module_& module);

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/python/asked_search.h"
 #include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
+#include "calibrate/python/problem_answers.h"
 #include "calibrate/python/result_json.h"
-#include "calibrate/python/stored_search.h"
+#include "calibrate/python/study_answers.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit::python {
@@ -20,13 +22,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-std::string candidates_json(const Study& study, const std::vector<Candidate>& candidates) {
+std::string candidates_json(const std::vector<Parameter>& parameters, const std::vector<Candidate>& candidates) {
   ordered_json out = ordered_json::array();
   for (const Candidate& one : candidates) {
-    const auto values = values_at(study, coordinates(one.point));
     ordered_json variables = ordered_json::object();
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (study.parameters[i].free) variables[study.parameters[i].name] = values[i];
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      variables[parameters[i].name] = value_between(parameters[i], one.point[static_cast<Eigen::Index>(i)]);
     out.push_back({{"_id", one.number}, {"seed", one.packing}, {"variables", variables}, {"purpose", one.purpose}});
   }
   return out.dump();
@@ -47,40 +48,45 @@ std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
   return answers;
 }
 
-/// A `StoredSearch` with what it needs to name its parameters.
-struct SearchOfStudy {
-  std::shared_ptr<Study> study;
-  std::unique_ptr<StoredSearch> search;
-};
-
 }  // namespace
 
 void add_search(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> unlocked;
-  py::class_<SearchOfStudy, std::shared_ptr<SearchOfStudy>>(module, "Search")
-      .def(py::init([](std::shared_ptr<Study> study, const std::string& study_file, const std::string& file,
-                       const std::string& engine) {
-        auto search = value_or_throw(StoredSearch::open(study, study_file, file, engine));
-        return std::make_shared<SearchOfStudy>(SearchOfStudy{std::move(study), std::move(search)});
-      }))
+  py::class_<CustomProblem, std::shared_ptr<CustomProblem>>(module, "Problem")
+      .def_static("from_json", [](const std::string& text) { return value_or_throw(problem_from_json(parsed(text))); })
+      .def_readonly("content", &CustomProblem::content)
+      .def("description", [](const CustomProblem& problem) {
+        return description_json(problem.title, problem.parameters, problem.readings, problem.search).dump();
+      });
+  py::class_<AskedSearch, std::shared_ptr<AskedSearch>>(module, "Search")
+      .def_static("of_study",
+                  [](std::shared_ptr<Study> study, const std::string& study_file, const std::string& file,
+                     const std::string& engine) {
+                    return std::make_shared<AskedSearch>(
+                        value_or_throw(StudyAnswers::open(std::move(study), study_file, file, engine)));
+                  })
+      .def_static("of_problem",
+                  [](const CustomProblem& problem, const std::string& file, const std::string& engine) {
+                    return std::make_shared<AskedSearch>(value_or_throw(ProblemAnswers::open(problem, file, engine)));
+                  })
       .def(
           "suggest",
-          [](SearchOfStudy& of, std::size_t count) { return candidates_json(*of.study, of.search->suggest(count)); },
+          [](AskedSearch& search, std::size_t count) {
+            return candidates_json(search.answers().parameters(), search.suggest(count));
+          },
           unlocked)
       .def(
           "ingest",
-          [](SearchOfStudy& of, const std::string& results) {
-            refuse(of.search->ingest(answers_from(parsed(results))));
-          },
+          [](AskedSearch& search, const std::string& results) { refuse(search.ingest(answers_from(parsed(results)))); },
           unlocked)
-      .def("stop", [](SearchOfStudy& of) { of.search->stop(); })
-      .def("finished", [](const SearchOfStudy& of) { return of.search->finished(); })
+      .def("stop", &AskedSearch::stop)
+      .def("finished", &AskedSearch::finished)
       .def(
-          "result", [](SearchOfStudy& of) { return result_json(of.search->result()).dump(); }, unlocked)
-      .def("evaluations", [](const SearchOfStudy& of) { return evaluations_json(of.search->store()).dump(); })
-      .def("progress", [](const SearchOfStudy& of) {
+          "result", [](AskedSearch& search) { return search.result().dump(); }, unlocked)
+      .def("evaluations", [](const AskedSearch& search) { return search.answers().evaluations().dump(); })
+      .def("progress", [](const AskedSearch& search) {
         std::string phase;
-        const Progress progress = of.search->progress(phase);
+        const Progress progress = search.progress(phase);
         return progress_json(progress, phase).dump();
       });
 }

@@ -41,17 +41,17 @@ ordered_json reading_json(const StudyReading& reading) {
           {"tolerance", reading.tolerance}};
 }
 
-/// What the study fits and to what.
-std::string description_of(const Study& study) {
-  ordered_json out{{"title", study.title}, {"parameters", ordered_json::array()}, {"readings", ordered_json::array()}};
-  for (const Parameter& parameter : study.parameters)
-    if (parameter.free || parameter.stated) out["parameters"].push_back(parameter_json(parameter));
-  for (const StudyReading& reading : readings_of(study)) out["readings"].push_back(reading_json(reading));
-  out["budget_simulations"] = study.search.budget_simulations;
-  return out.dump();
-}
-
 }  // namespace
+
+ordered_json description_json(const std::string& title, const std::vector<Parameter>& parameters,
+                              const std::vector<StudyReading>& readings, const SearchOptions& search) {
+  ordered_json out{{"title", title}, {"parameters", ordered_json::array()}, {"readings", ordered_json::array()}};
+  for (const Parameter& parameter : parameters)
+    if (parameter.free || parameter.stated) out["parameters"].push_back(parameter_json(parameter));
+  for (const StudyReading& reading : readings) out["readings"].push_back(reading_json(reading));
+  out["budget_simulations"] = search.budget_simulations;
+  return out;
+}
 
 nlohmann::json parsed(const std::string& text) {
   return nlohmann::json::parse(text);
@@ -71,7 +71,9 @@ void add_study(py::module_& module) {
                     return value_or_throw(study_from_json(parsed(text), file));
                   })
       .def_readonly("content", &Study::content)
-      .def("description", description_of);
+      .def("description", [](const Study& study) {
+        return description_json(study.title, study.parameters, readings_of(study), study.search).dump();
+      });
 }
 
 }  // namespace pastefit::python

@@ -9,10 +9,10 @@ from typing import Any, Callable, Dict, List, Optional, Union
 import numpy as np
 
 from . import _core, html, interrupt, progress as progress_module
-from .card import Card
+from .card import Card, reading_table
 from .documents import table
 from .progress import Show
-from .study import Study
+from .study import Described, Study
 from .workers import WorkerDied, Workers
 
 _INTERVALS = [("parameter", object), ("recommended", float), ("lower", float), ("upper", float), ("lower_known", bool),
@@ -23,19 +23,24 @@ class CalibrationResult:
     """What a calibration brought.
 
     status: "confirmed", "unconfirmed", "out_of_reach", "stopped" or "failed"; reason: the same in sentences. card: None if
-    no candidate could be simulated. intervals: what the readings say of each free parameter, a table: parameter,
+    no candidate could be simulated, or the test is none that a card can hold (`Problem`). parameters: the free ones of the
+    material that is reported, by name. intervals: what the readings say of each free parameter, a table: parameter,
     recommended, lower and upper (95 %), whether the data set either end (lower_known, upper_known), the study's bounds,
-    uncertainty (standard deviation after the measurement over before). evaluations: every simulation, a table: number,
+    uncertainty (standard deviation after the measurement over before). readings: measured against simulated, as
+    `Card.readings`. evaluations: every simulation, a table: number,
     packing, the free parameters, the readings, failure ("" if none), message, ended_early, wall_s. summary: for a person.
     """
 
-    def __init__(self, result: Dict[str, Any], evaluations: List[Dict[str, Any]], study: Study) -> None:
+    def __init__(self, result: Dict[str, Any], evaluations: List[Dict[str, Any]], study: Described) -> None:
         self.status: str = result["status"]
         self.reason: str = result["reason"]
         self.simulated: int = result["simulated"]
         self.known: int = result["known"]
         self.failures: Dict[str, int] = result["failures"]
         self.card: Optional[Card] = Card(result["card"]) if result["card"] else None
+        known = self.card.parameters if self.card else result.get("parameters", {})
+        self.parameters: Dict[str, float] = {name: known[name] for name in study.free if name in known}
+        self.readings: np.ndarray = self.card.readings if self.card else reading_table(result.get("readings", []))
         self.summary: str = result["summary"]
         self.intervals: np.ndarray = table(result["intervals"], _INTERVALS)
         self.correlation: np.ndarray = np.array(result["correlation"], dtype=float)
@@ -46,11 +51,6 @@ class CalibrationResult:
         """Whether the material meets the laboratory on packings that the search had not seen."""
         return self.status == "confirmed"
 
-    @property
-    def readings(self) -> np.ndarray:
-        """Measured against simulated (`Card.readings`); empty without a card."""
-        return self.card.readings if self.card else table([], [("name", object)])
-
     def to_pandas(self) -> Any:
         """The evaluations as a pandas.DataFrame. Errors: ImportError where there is no pandas."""
         import pandas
@@ -60,14 +60,13 @@ class CalibrationResult:
         return f"<CalibrationResult {self.status}: {self.reason}>"
 
     def _repr_html_(self) -> str:
-        if self.card is None:
-            return html.rows(("status", "reason"), [(self.status, self.reason)])
         fitted = html.rows(("parameter", "recommended", "lower", "upper"), (
             (one["parameter"], one["recommended"], one["lower"], one["upper"]) for one in self.intervals))
-        return html.card(self.card) + fitted
+        shown = html.card(self.card) if self.card else html.readings(self.status, self.reason, self.readings)
+        return shown + fitted
 
 
-def _evaluation_table(evaluations: List[Dict[str, Any]], study: Study) -> np.ndarray:
+def _evaluation_table(evaluations: List[Dict[str, Any]], study: Described) -> np.ndarray:
     readings = list(dict.fromkeys(name for one in evaluations for name in one["readings"]))
     columns = [("number", int), ("packing", int), *((name, float) for name in [*study.free, *readings]),
                ("failure", object), ("message", object), ("ended_early", bool), ("wall_s", float)]

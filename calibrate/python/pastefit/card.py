@@ -2,7 +2,7 @@
 
 import json
 import os
-from typing import Any, Dict, Mapping, Union
+from typing import Any, Dict, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -11,6 +11,11 @@ from .documents import table, text_of
 
 _COLUMNS = [("name", object), ("measured", float), ("tolerance", float), ("simulated", float), ("standard_error", float),
             ("difference", float), ("weight", float)]
+
+
+def reading_table(rows: Sequence[Mapping[str, Any]]) -> np.ndarray:
+    """Measured against simulated."""
+    return table(rows, _COLUMNS)
 
 
 class Card:
@@ -52,7 +57,7 @@ class Card:
             before = test["name"] + "/" if test.get("name") else ""
             rows += [{"name": before + name, **one} for name, one in test["observables"].items()
                      if one.get("measured") is not None]
-        return table(rows, _COLUMNS)
+        return reading_table(rows)
 
     @property
     def meets_laboratory(self) -> bool:

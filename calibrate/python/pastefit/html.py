@@ -48,9 +48,13 @@ def drawing(readings: np.ndarray) -> str:
     return "".join(parts)
 
 
-def card(shown: "Card") -> str:
-    """Title, verdict, readings as a table and as a drawing."""
-    readings = shown.readings
+def readings(title: str, sentence: str, shown: np.ndarray) -> str:
+    """A title, a sentence, readings as a table and as a drawing."""
     columns = ("name", "measured", "tolerance", "simulated", "difference")
-    return (f"<h4>{escape(shown.title)}</h4><p>{escape(shown.verdict)}</p>"
-            + rows(columns, ([one[column] for column in columns] for one in readings)) + drawing(readings))
+    return (f"<h4>{escape(title)}</h4><p>{escape(sentence)}</p>"
+            + rows(columns, ([one[column] for column in columns] for one in shown)) + drawing(shown))
+
+
+def card(shown: "Card") -> str:
+    """Title, verdict and readings of a card."""
+    return readings(shown.title, shown.verdict, shown.readings)

@@ -12,6 +12,7 @@ from . import _core, progress as progress_module
 from .calibration import CalibrationResult
 from .documents import text_of, without_nan
 from .faults import InputError
+from .problem import Problem
 from .progress import Show
 from .study import Study
 from .workers import WorkerDied, Workers
@@ -32,21 +33,25 @@ class Search:
     The form is that of generators in gest-api (libEnsemble, Xopt): lists of dicts of variables, and of variables with
     observables. What it suggests depends on the answers only, not on their order or the number of workers.
 
-    study: whose laboratory readings are to be met; its test need not be simulated by pastefit. store: file in which every
-    answer is kept before it is used; a search of the same study and engine with the same file goes on where it was.
-    engine: name and version of the simulator. Errors: `InputError`.
+    study: whose laboratory readings are to be met, or its path; or a `Problem`, whose parameters and readings pastefit need
+    not know. store: file in which every answer is kept before it is used; a search of the same study and engine with the
+    same file goes on where it was. engine: name and version of the simulator. Errors: `InputError`.
     """
 
     returns_id = True  # of gest-api: candidates have an "_id", and answers give it back
 
-    def __init__(self, study: Union[Study, str, "os.PathLike[str]"], *,
+    def __init__(self, study: Union[Study, Problem, str, "os.PathLike[str]"], *,
                  store: Union[str, "os.PathLike[str]", None] = None, engine: str = "another engine") -> None:
-        self.study = study if isinstance(study, Study) else Study.load(study)
+        self.study: Union[Study, Problem] = study if isinstance(study, (Study, Problem)) else Study.load(study)
         if store is None:
             folder = tempfile.mkdtemp(prefix="pastefit-")
             weakref.finalize(self, shutil.rmtree, folder, True)
-            store = os.path.join(folder, "evaluations.sqlite")
-        self._search = _core.Search(self.study._study, self.study.path, os.fspath(store), engine)
+            store = os.path.join(folder, "answers")
+        file = os.fspath(store)
+        if isinstance(self.study, Problem):
+            self._search = _core.Search.of_problem(self.study._problem, file, engine)
+        else:
+            self._search = _core.Search.of_study(self.study._study, self.study.path, file, engine)
         self._asked: Dict[int, Candidate] = {}
         self._given_back: List[Candidate] = []  # by a run that was interrupted
 

@@ -10,7 +10,40 @@ from . import _core
 from .documents import merged, table, text_of
 
 
-class Study:
+class Described:
+    """What is fitted, and to what."""
+
+    _description: Dict[str, Any]
+
+    @property
+    def title(self) -> str:
+        return self._description["title"]
+
+    @property
+    def free(self) -> Dict[str, Tuple[float, float]]:
+        """The bounds of each parameter that is fitted, by name, in the parameter's unit."""
+        return {one["name"]: (one["lower"], one["upper"]) for one in self._description["parameters"] if one["free"]}
+
+    @property
+    def fixed(self) -> Dict[str, float]:
+        """The value of each parameter that the study fixes, by name."""
+        return {one["name"]: one["value"] for one in self._description["parameters"] if not one["free"]}
+
+    @property
+    def readings(self) -> np.ndarray:
+        """What the laboratory measured, a table: name, measured, standard_deviation, repeats, weight, tolerance; each in
+        the unit that the name says."""
+        return table(self._description["readings"], [
+            ("name", object), ("measured", float), ("standard_deviation", float), ("repeats", int), ("weight", float),
+            ("tolerance", float)])
+
+    @property
+    def budget_simulations(self) -> int:
+        """Simulations that a calibration may spend in all."""
+        return self._description["budget_simulations"]
+
+
+class Study(Described):
     """The laboratory's tests of one material, its parameters free and fixed, and how to search for them.
 
     `content`: what a study file says (data/schema/study.md), as a dict. Where a file names a laboratory file ("lab"), the
@@ -43,33 +76,6 @@ class Study:
     def content(self) -> Dict[str, Any]:
         """What the study file says."""
         return json.loads(self._study.content)
-
-    @property
-    def title(self) -> str:
-        return self._description["title"]
-
-    @property
-    def free(self) -> Dict[str, Tuple[float, float]]:
-        """The bounds of each parameter that is fitted, by name, in the parameter's unit."""
-        return {one["name"]: (one["lower"], one["upper"]) for one in self._description["parameters"] if one["free"]}
-
-    @property
-    def fixed(self) -> Dict[str, float]:
-        """The value of each parameter that the study fixes, by name."""
-        return {one["name"]: one["value"] for one in self._description["parameters"] if not one["free"]}
-
-    @property
-    def readings(self) -> np.ndarray:
-        """What the laboratory measured, a table: name, measured, standard_deviation, repeats, weight, tolerance; each in
-        the unit that the name says."""
-        return table(self._description["readings"], [
-            ("name", object), ("measured", float), ("standard_deviation", float), ("repeats", int), ("weight", float),
-            ("tolerance", float)])
-
-    @property
-    def budget_simulations(self) -> int:
-        """Simulations that a calibration may spend in all."""
-        return self._description["budget_simulations"]
 
     def changed(self, changes: Mapping[str, Any]) -> "Study":
         """A study with these changes of its content, merged key by key: `{"search": {"seed": 2}}`. None takes a key

@@ -38,6 +38,69 @@ def study(**search):
     return pf.Study(coarse_study(tolerance_mm=15, **search))
 
 
+def repose(**changes):
+    """A test that pastefit does not know: the angle of repose and the time of flow of an EDEM deck."""
+    return {"title": "Sand in a drum", "parameters": {
+                "sliding": {"free": [0.05, 0.8]}, "surface_energy_j_m2": {"free": [0.01, 10], "scale": "log"}},
+            "measurements": {"angle_deg": {"value": 32, "standard_deviation": 1, "repeats": 3},
+                             "flow_time_s": {"value": 4, "standard_deviation": 0.3}},
+            "tolerances": {"angle_deg": 2},
+            "search": {"budget_simulations": 60, "screening": 8, "packings": 1, "confirmation_packings": 2,
+                       "examination_simulations": 4}, **changes}
+
+
+def drum(candidate):
+    noise = (candidate["seed"] * 7919 % 11 - 5) / 20
+    return {"angle_deg": 18 + 25 * candidate["sliding"] + noise,
+            "flow_time_s": 3 + candidate["surface_energy_j_m2"] ** 0.5 + 2 * candidate["sliding"] + noise / 10}
+
+
+class Problem(Desk):
+    def test_a_problem_of_any_parameters_and_readings_is_fitted_and_confirmed(self):
+        result = pf.Search(pf.Problem(repose())).run(drum)
+        self.assertEqual(result.status, "confirmed", result.reason)
+        self.assertIsNone(result.card)
+        self.assertAlmostEqual(result.parameters["sliding"], 14 / 25, delta=0.1)
+        self.assertLess(abs(result.readings["difference"][0]), 2)
+        sliding = result.intervals[0]
+        self.assertLess(sliding["lower"], 14 / 25)
+        self.assertGreater(sliding["upper"], 14 / 25)
+        self.assertLess(sliding["upper"] - sliding["lower"], 0.4)
+        self.assertIn("surface_energy_j_m2", result.evaluations.dtype.names)
+        for part in ("<svg", "angle_deg", "sliding"):
+            self.assertIn(part, result._repr_html_())
+
+    def test_every_fault_of_a_problem_comes_at_once(self):
+        content = repose(measurments={})
+        content["parameters"]["sliding"] = {"free": [0.8, 0.05]}
+        del content["measurements"]["flow_time_s"]["standard_deviation"]
+        places = [fault.where for fault in self.faults(pf.Problem, content)]
+        self.assertEqual(sorted(places), ["measurements.flow_time_s.standard_deviation", "measurments",
+                                          "parameters.sliding.free"])
+
+    def test_a_problem_goes_on_where_its_file_ends(self):
+        store, asked = self.folder / "answers.jsonl", []
+
+        def cut(candidate):
+            if len(asked) == 9:
+                raise KeyboardInterrupt
+            asked.append(candidate)
+            return drum(candidate)
+
+        with self.assertRaises(KeyboardInterrupt):
+            pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(cut)
+        with open(store, "a") as file:
+            file.write('{"point": [0.')  # a run that was killed
+        resumed = pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(drum)
+        whole = pf.Search(pf.Problem(repose())).run(drum)
+        self.assertEqual(resumed.known, 9)
+        self.assertEqual(resumed.parameters, whole.parameters)
+        self.assertEqual(list(resumed.intervals["upper"]), list(whole.intervals["upper"]))
+        self.assertEqual(pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(drum).simulated, 0)
+        fault, = self.faults(pf.Search, pf.Problem(repose()), store=store, engine="drum 2")
+        self.assertIn("another problem or engine", fault.what)
+
+
 class Search(Desk):
     def search(self, **options):
         return pf.Search(study(), engine="toy 1", **options)

@@ -6,22 +6,21 @@
 #include <thread>
 
 #include "calibrate/inference/inference.h"
+#include "calibrate/python/answers.h"
 #include "calibrate/search/calibration.h"
 #include "calibrate/search/candidate_queue.h"
-#include "calibrate/store/store.h"
-#include "calibrate/study/study.h"
 
 namespace pastefit::python {
 
 /// `examine` with simulations that run in another engine: it waits in a thread of its own, and its candidates are
 /// suggested and answered by `queue`, as those of a search are.
-class StoredExamination {
+class AskedExamination {
  public:
-  /// Requirements: those of `examine`; study, store and calibration outlive it.
-  StoredExamination(const Study& study, const Store& store, const Calibration& found, int simulations);
-  StoredExamination(const StoredExamination&) = delete;
-  StoredExamination& operator=(const StoredExamination&) = delete;
-  ~StoredExamination();
+  /// Requirements: those of `examine`; answers and calibration outlive it.
+  AskedExamination(const Answers& answers, const Calibration& found, int simulations);
+  AskedExamination(const AskedExamination&) = delete;
+  AskedExamination& operator=(const AskedExamination&) = delete;
+  ~AskedExamination();
 
   CandidateQueue& queue();
   /// Requirement: the queue has finished. Throws what ended the examination if that was an error.
