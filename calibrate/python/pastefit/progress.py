@@ -36,9 +36,9 @@ class Bar:
 
 def shown_by(progress: Show) -> Callable[[Progress], None]:
     """The function that is told: the caller's own, a bar for True, nobody for None and False."""
-    if progress is None or progress is False:
-        return lambda _: None
-    return Bar() if progress is True else progress
+    if progress is None or isinstance(progress, bool):
+        return Bar() if progress else lambda _: None
+    return progress
 
 
 def close(show: Callable[[Progress], None]) -> None:

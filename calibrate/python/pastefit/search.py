@@ -66,6 +66,13 @@ class Search:
         return list(self.study.readings["name"])
 
     @property
+    def vocs(self) -> Dict[str, Any]:
+        """What a VOCS of gest-api is made of, `VOCS(**search.vocs)`; the seed is one of its variables, so that frameworks
+        hand it on."""
+        bounds = {name: list(ends) for name, ends in self.variables.items()}
+        return {"variables": {**bounds, "seed": [0, 2**53]}, "observables": self.observables}
+
+    @property
     def finished(self) -> bool:
         """True when there is nothing more to simulate: `result()` is known."""
         return self._search.finished()
@@ -74,7 +81,8 @@ class Search:
         """At most so many candidates (without a number: all that can be simulated now) that were not suggested before.
 
         Each is a dict of the variables by name, with "seed", of the random packing: the same variables on another seed are
-        a repetition of the test; and "_id". Empty at the end of the search, and while the search waits for answers.
+        a repetition of the test; and "_id". There are fewer, or none, while the search waits for answers, and none at its
+        end.
         """
         count = 2**31 if num_points is None else num_points
         candidates, self._given_back = self._given_back[:count], self._given_back[count:]

@@ -5,6 +5,7 @@ import math
 import pathlib
 import os
 
+import numpy as np
 from studies import Desk, coarse_study, height, main
 import pastefit as pf
 
@@ -154,6 +155,20 @@ class Search(Desk):
         del answer["_id"]
         search.ingest([answer])
         self.assertNotEqual(search.suggest(1)[0]["_id"], candidate["_id"])
+
+    def test_a_framework_that_passes_arrays_of_named_fields_on_drives_it(self):
+        # As libEnsemble does: only what the VOCS names survives, as numbers of NumPy.
+        search = self.search()
+        fields = [*search.vocs["variables"], *search.vocs["observables"]]
+        while candidates := search.suggest(3):
+            rows = np.zeros(len(candidates), dtype=[(name, float) for name in fields])
+            for row, candidate in zip(rows, candidates):
+                for name in search.vocs["variables"]:
+                    row[name] = candidate[name]
+            for row in rows:
+                row["step1.height_mm"] = height(row)["step1.height_mm"]
+            search.ingest([{name: row[name] for name in fields} for row in rows])
+        self.assertEqual(search.result().card, self.search().run(height).card)
 
     def test_an_answer_that_nobody_asked_for_is_told_and_nothing_is_taken(self):
         search = self.search()
