@@ -34,11 +34,15 @@ class Bar:
             self._bar.close()
 
 
+def _nobody(_: Progress) -> None:
+    pass
+
+
 def shown_by(progress: Show) -> Callable[[Progress], None]:
     """The function that is told: the caller's own, a bar for True, nobody for None and False."""
-    if progress is None or isinstance(progress, bool):
-        return Bar() if progress else lambda _: None
-    return progress
+    if progress is True:
+        return Bar()
+    return progress if callable(progress) else _nobody
 
 
 def close(show: Callable[[Progress], None]) -> None:
