@@ -257,7 +257,7 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
 
 }  // namespace
 
-Result<FoundScene> scene_from_json(json document, const std::filesystem::path& file,
+Result<FoundScene> scene_from_json(const json& document, const std::filesystem::path& file,
                                    const std::vector<std::string>& texts, const std::string& name) {
   Faults faults;
   auto settings = read_settings(texts, faults);
@@ -284,7 +284,7 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
   if (!document) (void)read_settings(texts, faults);
   faults.insert(faults.end(), unread.begin(), unread.end());
   if (!document) return faults;
-  auto found = scene_from_json(std::move(*document), file, texts, name);
+  auto found = scene_from_json(*document, file, texts, name);
   if (found.ok() && faults.empty()) return found;
   if (!found.ok()) faults.insert(faults.end(), found.faults().begin(), found.faults().end());
   return faults;

@@ -35,7 +35,7 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
 
 /// The same for what such a file says. `file`: the name that places begin with, empty for none; what it names is looked
 /// for in its folder.
-Result<FoundScene> scene_from_json(nlohmann::json document, const std::filesystem::path& file,
+Result<FoundScene> scene_from_json(const nlohmann::json& document, const std::filesystem::path& file,
                                    const std::vector<std::string>& settings, const std::string& test);
 
 }  // namespace pastefit

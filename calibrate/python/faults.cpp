@@ -13,7 +13,7 @@ void refuse(Faults faults) {
 void add_faults(py::module_&) {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const BadInput& bad) {
       py::list faults;
       for (const Fault& fault : bad.faults) faults.append(py::make_tuple(fault.where, fault.what, fault.remedy));
