@@ -1,4 +1,5 @@
-# Debian packages (.ci/package): `pastefit`, the program with its data, and `libpastefit-dev`, what other programs need.
+# Debian packages (.ci/package): `pastefit`, the program with its data, `libpastefit-dev`, what other programs need, and,
+# where it is built, `python3-pastefit`.
 
 # What Debian asks of the documentation of a package: licence and changelog, compressed without a date.
 set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
@@ -20,10 +21,13 @@ file(WRITE ${documents}/changelog "pastefit (${PROJECT_VERSION}) unstable; urgen
 find_program(gzip gzip)
 if(gzip)
   execute_process(COMMAND ${gzip} -9nkf changelog WORKING_DIRECTORY ${documents})
-  foreach(package IN ITEMS pastefit:program libpastefit-dev:library)
+  foreach(package IN ITEMS pastefit:program libpastefit-dev:library python3-pastefit:python)
     string(REPLACE ":" ";" package ${package})
     list(GET package 0 name)
     list(GET package 1 part)
+    if(part STREQUAL python AND NOT PASTEFIT_PYTHON)
+      continue()
+    endif()
     install(FILES ${documents}/copyright ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
             COMPONENT ${part})
   endforeach()
@@ -52,4 +56,16 @@ set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "calibration of DEM contact models, as a
  headers and CMake package files.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
     "libeigen3-dev, libnlopt-cxx-dev, libceres-dev, libsqlite3-dev, nlohmann-json3-dev, libboost-dev, zlib1g-dev")
+if(PASTEFIT_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pastefit)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "calibration of DEM contact models, from Python
+ The simulation, calibration and search of pastefit as a Python package: a
+ study in, a material card out, with any simulator behind the search.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "pastefit (= ${PROJECT_VERSION}), python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-pandas, python3-matplotlib")
+endif()
 include(CPack)

@@ -26,6 +26,8 @@ std::string_view name_of(FailureReason reason) {
       return "fell_apart";
     case FailureReason::step_limit:
       return "step_limit";
+    case FailureReason::engine_failed:
+      return "engine_failed";
     case FailureReason::stopped:
       return "stopped";
   }

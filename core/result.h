@@ -58,6 +58,7 @@ enum class FailureReason {
   packing_failed,     ///< the mould could not be filled
   fell_apart,         ///< the specimen does not hold together
   step_limit,         ///< the bound on the number of steps was reached
+  engine_failed,      ///< another engine, or the process it ran in, gave no answer
   stopped             ///< the caller asked to stop (time limit or interrupt)
 };
 

@@ -30,6 +30,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 Faults in_file(Faults faults, const std::filesystem::path& file) {
+  if (file.empty()) return faults;
   for (Fault& fault : faults) fault.where = file.string() + (fault.where.empty() ? "" : ": " + fault.where);
   return faults;
 }

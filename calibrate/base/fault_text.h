@@ -14,7 +14,8 @@ namespace pastefit {
 /// What stands in place of a key that no description names; such a fault leaves the other values as they are.
 inline constexpr std::string_view unknown_key = "unknown key";
 
-/// Puts the file's name before the place of each fault: "mix.json: measurements.step1.height_mm".
+/// Puts the file's name before the place of each fault: "mix.json: measurements.step1.height_mm"; nothing, if it has
+/// none.
 Faults in_file(Faults faults, const std::filesystem::path& file);
 
 /// One message that lists every fault, one a line: "place: what; remedy".

@@ -6,18 +6,20 @@
 #include "calibrate/base/format.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/cli/calibration_folder.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/delivery.h"
 #include "calibrate/cli/effort_checks.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/option_checks.h"
-#include "calibrate/cli/output_folder.h"
 #include "calibrate/cli/progress_line.h"
-#include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/study_remarks.h"
+#include "calibrate/report/calibration_folder.h"
+#include "calibrate/report/report_page.h"
 #include "calibrate/search/effort.h"
+#include "calibrate/search/record.h"
+#include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/tests.h"
 
@@ -113,7 +115,7 @@ int run_calibrate(const CalibrateArguments& options) {
   const auto result = calibrate(study, store.value(), how, {show, count, &looks});
   line.end();
   if (!result.ok()) return report(result.faults(), kFailed);
-  const Delivery delivery{study, store.value(), folder.value(), options.out, options.threads, options.json};
+  const Delivery delivery{study, store.value(), folder.value(), options.threads, options.json};
   return delivery.deliver(result.value(), stop, looks);
 }
 

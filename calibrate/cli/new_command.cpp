@@ -10,7 +10,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/study/slump_sheet.h"

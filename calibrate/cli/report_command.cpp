@@ -6,9 +6,10 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"
-#include "calibrate/cli/output_folder.h"
-#include "calibrate/cli/report_page.h"
+#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/report/report_page.h"
+#include "calibrate/store/output_folder.h"
 
 namespace pastefit {
 
@@ -25,8 +26,9 @@ int write_report(const ReportOptions& options) {
   if (!findings.ok()) return report(findings.faults());
   const std::filesystem::path folder = options.folder;
   if (const auto faults = output_folder_faults("DIR", folder); !faults.empty()) return report(faults);
+  const auto tell = [](const std::string& sentence) { note("pastefit: %s\n", sentence.c_str()); };
   const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
-                                    {.threads = options.threads, .simulate = !options.quick});
+                                    {.threads = options.threads, .simulate = !options.quick, .tell = tell});
   for (const std::string& sentence : findings.value().missing) note("pastefit: %s\n", one_line(sentence).c_str());
   std::vector<std::string> files{kPage};
   auto faults = write_curves(folder, findings.value(), files);

@@ -11,7 +11,7 @@
 #include "calibrate/cli/effort_checks.h"
 #include "calibrate/cli/machine_options.h"
 #include "calibrate/cli/option_checks.h"
-#include "calibrate/cli/output_folder.h"
+#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"
 #include "calibrate/report/card_text.h"

@@ -26,12 +26,6 @@ int prior_count(const Study& study) {
       std::ranges::count_if(study.parameters, [](const Parameter& parameter) { return parameter.prior.has_value(); }));
 }
 
-std::string changed_places(const Store& store) {
-  std::string out;
-  for (const auto& place : store.changes()) out += (out.empty() ? "" : ", ") + place;
-  return out;
-}
-
 /// What has changed since the evaluations were made, and how many of them still hold.
 std::string changes_in(const Study& study, const Store& store) {
   if (store.changes().empty()) return "";
@@ -69,15 +63,6 @@ void print_remarks(const Study& study, const Store& store, const std::string& fi
   if (!is_quiet()) note("%s%s", understood(study, threads).c_str(), readings_not_measured(study).c_str());
   note("%s%s%s", notes_on_readings(study).c_str(), changes_in(study, store).c_str(),
        warning_before(free_count(study), prior_count(study), fitted_readings(study)).c_str());
-}
-
-Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
-  if (store.size() == 0 || holding(study, store) > 0) return {};
-  return {{file,
-           "none of its " + std::to_string(store.size()) +
-               " evaluations is of a test of this study; changed: " + changed_places(store),
-           "resume with the apparatus, the grains and the density as they were; or choose another output folder, or "
-           "start anew with --force"}};
 }
 
 }  // namespace pastefit

@@ -11,7 +11,4 @@ namespace pastefit {
 /// changed since, what is odd about the readings. `file`: the store's.
 void print_remarks(const Study& study, const Store& store, const std::string& file, int threads);
 
-/// A store of which nothing is of the study's tests: going on would mix two laboratories in one folder.
-Faults strangers_in(const Study& study, const Store& store, const std::string& file);
-
 }  // namespace pastefit

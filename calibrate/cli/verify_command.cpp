@@ -1,21 +1,18 @@
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
-#include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"
-#include "calibrate/verify/verify.h"
+#include "calibrate/verify/verified_cases.h"
 
 namespace pastefit {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct VerifyOptions {
   std::vector<std::string> cases;
@@ -23,17 +20,6 @@ struct VerifyOptions {
   bool points = false;
   bool formulas = false;
 };
-
-struct VerifiedCase {
-  Case test;
-  std::vector<CheckRow> rows;
-};
-
-/// The shipped case of that name, or else the file.
-fs::path file_of(const std::string& name, const std::vector<fs::path>& shipped) {
-  const auto found = std::ranges::find_if(shipped, [&](const fs::path& file) { return file.stem() == name; });
-  return found == shipped.end() ? fs::path(name) : *found;
-}
 
 void print_header() {
   print("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance", "",
@@ -56,86 +42,33 @@ void print_notes(const std::vector<CheckRow>& rows) {
 
 void print_cases(const std::vector<VerifiedCase>& cases, bool every_point) {
   print_header();
-  for (const auto& [test, rows] : cases) {
+  for (const auto& [file, test, rows] : cases) {
     for (const CheckRow& row : every_point ? rows : worst_rows(rows))
       print_row(test.name, row, every_point ? 1 : test.points.size());
     print_notes(rows);
   }
 }
 
-nlohmann::ordered_json case_json(const VerifiedCase& verified) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const CheckRow& row : verified.rows)
-    rows.push_back({{"point", row.point},
-                    {"reading", row.reading},
-                    {row.bound ? "at_most" : "expected", row.expected},
-                    {"got", row.got},
-                    {"error", row.error},
-                    {"error_is", row.absolute || row.bound ? "absolute" : "relative"},
-                    {"tolerance", row.tolerance},
-                    {"verdict", name_of(row.verdict)},
-                    {"note", row.note}});
-  return {{"case", verified.test.name},
-          {"title", verified.test.title},
-          {"source", verified.test.source},
-          {"rows", std::move(rows)}};
-}
-
-int verify_cases(const VerifyOptions& options) {
+int run_verify(const VerifyOptions& options) {
   if (options.formulas) {
     for (const Formula& formula : formulas())
       print("%-22s %s\n", std::string(formula.name).c_str(), std::string(formula.meaning).c_str());
     return kDone;
   }
-  const auto shipped = shipped_cases();
-  if (shipped.empty() && options.cases.empty())
-    return report({{"verify", "no cases were found", "set PASTEFIT_DATA_DIR to the data folder of pastefit"}});
-  std::vector<fs::path> files = shipped;
-  if (!options.cases.empty()) {
-    files.clear();
-    for (const auto& name : options.cases) files.push_back(file_of(name, shipped));
-  }
-
-  Faults faults;
-  std::vector<VerifiedCase> cases;
-  std::vector<fs::path> readable;
-  std::size_t points = 0;
-  for (const fs::path& file : files) {
-    auto test = read_case(file);
-    if (!test.ok()) {
-      faults.insert(faults.end(), test.faults().begin(), test.faults().end());
-      continue;
-    }
-    points += test.value().points.size();
-    readable.push_back(file);
-    cases.push_back({std::move(test).value(), {}});
-  }
-  WorkLine line("points", static_cast<int>(points));
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    auto rows = verify(cases[i].test, [&] { line.one_done(); });
-    if (rows.ok())
-      cases[i].rows = std::move(rows).value();
-    else
-      for (Fault& fault : in_file(rows.faults(), readable[i])) faults.push_back(std::move(fault));
-  }
-  line.clear();
-  if (!faults.empty()) return report(faults);
-
-  std::size_t checks = 0, failed = 0, known = 0;
-  for (const auto& [test, rows] : cases) {
-    checks += rows.size();
-    failed += static_cast<std::size_t>(std::ranges::count(rows, CaseVerdict::fail, &CheckRow::verdict));
-    known += static_cast<std::size_t>(std::ranges::count(rows, CaseVerdict::known, &CheckRow::verdict));
-  }
+  std::optional<WorkLine> line;
+  const auto begin = [&](int points) { line.emplace("points", points); };
+  const auto verified = verify_cases(options.cases, begin, [&] { line->one_done(); });
+  if (line) line->clear();
+  if (!verified.ok()) return report(verified.faults());
+  const VerifyCounts counts = counts_of(verified.value());
   if (options.json) {
-    nlohmann::ordered_json out{{"checks", checks}, {"failed", failed}, {"known_deviations", known}};
-    for (const VerifiedCase& verified : cases) out["cases"].push_back(case_json(verified));
-    print("%s", json_text(out).c_str());
+    print("%s", json_text(to_json(verified.value())).c_str());
   } else {
-    print_cases(cases, options.points);
-    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), checks, failed, known);
+    print_cases(verified.value(), options.points);
+    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", verified.value().size(), counts.checks,
+          counts.failed, counts.known);
   }
-  return failed == 0 ? kDone : kFailed;
+  return counts.failed == 0 ? kDone : kFailed;
 }
 
 }  // namespace
@@ -146,7 +79,7 @@ Command add_verify(CLI::App& verb) {
   verb.add_flag("--json", options->json, "print every check at every point as JSON");
   verb.add_flag("--points", options->points, "print every point of a case, not only its worst");
   verb.add_flag("--formulas", options->formulas, "list the closed forms that a case may name");
-  return [options] { return verify_cases(*options); };
+  return [options] { return run_verify(*options); };
 }
 
 }  // namespace pastefit

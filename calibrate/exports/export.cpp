@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -31,6 +33,19 @@ std::span<const Exporter> exporters() {
       Exporter{"csv", "parameters, force table and grains as CSV files", export_csv},
       Exporter{"edem-notes", "parameters, force table and instructions for EDEM", export_edem_notes}};
   return kExporters;
+}
+
+Result<Exporter> exporter_named(const std::string& name) {
+  const auto known = exporters();
+  if (const auto found = std::ranges::find(known, name, &Exporter::name); found != known.end()) return *found;
+  std::set<std::string, std::less<>> names;
+  std::string list;
+  for (const auto& one : known) {
+    names.emplace(one.name);
+    list += (list.empty() ? "" : ", ") + std::string(one.name);
+  }
+  const auto near = nearest(name, names);
+  return Fault{"--to " + name, "is no target of an export", near ? "did you mean '" + *near + "'?" : "one of " + list};
 }
 
 std::string title_of(const Card& card, const CardTest& test) {

@@ -12,6 +12,7 @@
 #include "calibrate/exports/size_classes.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/apparatus/slump/packing.h"
+#include "core/result.h"
 
 namespace pastefit {
 
@@ -76,6 +77,9 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
 std::span<const Exporter> exporters();
+
+/// The exporter with this name. Error: there is none.
+Result<Exporter> exporter_named(const std::string& name);
 
 Result<Export> export_lammps(const ExportScene& scene);
 Result<Export> export_lammps_tables(const ExportScene& scene);

@@ -24,17 +24,13 @@ std::string reason_for(bool confirmed, std::size_t packings) {
                    : "the best that was found; it is not confirmed";
 }
 
-std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
-                                 const Calibration& calibration, int simulations, std::uint64_t seed,
-                                 const std::vector<ConditionEffect>& conditions) {
+std::optional<Inference> examine(const std::function<TrainingData(std::span<const Response>)>& evidence,
+                                 Objective& objective, const Calibration& calibration, int simulations,
+                                 std::uint64_t seed) {
   std::vector<Response> history = calibration.history;
   InferenceOptions options;
   options.seed = seed;
-  const auto training_data = [&] {
-    TrainingData known = training_data_of(study, record_of(study, store, history));
-    known.conditions = conditions;
-    return known;
-  };
+  const auto training_data = [&] { return evidence(history); };
   if (training_data().points.empty()) return std::nullopt;
   int left = simulations;
   const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
@@ -57,6 +53,17 @@ std::optional<Inference> examine(const Study& study, Objective& objective, const
   inference.recommended_because =
       reason_for(calibration.status == CalibrationStatus::confirmed, calibration.confirmation.packings.size());
   return inference;
+}
+
+std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
+                                 const Calibration& calibration, int simulations, std::uint64_t seed,
+                                 const std::vector<ConditionEffect>& conditions) {
+  const auto evidence = [&](std::span<const Response> history) {
+    TrainingData known = training_data_of(study, record_of(study, store, history));
+    known.conditions = conditions;
+    return known;
+  };
+  return examine(evidence, objective, calibration, simulations, seed);
 }
 
 }  // namespace pastefit

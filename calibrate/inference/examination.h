@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "calibrate/inference/inference.h"
 #include "calibrate/search/search.h"
@@ -16,9 +20,14 @@ std::string reason_for(bool confirmed, std::size_t packings);
 /// shown as equivalent and that only a prediction speaks for. Then infers. Central differences at the best candidate
 /// would cost as much and tell the slopes there only; these runs tell them along the whole family, and whether its
 /// members hold. Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
-/// Requirements: the calibration's best candidate did not fail; `objective` stores in `store`.
-/// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation in
-/// the store has run to its end.
+/// Requirement: the calibration's best candidate did not fail. `evidence`: what answers say.
+/// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation has
+/// run to its end.
+std::optional<Inference> examine(const std::function<TrainingData(std::span<const Response>)>& evidence,
+                                 Objective& objective, const Calibration& calibration, int simulations,
+                                 std::uint64_t seed);
+
+/// The same of a study. Requirement: `objective` stores in `store`.
 /// `conditions`: what those that nobody states do to the readings.
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
                                  const Calibration& calibration, int simulations, std::uint64_t seed,

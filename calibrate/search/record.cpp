@@ -153,6 +153,21 @@ std::size_t holding(const Study& study, const Store& store) {
   }));
 }
 
+std::string changed_places(const Store& store) {
+  std::string out;
+  for (const auto& place : store.changes()) out += (out.empty() ? "" : ", ") + place;
+  return out;
+}
+
+Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
+  if (store.size() == 0 || holding(study, store) > 0) return {};
+  return {{file,
+           "none of its " + std::to_string(store.size()) +
+               " evaluations is of a test of this study; changed: " + changed_places(store),
+           "resume with the apparatus, the grains and the density as they were; or choose another output folder, or "
+           "start anew with --force"}};
+}
+
 std::vector<StoredEvaluation> earlier_of(const Study& study, const Store& store) {
   return held(study, store, store.epoch(), {true});
 }

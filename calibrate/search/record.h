@@ -42,6 +42,13 @@ std::vector<Observables> known_runs(const Study& study, std::size_t test, const 
 /// How many of the store's evaluations are of a test of the study, whatever the candidate.
 std::size_t holding(const Study& study, const Store& store);
 
+/// `Store::changes`, one after the other.
+std::string changed_places(const Store& store);
+
+/// A store of which nothing is of the study's tests: going on would mix two laboratories in one folder. `file`: the
+/// store's.
+Faults strangers_in(const Study& study, const Store& store, const std::string& file);
+
 /// Candidates of earlier epochs of the store that hold for the study as it is now: same tests, same fixed values, free
 /// ones within the bounds, and known in all fitted tests. Their points are those of the present bounds; they are
 /// ordered by values and packing.

@@ -9,7 +9,9 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/apparatus.h"
+#include "calibrate/study/free_parameter.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/search_options.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/table.h"
 
@@ -17,56 +19,6 @@ namespace pastefit {
 namespace {
 
 using nlohmann::json;
-
-/// How wide the way between two bounds is at least, as a share of the larger one, and how far apart they are at most on
-/// a logarithmic scale. Beyond either a coordinate between them has no digits that count.
-constexpr double narrowest = 1e-6, farthest_apart = 1e12;
-
-/// The standard deviation of a prior, as a share of the way between the bounds: narrower is a fixed value, wider says
-/// nothing.
-constexpr Range prior_deviations{1e-6, 1e6};
-
-/// Whether a coordinate can be told between the bounds; a fault if not.
-bool check_bounds(ObjectReader& reader, const std::vector<double>& bounds, Scale scale) {
-  const std::string both = "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are ";
-  const auto refused = [&](const std::string& what, std::string remedy) {
-    reader.fault("free", what, std::move(remedy));
-    return false;
-  };
-  if (bounds[0] >= bounds[1])
-    return refused(both + "not in order", "[lower, upper], lower below upper; for a fixed parameter give \"value\"");
-  if (bounds[1] - bounds[0] < narrowest * std::max(std::abs(bounds[0]), std::abs(bounds[1])))
-    return refused(both + "the same within a millionth", "wider ones; for a fixed parameter give \"value\"");
-  if (scale == Scale::linear) return true;
-  if (bounds[0] <= 0)
-    return refused("a lower bound of " + shown(bounds[0]) + " has no logarithm",
-                   "a lower bound above 0, or \"scale\": \"linear\"");
-  if (bounds[0] * farthest_apart < bounds[1])
-    return refused(both + "too far apart for a logarithmic scale",
-                   "a lower bound of at least " + shown(bounds[1] / farthest_apart) + ", or \"scale\": \"linear\"");
-  return true;
-}
-
-/// Requirement: the bounds of the parameter are good.
-void read_prior(ObjectReader& known, Parameter& parameter, const Range& range) {
-  Prior prior{0, 1};
-  Range admissible{0, largest_quantity, true};
-  const bool given = known.number("value", prior.value, range, Need::required);
-  const bool within = given && prior.value >= parameter.lower && prior.value <= parameter.upper;
-  if (given && !within)
-    known.fault(
-        "value",
-        shown(prior.value) + " contradicts the bounds " + shown(parameter.lower) + " to " + shown(parameter.upper),
-        "a value within them, or bounds that hold it");
-  if (within) {
-    parameter.prior = prior;
-    const double between_bounds = 1 / unit_prior(parameter).deviation;
-    admissible = {prior_deviations.smallest * between_bounds, prior_deviations.largest * between_bounds};
-  }
-  const bool spread = known.number("standard_deviation", prior.standard_deviation, admissible, Need::required);
-  parameter.prior.reset();
-  if (within && spread) parameter.prior = prior;
-}
 
 void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& parameter) {
   const Range range{kind.smallest, kind.largest};
@@ -76,17 +28,7 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
     reader.refuse("prior", "a fixed parameter is known already", "leave it out, or give \"free\": [lower, upper]");
     return;
   }
-  parameter.free = true;
-  reader.refuse("value", "stands beside \"free\"", "give one of them");
-  reader.choice("scale", parameter.scale, scales, Need::optional);
-  std::vector<double> bounds;
-  reader.known("prior");
-  if (!reader.numbers("free", bounds, range, Need::required, 2, 2)) return;
-  if (!check_bounds(reader, bounds, parameter.scale)) return;
-  parameter.lower = bounds[0];
-  parameter.upper = bounds[1];
-  parameter.value = kind.default_value;
-  reader.object("prior", Need::optional, [&](ObjectReader& known) { read_prior(known, parameter, range); });
+  read_free(reader, range, parameter);
 }
 
 /// The choice of laws.
@@ -136,33 +78,6 @@ std::vector<Parameter> read_parameters(ObjectReader& document, const ContactMode
   return parameters;
 }
 
-void read_search(ObjectReader& document, int fitted_tests, SearchOptions& search) {
-  constexpr int most = 1'000'000;
-  document.object("search", Need::optional, [&](ObjectReader& reader) {
-    reader.text("strategy", search.strategy, Need::optional);
-    reader.integer("screening", search.screening, 0, most, Need::optional);
-    reader.integer("budget_simulations", search.budget_simulations, 1, most, Need::optional);
-    reader.integer("packings", search.packings, 1, 1000, Need::optional);
-    reader.former("lag", "max_pending");
-    reader.integer("max_pending", search.max_pending, 0, 1000, Need::optional);
-    reader.integer("confirmation_packings", search.confirmation_packings, 1, 1000, Need::optional);
-    reader.number("rejected_share", search.rejected_share, {0, 1}, Need::optional);
-    reader.integer("examination_simulations", search.examination_simulations, 0, most, Need::optional);
-    reader.nullable_number("tolerance_mm", search.tolerance_mm, {1e-6, 1000}, Need::optional);
-    reader.flag("coarse_first", search.coarse_first, Need::optional);
-    reader.flag("end_early", search.end_early, Need::optional);
-    reader.integer("seed", search.seed, Need::optional);
-    const int least = (search.packings + search.confirmation_packings) * fitted_tests;
-    if (search.budget_simulations < least)
-      reader.fault("budget_simulations",
-                   std::to_string(search.budget_simulations) + " simulations do not pay for one candidate (packings " +
-                       std::to_string(search.packings) + ") and its confirmation (confirmation_packings " +
-                       std::to_string(search.confirmation_packings) + ")" +
-                       (fitted_tests > 1 ? " in " + std::to_string(fitted_tests) + " tests" : ""),
-                   "at least " + std::to_string(least));
-  });
-}
-
 /// A material may shear off as often as the laboratory's did.
 double rejected_share_of_labs(const std::vector<StudyTest>& tests, double least) {
   for (const StudyTest& test : tests)
@@ -202,32 +117,40 @@ Faults validate_points(const Study& study) {
 
 }  // namespace
 
-Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes) {
-  Faults faults;
-  std::optional<json> document = read_json(file, faults);
-  if (!document) return faults;
-  if (changes.of_study) changes.of_study(*document);
+Result<Study> study_from_json(json document, const std::filesystem::path& file, const StudyChanges& changes) {
+  if (changes.of_study) changes.of_study(document);
   Faults found;
   Faults in_labs;
   Study study;
-  if (has_format(*document, "pastefit-study-1", found)) {
-    ObjectReader reader(*document, "", found);
+  if (has_format(document, "pastefit-study-1", found)) {
+    ObjectReader reader(document, "", found);
     reader.known("format");
     reader.text("title", study.title, Need::required);
-    study.tests = read_tests(reader, *document, {file.parent_path(), changes.of_lab, in_labs});
+    study.tests = read_tests(reader, document, {file.parent_path(), changes.of_lab, in_labs});
     const ContactModel laws = read_contact(reader);
     for (StudyTest& test : study.tests) choose(laws, test.lab.test);
     study.parameters = read_parameters(reader, laws, study.tests);
     study.search.rejected_share = rejected_share_of_labs(study.tests, study.search.rejected_share);
-    read_search(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())), study.search);
+    read_search_options(reader, static_cast<int>(std::max<std::size_t>(1, tests_of(study, false).size())),
+                        study.search);
   }
   if (found.empty() && in_labs.empty()) found = validate_points(study);
-  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
+  Faults faults = in_file(std::move(found), file);
   faults.insert(faults.end(), in_labs.begin(), in_labs.end());
   if (!faults.empty()) return faults;
-  study.content = document->dump();
+  study.content = document.dump();
   study.hash = content_hash(study.content);
   return study;
+}
+
+Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes) {
+  Faults faults;
+  std::optional<json> document = read_json(file, faults);
+  if (!document) return faults;
+  Result<Study> study = study_from_json(std::move(*document), file, changes);
+  if (study.ok() && faults.empty()) return study;
+  if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
+  return faults;
 }
 
 }  // namespace pastefit

@@ -119,6 +119,12 @@ struct StudyChanges {
 /// Errors: every fault of all files at once, each with its place and what would be right.
 Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& changes = {});
 
+/// The study that a document stands for, as `read_study` reads it from a file. `file`: the name that places begin with,
+/// empty for none; laboratory files are looked for in its folder. In place of the name of a laboratory file the
+/// document may hold what such a file says.
+Result<Study> study_from_json(nlohmann::json document, const std::filesystem::path& file,
+                              const StudyChanges& changes = {});
+
 /// Reads a laboratory file, with the apparatus preset it names; its content is changed before, if there is a `change`.
 Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change = {});
 

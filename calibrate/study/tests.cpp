@@ -4,6 +4,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/fault_text.h"
+#include "calibrate/study/lab.h"
 #include "calibrate/study/tolerance.h"
 
 namespace pastefit {
@@ -54,12 +56,23 @@ void read_targets(ObjectReader& document, StudyTest& test) {
   });
 }
 
-void read_lab_of(ObjectReader& reader, const LabReading& labs, StudyTest& test) {
-  if (!reader.text("lab", test.lab_file, Need::required)) return;
-  const auto change = [&](json& content) {
-    if (labs.change) labs.change(content, test.name);
+/// The name of a laboratory file, or what such a file says.
+void read_lab_of(ObjectReader& reader, const json& content, const LabReading& labs, StudyTest& test) {
+  const auto given = content.find("lab");
+  const bool in_place = given != content.end() && given->is_object();
+  reader.known("lab");
+  if (in_place) test.lab_file = "in the study";
+  if (!in_place && !reader.text("lab", test.lab_file, Need::required)) return;
+  const auto change = [&](json& lab) {
+    if (labs.change) labs.change(lab, test.name);
   };
-  Result<Lab> lab = read_lab((labs.folder / test.lab_file).lexically_normal(), change);
+  const auto read_in_place = [&]() -> Result<Lab> {
+    json document = *given;
+    change(document);
+    auto lab = lab_from_json(document, labs.folder);
+    return lab.ok() ? std::move(lab) : in_file(lab.faults(), reader.place("lab"));
+  };
+  Result<Lab> lab = in_place ? read_in_place() : read_lab((labs.folder / test.lab_file).lexically_normal(), change);
   if (lab.ok())
     test.lab = std::move(lab).value();
   else
@@ -73,7 +86,8 @@ bool is_name(const std::string& name) {
   });
 }
 
-void read_one_of_many(ObjectReader& reader, const LabReading& labs, std::vector<StudyTest>& tests) {
+void read_one_of_many(ObjectReader& reader, const json& content, const LabReading& labs,
+                      std::vector<StudyTest>& tests) {
   StudyTest test;
   if (reader.text("name", test.name, Need::required)) {
     if (!is_name(test.name)) reader.fault("name", in_quotes(test.name), "up to 40 letters, digits, '-', '_' and '.'");
@@ -81,7 +95,7 @@ void read_one_of_many(ObjectReader& reader, const LabReading& labs, std::vector<
       reader.fault("name", in_quotes(test.name) + " is the name of two tests", "a name of its own for each");
   }
   reader.flag("hold_out", test.hold_out, Need::optional);
-  read_lab_of(reader, labs, test);
+  read_lab_of(reader, content, labs, test);
   read_targets(reader, test);
   tests.push_back(std::move(test));
 }
@@ -121,7 +135,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   std::vector<StudyTest> tests;
   if (!document.has("tests")) {
     StudyTest& only = tests.emplace_back();
-    read_lab_of(document, labs, only);
+    read_lab_of(document, study, labs, only);
     read_targets(document, only);
     return tests;
   }
@@ -142,7 +156,7 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
       continue;
     }
     ObjectReader reader(list[i], place, document.faults());
-    read_one_of_many(reader, labs, tests);
+    read_one_of_many(reader, list[i], labs, tests);
   }
   std::stable_partition(tests.begin(), tests.end(), [](const StudyTest& test) { return !test.hold_out; });
   if (!tests.empty() && tests.front().hold_out)

@@ -1,4 +1,4 @@
-#include "calibrate/cli/output_folder.h"
+#include "calibrate/store/output_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/cli/standard_output.h"
 
 namespace pastefit {
 
@@ -22,62 +20,7 @@ std::vector<std::string> with_store(std::vector<std::string> names) {
   return names;
 }
 
-bool is_stream(const fs::path& file) {
-  const std::string name = file.string();
-  if (name == "-" || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"))
-    return true;
-  const std::string special = kind_of_special_file(file);
-  return special == "a FIFO" || special == "a device";
-}
-
-bool is_standard_output(const fs::path& file) {
-  return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1" || file == "/proc/self/fd/1";
-}
-
-Faults output_file_faults(const std::string& option, const fs::path& file, bool force) {
-  const std::string where = option + " " + file.string();
-  std::error_code error;
-  if (const std::string special = kind_of_special_file(file); !special.empty())
-    return {{where, "is " + special + ", and only a regular file is replaced", "the name of a file"}};
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (!fs::is_directory(folder, error))
-    return {{where, "there is no folder " + folder.string(), "make it, or choose another"}};
-  if (!force && fs::exists(file, error))
-    return {{where, "is there already", "choose another name, or replace it with --force"}};
-  const fs::path probe = file.string() + ".pastefit-probe";
-  Faults faults = write_atomically(probe, ".");
-  fs::remove(probe, error);
-  for (Fault& fault : faults) fault.where = where;
-  return faults;
-}
-
-Faults output_faults(const std::string& option, const fs::path& file, bool force) {
-  return is_stream(file) ? Faults{} : output_file_faults(option, file, force);
-}
-
-Faults output_folder_faults(const std::string& option, const fs::path& folder) {
-  std::error_code error;
-  fs::path there = fs::absolute(folder, error);
-  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) there = there.parent_path();
-  const std::string where = option + " " + folder.string();
-  if (!fs::is_directory(there, error))
-    return {{where, there.string() + " is no folder", "choose a folder that can be made"}};
-  if (::access(there.c_str(), W_OK | X_OK) == 0) return {};
-  return {
-      {where, there.string() + " cannot be written: " + std::strerror(errno), "choose a folder that can be written"}};
-}
-
-Faults write_output(const fs::path& file, std::string_view content) {
-  if (is_standard_output(file)) {
-    print("%.*s", static_cast<int>(content.size()), content.data());
-    return {};
-  }
-  if (!is_stream(file)) return write_atomically(file, content);
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out.write(content.data(), static_cast<std::streamsize>(content.size())).flush();
-  if (out) return {};
-  return {{file.string(), std::string("cannot be written: ") + std::strerror(errno), "something that can be written"}};
-}
+namespace {
 
 /// Results are replaced, so that none of them may be a link to somewhere else, or a device.
 Faults special_files(const fs::path& folder, const std::vector<std::string>& results) {
@@ -87,6 +30,8 @@ Faults special_files(const fs::path& folder, const std::vector<std::string>& res
                "move it away, or choose another folder"}};
   return {};
 }
+
+}  // namespace
 
 Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vector<std::string>& results,
                                         EarlierResult earlier, std::uintmax_t space_bytes) {

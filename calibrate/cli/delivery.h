@@ -1,17 +1,12 @@
 #pragma once
 
 #include <atomic>
-#include <string>
-#include <vector>
 
 #include "calibrate/calibrate.h"
-#include "calibrate/cli/output_folder.h"
 #include "calibrate/report/findings.h"
+#include "calibrate/store/output_folder.h"
 
 namespace pastefit {
-
-/// The files of a calibration's folder, those of an earlier one included.
-std::vector<std::string> calibration_files(const Study& study);
 
 /// What a calibration brought, to its folder and to the person: card, summary, curves and page; without a card the page
 /// alone, and why there is none. Who interrupts gets the page with what was seen until then.
@@ -19,7 +14,6 @@ struct Delivery {
   const Study& study;
   const Store& store;
   const OutputFolder& folder;
-  std::string out;    ///< the folder, as it was given
   int threads = 0;    ///< to simulate what is to be shown and was not seen
   bool json = false;  ///< print the card instead of the summary
 

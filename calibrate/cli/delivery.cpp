@@ -1,24 +1,18 @@
-#include "calibrate/cli/calibration_folder.h"
+#include "calibrate/cli/delivery.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/report_page.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/inference/description.h"
-#include "calibrate/report/curve_csv.h"
-#include "calibrate/report/kept_views.h"
+#include "calibrate/report/calibration_folder.h"
 #include "calibrate/report/summary.h"
 
 namespace pastefit {
 
 namespace {
-
-const std::string kCard = "card.json";
-const std::string kSummary = "summary.txt";
 
 /// The answer as JSON where there is no card to print.
 nlohmann::ordered_json without_material(const CalibrationResult& result) {
@@ -32,12 +26,6 @@ nlohmann::ordered_json without_material(const CalibrationResult& result) {
 
 }  // namespace
 
-std::vector<std::string> calibration_files(const Study& study) {
-  std::vector<std::string> files{kCard, kSummary, kPage, kViewsFile};
-  for (const StudyTest& test : study.tests) files.push_back(curve_file(test.name));
-  return with_store(std::move(files));
-}
-
 int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const {
   return result.card ? deliver_card(*result.card, result.inference, stop, seen) : say_why_not(result);
 }
@@ -45,16 +33,11 @@ int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& 
 int Delivery::deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
                            RunRecordings& seen) const {
   const auto summary = summary_of(card, inference ? describe(*inference) : "");
-  auto faults = write_atomically(folder.file(kCard), json_text(to_json(card)));
-  if (faults.empty()) faults = write_atomically(folder.file(kSummary), summary);
+  auto faults = write_card(folder, card, summary);
   print("%s", json ? json_text(to_json(card)).c_str() : summary.c_str());
-  std::vector<std::string> files{kCard, kSummary, kPage, kStore};
-  if (faults.empty()) {
-    Findings findings = findings_of(card, store, inference);
-    faults = look_at_tests(findings, out, stop, {.threads = threads, .seen = &seen});
-    if (faults.empty()) faults = write_curves(out, findings, files);
-    if (faults.empty()) faults = write_page(out, findings);
-  }
+  std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
+  if (faults.empty())
+    faults = write_looks(folder, findings_of(card, store, inference), stop, {.threads = threads, .seen = &seen}, files);
   if (!faults.empty()) return report(faults, kFailed);
   for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
@@ -66,7 +49,7 @@ int Delivery::say_why_not(const CalibrationResult& result) const {
     std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
   std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
   if (json) print("%s", json_text(without_material(result)).c_str());
-  (void)write_page(out, findings_without_card(study, store));
+  (void)write_page(folder.path(), findings_without_card(study, store));
   return kFailed;
 }
 

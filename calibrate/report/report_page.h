@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct LookOptions {
   int threads = 0;
   bool simulate = true;  ///< what was neither seen nor kept
   RunRecordings* seen = nullptr;
+  std::function<void(const std::string&)> tell = {};  ///< why something takes time, in words; may be left empty
 };
 
 /// Shows the card's tests on the packings that confirmed it, the first sixteen at most: as they were seen, or as the

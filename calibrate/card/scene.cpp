@@ -1,4 +1,4 @@
-#include "calibrate/cli/scene.h"
+#include "calibrate/card/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,6 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_format.h"
-#include "calibrate/search/objective.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
@@ -208,7 +207,7 @@ std::optional<FoundScene> study_scene(const json& document, const Settings& sett
     for (const auto& setting : settings.others)
       if (!is_of_study(setting)) apply(setting, lab, faults);
   };
-  const auto study = read_study(file, changes);
+  const auto study = study_from_json(document, file, changes);
   if (!study.ok()) {
     faults.insert(faults.end(), study.faults().begin(), study.faults().end());
     return std::nullopt;
@@ -258,25 +257,37 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
 
 }  // namespace
 
-Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
-                              const std::string& name) {
+Result<FoundScene> scene_from_json(const json& document, const std::filesystem::path& file,
+                                   const std::vector<std::string>& texts, const std::string& name) {
   Faults faults;
   auto settings = read_settings(texts, faults);
-  const auto document = read_json(file, faults);
-  if (!document) return faults;
-  if (document->is_object() && document->value("format", json()) == "pastefit-impact-1") {
+  if (document.is_object() && document.value("format", json()) == "pastefit-impact-1") {
     if (!settings.parameters.empty())
       faults.push_back({"--set parameters.*", "an impact has none", "set its keys, e.g. contact.friction=0.3"});
     if (!name.empty()) faults.push_back({"--test", "only studies and cards have several tests", "leave it out"});
-    const auto impact = read_with(*document, settings, file, faults, impact_from_json);
+    const auto impact = read_with(document, settings, file, faults, impact_from_json);
     if (!faults.empty()) return faults;
     return FoundScene{impact.value(), {}};
   }
-  take_out_slips(settings, *document, faults);
-  auto found = test_scene(*document, settings, name, file, faults);
+  take_out_slips(settings, document, faults);
+  auto found = test_scene(document, settings, name, file, faults);
   if (found && faults.empty()) faults = in_file(validate_in_file_words(std::get<Test>(found->scene)), file);
   if (!faults.empty()) return faults;
   return std::move(*found);
+}
+
+Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& texts,
+                              const std::string& name) {
+  Faults unread;
+  auto document = read_json(file, unread);
+  Faults faults;
+  if (!document) (void)read_settings(texts, faults);
+  faults.insert(faults.end(), unread.begin(), unread.end());
+  if (!document) return faults;
+  auto found = scene_from_json(*document, file, texts, name);
+  if (found.ok() && faults.empty()) return found;
+  if (!found.ok()) faults.insert(faults.end(), found.faults().begin(), found.faults().end());
+  return faults;
 }
 
 }  // namespace pastefit

@@ -1,9 +1,8 @@
-#include "calibrate/cli/report_page.h"
+#include "calibrate/report/report_page.h"
 
 #include <algorithm>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/cli/standard_output.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"
@@ -25,8 +24,8 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
   if (kept.ok()) {
     findings.views = kept.value();
   } else {
-    if (options.simulate && !options.seen)
-      note("pastefit: %s %s: the tests are simulated anew\n", why.where.c_str(), why.what.c_str());
+    if (options.simulate && !options.seen && options.tell)
+      options.tell(why.where + " " + why.what + ": the tests are simulated anew");
     const auto goes_on = [&] { return options.simulate && !stop; };
     for (const CardTest& test : card.tests)
       findings.views.push_back(view_of(test, shown, options.threads, goes_on, options.seen));

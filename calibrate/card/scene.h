@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,5 +32,10 @@ struct FoundScene {
 /// Errors: every fault of the file and of the settings; there is no such test.
 Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings,
                               const std::string& test);
+
+/// The same for what such a file says. `file`: the name that places begin with, empty for none; what it names is looked
+/// for in its folder.
+Result<FoundScene> scene_from_json(const nlohmann::json& document, const std::filesystem::path& file,
+                                   const std::vector<std::string>& settings, const std::string& test);
 
 }  // namespace pastefit

@@ -1,0 +1,67 @@
+#include "calibrate/exports/export_notes.h"
+
+#include <filesystem>
+
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
+
+namespace pastefit {
+
+namespace {
+
+/// Which of the card's tests was written, where there are several.
+std::string choice_text(const Card& card, const CardTest& chosen) {
+  std::string others;
+  for (const auto& test : card.tests)
+    if (test.name != chosen.name) others += (others.empty() ? "" : ", ") + test.name;
+  if (others.empty()) return {};
+  return "This is the card's test " + chosen.name + ". The card has others: " + others +
+         " (pastefit export --test NAME).\n\n";
+}
+
+/// The heap to expect, and the command that compares that of the other program with it.
+std::string comparison_text(const ExportRequest& request, const Card& card, const CardTest& test,
+                            const std::string& heap) {
+  std::string out;
+  const auto packings = card.confirmation.packings.size();
+  if (packings >= 1 && !test.observables.empty()) {
+    out += packings == 1
+               ? "\nThe heap to expect (one packing, error unknown):\n"
+               : format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
+    for (const CardObservable& reading : test.observables)
+      out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
+             (reading.packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
+  }
+  out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
+         std::filesystem::absolute(request.card_file).string();
+  if (!request.test.empty()) out += " --test " + request.test;
+  if (request.packing) out += " --packing " + std::to_string(*request.packing);
+  return out + "\n";
+}
+
+/// What another law in place of the card's does to the heap, and how to do without it.
+std::string bias_text(const Export& written) {
+  if (written.own_law.empty()) return {};
+  std::string out = "\nAnother law than the card's is written, so expect another heap.\n";
+  if (!written.heap.empty())
+    out +=
+        "To measure by how much: run the deck in three or more packings (pastefit export with --packing 1, 2, 3)\n"
+        "and compare each heap by the command at the end; the mean difference is the bias of the law.\n";
+  return out + "To have none: calibrate with a law that this program has, in the study\n    " + written.own_law + "\n";
+}
+
+}  // namespace
+
+std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
+                         const ExportRequest& request) {
+  std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
+                    lines_of(choice_text(card, test));
+  out += written.notes.empty() ? "Nothing of the card's contact laws is lost.\n" : "What is lost or changed:\n";
+  for (const auto& note : written.notes) out += "- " + note + "\n";
+  if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
+  out += lines_of(bias_text(written));
+  if (!written.heap.empty()) out += lines_of(comparison_text(request, card, test, written.heap));
+  return out;
+}
+
+}  // namespace pastefit

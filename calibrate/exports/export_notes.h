@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "calibrate/exports/export.h"
+
+namespace pastefit {
+
+inline const std::string kExportNotes = "NOTES.txt";
+
+/// What was asked for, as the commands in the notes repeat it.
+struct ExportRequest {
+  std::string card_file;
+  std::string test;                      ///< name; empty: the card's own choice
+  std::optional<std::uint64_t> packing;  ///< empty: the test's own
+};
+
+/// The notes beside an export, for a person: what is lost, how to run it, the heap to expect and how to compare it.
+std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
+                         const ExportRequest& request);
+
+}  // namespace pastefit

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/calibrate.h"
+#include "calibrate/search/candidate_queue.h"
+
+namespace pastefit::python {
+
+/// What somebody else's simulator answered to a candidate.
+struct EngineAnswer {
+  std::size_t candidate = 0;
+  Observables readings;              ///< under their names in the study; NaN: none
+  std::optional<std::string> error;  ///< why there are none
+};
+
+/// Why an answer is a failed simulation; nothing if it has a number for each of these readings.
+/// Requirement: it has all of them, or an error.
+std::optional<Failure> failure_of(const EngineAnswer& answer, std::span<const std::string> readings);
+
+/// What is asked, and every answer, kept before it is used.
+class Answers {
+ public:
+  virtual ~Answers() = default;
+  virtual const Scoring& scoring() const = 0;
+  virtual const SearchOptions& options() const = 0;
+  /// The free parameters, in the order of a point's coordinates.
+  virtual std::vector<Parameter> parameters() const = 0;
+  /// That an answer has to give.
+  virtual std::vector<std::string> readings() const = 0;
+  /// What is known from earlier inputs, each point on one packing.
+  virtual std::vector<Response> earlier() const { return {}; }
+
+  virtual std::optional<Evaluation> find(const Candidate& candidate) const = 0;
+  /// Error: it could not be kept.
+  virtual Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) = 0;
+
+  virtual TrainingData evidence(std::span<const Response> history) const = 0;
+  /// Nothing if the test is none that a card can hold.
+  virtual std::optional<Card> card(const Calibration& found, const EvaluationCounts& counts) const = 0;
+  /// As `evaluations_json`.
+  virtual nlohmann::ordered_json evaluations() const = 0;
+};
+
+}  // namespace pastefit::python

@@ -1,0 +1,164 @@
+#include "calibrate/python/asked_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "calibrate/card/calibration_card.h"
+#include "calibrate/inference/description.h"
+#include "calibrate/python/result_json.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit::python {
+
+using nlohmann::ordered_json;
+
+AskedSearch::AskedSearch(std::unique_ptr<Answers> answers)
+    : answers_(std::move(answers)), readings_(answers_->readings()) {
+  SearchStart start;
+  start.simulations = answers_->options().budget_simulations;
+  start.earlier = answers_->earlier();
+  start.readings = readings_;
+  for (const Parameter& parameter : answers_->parameters()) start.parameters.push_back(parameter.name);
+  const auto keep = [this](const Progress& progress) {
+    const std::lock_guard lock(mutex_);
+    progress_ = progress;
+    phase_ = progress.phase;
+    progress_.phase = {};
+  };
+  search_ = std::make_unique<Search>(answers_->scoring(), answers_->options(), std::move(start), keep);
+}
+
+Progress AskedSearch::progress(std::string& phase) const {
+  const std::lock_guard lock(mutex_);
+  phase = phase_;
+  return progress_;
+}
+
+std::vector<Candidate> AskedSearch::suggest(std::size_t count) {
+  for (;;) {
+    auto candidates = next(count);
+    const bool any = !candidates.empty();
+    std::erase_if(candidates, [this](const Candidate& one) { return is_known(one); });
+    for (const Candidate& one : candidates) asked_.emplace(one.number, one);
+    if (!any || !candidates.empty()) return candidates;
+  }
+}
+
+std::vector<Candidate> AskedSearch::next(std::size_t count) {
+  auto candidates = search_->suggest(count);
+  for (const Candidate& one : candidates) asked_by_the_search_ = std::max(asked_by_the_search_, one.number + 1);
+  if (!candidates.empty() || !begin_examination()) return candidates;
+  candidates = examination_->queue().suggest(count);
+  for (Candidate& one : candidates) one.number += asked_by_the_search_;
+  return candidates;
+}
+
+/// False as long as the search goes on, and if there is nothing to examine.
+bool AskedSearch::begin_examination() {
+  if (examination_) return true;
+  if (!search_->finished() || stopped_) return false;
+  found_ = search_->result();
+  const bool any = found_.best.point.size() > 0 && !found_.best.failed;
+  if (!any || found_.status == CalibrationStatus::out_of_reach) return false;
+  const int left = answers_->options().budget_simulations - counts_.simulated - counts_.answered;
+  examination_ = std::make_unique<AskedExamination>(*answers_, found_, std::max(0, left));
+  return true;
+}
+
+bool AskedSearch::is_known(const Candidate& candidate) {
+  const auto known = answers_->find(candidate);
+  if (!known) return false;
+  counts_.answered += known->simulations;
+  tell(candidate, *known);
+  return true;
+}
+
+Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) const {
+  const std::string where = "results[" + std::to_string(place) + "]";
+  if (!asked_.contains(answer.candidate))
+    return {{where, "answers candidate " + std::to_string(answer.candidate) + ", which nobody asked for",
+             "the \"_id\" of a candidate that suggest() gave"}};
+  Faults faults;
+  if (answer.error) return faults;
+  for (const std::string& reading : readings_)
+    if (!answer.readings.find(reading))
+      faults.push_back({where, "has no \"" + reading + "\", which the laboratory measured",
+                        "the number, NaN if there is none, or \"error\": why the simulation failed"});
+  return faults;
+}
+
+Faults AskedSearch::ingest(const std::vector<EngineAnswer>& answers) {
+  Faults faults;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    for (Fault& fault : faults_of(answers[i], i)) faults.push_back(std::move(fault));
+  if (!faults.empty()) return faults;
+  for (const EngineAnswer& answer : answers) {
+    const Candidate& candidate = asked_.at(answer.candidate);
+    if (answers_->find(candidate)) continue;  // twice
+    const auto kept = answers_->keep(candidate, answer);
+    if (!kept.ok()) return kept.faults();
+    counts_.simulated += kept.value().simulations;
+    tell(candidate, kept.value());
+  }
+  return {};
+}
+
+void AskedSearch::tell(const Candidate& candidate, const Evaluation& evaluation) {
+  if (evaluation.failure) ++counts_.failures[evaluation.failure->reason];
+  CandidateResult result{candidate.number, evaluation};
+  if (!examination_) return search_->ingest({&result, 1});
+  if (result.candidate < asked_by_the_search_) return;  // it came too late
+  result.candidate -= asked_by_the_search_;
+  examination_->queue().ingest({&result, 1});
+}
+
+void AskedSearch::stop() {
+  stopped_ = true;
+  search_->stop();
+  if (examination_) examination_->queue().stop();
+}
+
+bool AskedSearch::finished() {
+  return search_->finished() && (!begin_examination() || examination_->queue().finished());
+}
+
+/// Measured against simulated, as a card has it.
+static ordered_json readings_json(const Scoring& scoring, const Response& shown,
+                                  const std::vector<ReadingEvidence>& evidence) {
+  ordered_json out = ordered_json::array();
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const double simulated = shown.observables[static_cast<Eigen::Index>(i)];
+    out.push_back({{"name", evidence[i].name},
+                   {"measured", *evidence[i].measured},
+                   {"tolerance", scoring.tolerance(i)},
+                   {"simulated", simulated},
+                   {"standard_error", std::sqrt(squared_standard_error(shown, i))},
+                   {"difference", simulated - *evidence[i].measured},
+                   {"weight", evidence[i].weight}});
+  }
+  return out;
+}
+
+ordered_json AskedSearch::result() {
+  CalibrationResult result;
+  result.search = search_->result();
+  result.counts = counts_;
+  const Calibration& found = result.search;
+  if (found.best.point.size() == 0 || found.best.failed) return result_json(result);
+  result.card = answers_->card(found, counts_);
+  if (examination_) result.inference = examination_->inference();
+  if (result.inference && result.card) result.card->inference = card_inference(*result.inference);
+  ordered_json out = result_json(result);
+  if (result.card) return out;
+  const Response& shown = shown_of(found);
+  const auto parameters = answers_->parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    out["parameters"][parameters[i].name] = value_between(parameters[i], shown.point[static_cast<Eigen::Index>(i)]);
+  out["readings"] = readings_json(answers_->scoring(), shown, answers_->evidence(found.history).readings);
+  if (result.inference) out["summary"] = describe(*result.inference);
+  return out;
+}
+
+}  // namespace pastefit::python

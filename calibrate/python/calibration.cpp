@@ -1,0 +1,147 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibrate/calibrate.h"
+#include "calibrate/inference/description.h"
+#include "calibrate/python/faults.h"
+#include "calibrate/python/module.h"
+#include "calibrate/python/result_json.h"
+#include "calibrate/python/tasks.h"
+#include "calibrate/report/calibration_folder.h"
+#include "calibrate/report/run_recordings.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/search/record.h"
+#include "calibrate/store/program.h"
+#include "calibrate/study/tests.h"
+
+namespace pastefit::python {
+
+namespace py = pybind11;
+
+namespace {
+
+struct CalibrationOptions {
+  std::string study_file, out;
+  bool resume = false, force = false;
+  bool page = true;  ///< write the page, whose film may have to be simulated
+  int threads = 0;
+  double wall_budget_s = 0;
+};
+
+OutputFolder folder_for(const Study& study, const CalibrationOptions& options) {
+  const auto earlier = options.force    ? EarlierResult::replace
+                       : options.resume ? EarlierResult::resume
+                                        : EarlierResult::refuse;
+  auto folder = value_or_throw(OutputFolder::open(options.out, calibration_files(study), earlier, kSpace));
+  if (options.force) folder.clear(calibration_files(study));
+  return folder;
+}
+
+/// One calibration into a folder, as `pastefit calibrate` makes it. Made, which finds everything wrong with the input,
+/// then `run` in a thread without the interpreter's lock; `progress` may be asked from another one meanwhile.
+class CalibrationRun {
+ public:
+  CalibrationRun(std::shared_ptr<Study> study, CalibrationOptions options, std::shared_ptr<Stop> stop,
+                 const std::optional<std::pair<py::function, std::string>>& engine)
+      : study_(std::move(study)), options_(std::move(options)), stop_(std::move(stop)) {
+    how_ = {options_.study_file, options_.threads, options_.wall_budget_s, 0, &stop_->asked};
+    if (engine) how_.engine = engine_of(engine->first, engine->second);
+    elsewhere_ = engine.has_value();
+    refuse(in_file(validate(*study_, how_), options_.study_file));
+    folder_ = std::make_unique<OutputFolder>(folder_for(*study_, options_));
+    const std::string file = folder_->file(kStore);
+    store_ = std::make_unique<Store>(value_or_throw(Store::open(file, {program_identity(), inputs_of(*study_)})));
+    refuse(strangers_in(*study_, *store_, file));
+  }
+
+  void run() {
+    LivePage page(folder_->path());
+    RunRecordings looks;
+    CalibrateCallbacks callbacks;
+    callbacks.progress = [&](const Progress& progress) {
+      keep(progress);
+      if (options_.page && progress.phase != "examination") page.show(*study_, *store_);
+    };
+    callbacks.evaluated = [this](const EvaluationCounts& counts) {
+      const std::lock_guard lock(mutex_);
+      progress_.simulations = counts.simulated + counts.answered;
+      progress_.best_miss = counts.best_miss;
+    };
+    if (options_.page && !elsewhere_) callbacks.run_observer = &looks;
+    result_ = value_or_throw(calibrate(*study_, *store_, how_, callbacks));
+    callbacks.evaluated(result_.counts);
+    write(elsewhere_ ? nullptr : &looks);
+  }
+
+  std::string progress() const {
+    const std::lock_guard lock(mutex_);
+    return progress_json(progress_, phase_).dump();
+  }
+
+  std::string result() const { return result_json(result_).dump(); }
+  std::string evaluations() const { return evaluations_json(*store_).dump(); }
+
+ private:
+  void keep(const Progress& progress) {
+    const std::lock_guard lock(mutex_);
+    const Progress before = progress_;
+    progress_ = progress;
+    progress_.simulations = std::max(progress.simulations, before.simulations);
+    if (progress_.best_miss < 0) progress_.best_miss = before.best_miss;
+    phase_ = progress.phase;
+    progress_.phase = {};
+  }
+
+  void write(RunRecordings* looks) const {
+    if (!result_.card) return;
+    const std::string findings = result_.inference ? describe(*result_.inference) : "";
+    refuse(write_card(*folder_, *result_.card, summary_of(*result_.card, findings)));
+    std::vector<std::string> files;
+    if (options_.page)
+      refuse(write_looks(*folder_, findings_of(*result_.card, *store_, result_.inference), stop_->asked,
+                         {.threads = options_.threads, .seen = looks}, files));
+  }
+
+  const std::shared_ptr<Study> study_;
+  const CalibrationOptions options_;
+  const std::shared_ptr<Stop> stop_;
+  CalibrateOptions how_;
+  bool elsewhere_ = false;  // the simulations run on an executor
+  std::unique_ptr<OutputFolder> folder_;
+  std::unique_ptr<Store> store_;
+  CalibrationResult result_;
+  mutable std::mutex mutex_;  // guards what follows
+  Progress progress_;
+  std::string phase_;
+};
+
+}  // namespace
+
+void add_calibration(py::module_& module) {
+  py::class_<CalibrationOptions>(module, "CalibrationOptions")
+      .def(py::init<>())
+      .def_readwrite("study_file", &CalibrationOptions::study_file)
+      .def_readwrite("out", &CalibrationOptions::out)
+      .def_readwrite("resume", &CalibrationOptions::resume)
+      .def_readwrite("force", &CalibrationOptions::force)
+      .def_readwrite("page", &CalibrationOptions::page)
+      .def_readwrite("threads", &CalibrationOptions::threads)
+      .def_readwrite("wall_budget_s", &CalibrationOptions::wall_budget_s);
+  py::class_<CalibrationRun>(module, "CalibrationRun")
+      .def(py::init<std::shared_ptr<Study>, CalibrationOptions, std::shared_ptr<Stop>,
+                    const std::optional<std::pair<py::function, std::string>>&>())
+      .def("run", &CalibrationRun::run, py::call_guard<py::gil_scoped_release>())
+      .def("progress", &CalibrationRun::progress, py::call_guard<py::gil_scoped_release>())
+      .def("result", &CalibrationRun::result)
+      .def("evaluations", &CalibrationRun::evaluations);
+}
+
+}  // namespace pastefit::python

@@ -1,0 +1,101 @@
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibrate/card/card.h"
+#include "calibrate/check/check.h"
+#include "calibrate/check/check_report.h"
+#include "calibrate/exports/export_notes.h"
+#include "calibrate/python/faults.h"
+#include "calibrate/python/module.h"
+#include "calibrate/report/summary.h"
+#include "calibrate/verify/verified_cases.h"
+
+namespace pastefit::python {
+
+namespace py = pybind11;
+using nlohmann::ordered_json;
+
+namespace {
+
+/// {"files": {name: content}, "notes": [...], "instructions"}; the notes for a person are one of the files.
+std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
+  Faults faults;
+  const auto exporter = exporter_named(target);
+  if (!exporter.ok()) faults = exporter.faults();
+  const auto card = card_from_json(parsed(card_text));
+  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  refuse(std::move(faults));
+  const CardTest test = value_or_throw(test_to_export(card.value(), request.test));
+  const Export written =
+      value_or_throw(exporter.value().write(value_or_throw(export_scene(card.value(), test, request.packing))));
+  ordered_json out{{"files", ordered_json::object()}, {"notes", written.notes}, {"instructions", written.instructions}};
+  for (const ExportFile& file : written.files) out["files"][file.name] = file.content;
+  out["files"][kExportNotes] = export_notes(written, exporter.value(), card.value(), test, request);
+  return out.dump();
+}
+
+/// Every run looks whether somebody interrupts.
+CheckEngine stoppable(std::shared_ptr<Stop> stop) {
+  CheckEngine engine = CheckEngine::ours();
+  engine.run = [stop = std::move(stop)](const Test& test, const RunOptions& options) {
+    RunOptions watched = options;
+    watched.pulse = [stop](const Snapshot&) { return !stop->asked; };
+    return simulate(test, watched);
+  };
+  return engine;
+}
+
+std::string check_json(const std::string& card_text, const CheckOptions& options, const std::string& against,
+                       std::shared_ptr<Stop> stop) {
+  const Card card = value_or_throw(card_from_json(parsed(card_text)));
+  const CheckEngine engine = stoppable(std::move(stop));
+  const CardCheck answer = against.empty() ? check(card, options, engine)
+                                           : check_against(card, value_or_throw(read_lab(against)), options, engine);
+  return to_json(std::vector<CheckedFile>{{"", answer}}).at("cards").at(0).dump();
+}
+
+}  // namespace
+
+void add_cards(py::module_& module) {
+  const py::call_guard<py::gil_scoped_release> unlocked;
+  module.def("read_card",
+             [](const std::string& file) { return ordered_json(to_json(value_or_throw(read_card(file)))).dump(); });
+  module.def("card_from_json",
+             [](const std::string& text) { return to_json(value_or_throw(card_from_json(parsed(text)))).dump(); });
+  module.def("card_summary",
+             [](const std::string& text) { return summary_of(value_or_throw(card_from_json(parsed(text)))); });
+  module.def("card_verdict",
+             [](const std::string& text) { return verdict_of(value_or_throw(card_from_json(parsed(text)))); });
+  module.def(
+      "export",
+      [](const std::string& card, const std::string& target, const std::string& card_file, const std::string& test,
+         std::optional<std::uint64_t> packing) {
+        return export_json(card, target, {card_file, test, packing});
+      },
+      unlocked);
+  module.def("export_targets", [] {
+    std::vector<std::pair<std::string, std::string>> targets;
+    for (const Exporter& one : exporters()) targets.emplace_back(one.name, one.meaning);
+    return targets;
+  });
+  module.def(
+      "check",
+      [](const std::string& card, bool quick, double false_alarm, bool bits, int threads, const std::string& against,
+         std::shared_ptr<Stop> stop) {
+        return check_json(card, {quick, false_alarm, bits, threads}, against, std::move(stop));
+      },
+      unlocked);
+  module.def(
+      "verify",
+      [](const std::vector<std::string>& names) { return to_json(value_or_throw(verify_cases(names))).dump(); },
+      unlocked);
+}
+
+}  // namespace pastefit::python

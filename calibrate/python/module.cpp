@@ -1,0 +1,20 @@
+#include "calibrate/python/module.h"
+
+#include "calibrate/python/faults.h"
+#include "calibrate/store/program.h"
+
+// What crosses between C++ and Python: positions and radii as views of memory, everything else as the JSON text that it
+// has in files. The package pastefit (calibrate/python/pastefit) is what users see.
+PYBIND11_MODULE(_core, module) {
+  using namespace pastefit;
+  python::add_faults(module);
+  python::add_stop(module);
+  python::add_study(module);
+  python::add_simulation(module);
+  python::add_tasks(module);
+  python::add_calibration(module);
+  python::add_search(module);
+  python::add_cards(module);
+  module.def("version", program_version);
+  module.def("program_identity", program_identity);
+}

@@ -1,0 +1,153 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "calibrate/card/scene.h"
+#include "calibrate/python/faults.h"
+#include "calibrate/python/module.h"
+#include "calibrate/search/memory.h"
+#include "calibrate/store/outcome_json.h"
+#include "core/world/world.h"
+
+namespace pastefit::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// The grains at one moment, as the engine keeps them: one `Motion` after the other.
+struct Frame {
+  std::string phase;
+  double time_s = 0;
+  std::vector<Motion> grains;
+  std::vector<std::int32_t> identity;
+};
+
+Frame frame_of(const Snapshot& snapshot) {
+  const Particles& particles = snapshot.world->particles;
+  return {std::string(snapshot.phase),
+          snapshot.time_s,
+          {particles.motion.begin(), particles.motion.begin() + particles.count()},
+          particles.identity};
+}
+
+/// A view of a member of every grain, which keeps the frame alive. Shape: grains, then `width` numbers if that is > 0.
+template <class Number>
+py::array grains_array(const std::shared_ptr<Frame>& frame, std::size_t offset, py::ssize_t width) {
+  const auto count = static_cast<py::ssize_t>(frame->grains.size());
+  constexpr auto kStride = static_cast<py::ssize_t>(sizeof(Motion)), kSize = static_cast<py::ssize_t>(sizeof(Number));
+  std::vector<py::ssize_t> shape{count}, strides{kStride};
+  if (width > 0) {
+    shape.push_back(width);
+    strides.push_back(kSize);
+  }
+  const auto* first = reinterpret_cast<const std::byte*>(frame->grains.data()) + offset;
+  py::array view(py::dtype::of<Number>(), shape, strides, first, py::cast(frame));
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
+/// One run of a test, to be seen afterwards. Made, then `run` in a thread without the interpreter's lock.
+class SimulationRun {
+ public:
+  SimulationRun(FoundScene found, std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,
+                std::shared_ptr<Stop> stop)
+      : scene_(std::move(found.scene)), frames_s_(frames_s), threads_(threads), stop_(std::move(stop)) {
+    auto* test = std::get_if<Test>(&scene_);
+    if (seed && !test) throw BadInput{{{"seed", "an impact has no random packing", "leave it out"}}};
+    if (seed) specimen_of(*test).packing_seed = *seed;
+    if (test) refuse(validate_memory(*test, 1));
+    notes = std::move(found.notes);
+  }
+
+  void run() {
+    RunOptions options;
+    options.steps.threads = threads_;
+    options.watch_interval_s = frames_s_.value_or(0.1);
+    options.watch = [this](const Snapshot& snapshot) {
+      if (!snapshot.world) return true;
+      if (!frames_s_) frames.clear();
+      frames.push_back(std::make_shared<Frame>(frame_of(snapshot)));
+      return true;
+    };
+    options.pulse = [this](const Snapshot&) { return !stop_->asked; };
+    outcome = std::visit([&](const auto& test) { return simulate(test, options); }, scene_);
+  }
+
+  std::string outcome_json() const {
+    nlohmann::ordered_json out{{"readings", to_json(outcome.observables)},
+                               {"failure", to_json(outcome.failure)},
+                               {"run", to_json(outcome.run, 0)}};
+    if (outcome.curve) {
+      auto& points = out["curve"] = {{"x", outcome.curve->x}, {"y", outcome.curve->y}, {"points", {}}};
+      for (const CurvePoint& point : outcome.curve->points) points["points"].push_back({point.x, point.y});
+    }
+    if (const auto* test = std::get_if<Test>(&scene_)) out["remarks"] = remarks_on(*test, {&outcome.observables, 1});
+    return out.dump();
+  }
+
+  std::vector<std::shared_ptr<Frame>> frames;
+  std::vector<std::string> notes;
+  Outcome outcome;
+
+ private:
+  Scene scene_;
+  std::optional<double> frames_s_;
+  int threads_;
+  std::shared_ptr<Stop> stop_;
+};
+
+}  // namespace
+
+void add_simulation(py::module_& module) {
+  py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame")
+      .def_readonly("phase", &Frame::phase)
+      .def_readonly("time_s", &Frame::time_s)
+      .def_property_readonly("positions",
+                             [](const std::shared_ptr<Frame>& frame) {
+                               return grains_array<double>(frame, offsetof(Motion, position), 3);
+                             })
+      .def_property_readonly(
+          "radii",
+          [](const std::shared_ptr<Frame>& frame) { return grains_array<double>(frame, offsetof(Motion, radius), 0); })
+      .def_property_readonly(
+          "velocities",
+          [](const std::shared_ptr<Frame>& frame) { return grains_array<float>(frame, offsetof(Motion, velocity), 3); })
+      .def_property_readonly("identities", [](const std::shared_ptr<Frame>& frame) {
+        py::array view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(frame->identity.size())},
+                       {static_cast<py::ssize_t>(sizeof(std::int32_t))}, frame->identity.data(), py::cast(frame));
+        view.attr("flags").attr("writeable") = false;
+        return view;
+      });
+  py::class_<SimulationRun>(module, "SimulationRun")
+      .def_static("of_file",
+                  [](const std::string& file, const std::vector<std::string>& settings, const std::string& test,
+                     std::optional<std::uint64_t> seed, std::optional<double> frames_s, int threads,
+                     std::shared_ptr<Stop> stop) {
+                    return SimulationRun(value_or_throw(read_scene(file, settings, test)), seed, frames_s, threads,
+                                         std::move(stop));
+                  })
+      .def_static("of_json",
+                  [](const std::string& text, const std::string& file, const std::vector<std::string>& settings,
+                     const std::string& test, std::optional<std::uint64_t> seed, std::optional<double> frames_s,
+                     int threads, std::shared_ptr<Stop> stop) {
+                    return SimulationRun(value_or_throw(scene_from_json(parsed(text), file, settings, test)), seed,
+                                         frames_s, threads, std::move(stop));
+                  })
+      .def("run", &SimulationRun::run, py::call_guard<py::gil_scoped_release>())
+      .def_readonly("frames", &SimulationRun::frames)
+      .def_readonly("notes", &SimulationRun::notes)
+      .def("outcome", &SimulationRun::outcome_json);
+}
+
+}  // namespace pastefit::python

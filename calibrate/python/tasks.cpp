@@ -1,0 +1,153 @@
+#include "calibrate/python/tasks.h"
+
+#include <cstdint>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "calibrate/python/faults.h"
+#include "calibrate/python/module.h"
+#include "calibrate/store/outcome_json.h"
+#include "core/apparatus/slump/packing.h"
+
+namespace pastefit::python {
+
+namespace py = pybind11;
+using nlohmann::json;
+
+namespace {
+
+/// The packings that the latest tasks of this process started from, each filled once.
+class Packings {
+ public:
+  std::shared_ptr<const Packing> of(const std::string& name, const Test& test) {
+    constexpr std::size_t kMost = 64;
+    std::promise<std::shared_ptr<const Packing>> promise;
+    std::shared_future<std::shared_ptr<const Packing>> filled;
+    bool ours = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (filled_.size() >= kMost && !filled_.contains(name)) filled_.clear();
+      const auto [entry, added] = filled_.try_emplace(name);
+      if (added) entry->second = promise.get_future().share();
+      filled = entry->second;
+      ours = added;
+    }
+    if (ours) promise.set_value(prepare(test));
+    return filled.get();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_future<std::shared_ptr<const Packing>>> filled_;
+};
+
+std::string simulate_task(const std::string& text) {
+  static Packings packings;
+  const json task = parsed(text);
+  const Test test = value_or_throw(test_from_json(task.at("test")));
+  RunOptions options;
+  options.steps.energy_balance = task.at("energy_balance").get<bool>();
+  if (const auto cutoff = task.find("cutoff"); cutoff != task.end())
+    options.cutoff = {cutoff->at("reading").get<std::string>(), number_from_json(cutoff->at("lowest")),
+                      number_from_json(cutoff->at("highest"))};
+  options.packing = packings.of(task.at("packing").get<std::string>(), test);
+  const Outcome outcome = simulate(test, options);
+  return nlohmann::ordered_json{{"readings", to_json(outcome.observables)},
+                                {"run", to_json(outcome.run, 0)},
+                                {"failure", to_json(outcome.failure)}}
+      .dump();
+}
+
+json task_json(const Test& test, const RunOptions& options, const std::string& packing) {
+  json task{{"test", to_json(test)}, {"energy_balance", options.steps.energy_balance}, {"packing", packing}};
+  if (options.cutoff)
+    task["cutoff"] = {{"reading", options.cutoff->reading},
+                      {"lowest", number_to_json(options.cutoff->lowest)},
+                      {"highest", number_to_json(options.cutoff->highest)}};
+  return task;
+}
+
+/// What a packing is called that is filled where it is needed.
+class PackingNames {
+ public:
+  explicit PackingNames(std::string engine) : engine_(std::move(engine)) {}
+
+  std::shared_ptr<const Packing> next() {
+    auto packing = std::make_shared<const Packing>();
+    const std::lock_guard lock(mutex_);
+    names_[packing.get()] = engine_ + "-" + std::to_string(names_.size());
+    kept_.push_back(packing);
+    return packing;
+  }
+  std::string of(const Packing* packing) const {
+    const std::lock_guard lock(mutex_);
+    return names_.at(packing);
+  }
+
+ private:
+  const std::string engine_;
+  mutable std::mutex mutex_;
+  std::map<const Packing*, std::string> names_;
+  std::vector<std::shared_ptr<const Packing>> kept_;  // so that no two have one address
+};
+
+/// What Python's function gave; empty if nobody waits any more. Throws std::runtime_error for an error in it, so that
+/// no object of the interpreter leaves its lock.
+std::string answer_to(const py::function& ask, const std::string& task, const RunOptions& options) {
+  const py::gil_scoped_acquire lock;
+  try {
+    const py::cpp_function goes_on([&] { return options.pulse({}); }, py::call_guard<py::gil_scoped_release>());
+    const py::object answer = ask(task, goes_on);
+    return answer.is_none() ? std::string() : answer.cast<std::string>();
+  } catch (const py::error_already_set& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+Outcome outcome_of(const std::string& answer) {
+  Outcome outcome;
+  if (answer.empty()) {
+    outcome.failure.emplace().reason = FailureReason::stopped;
+    return outcome;
+  }
+  const auto given = nlohmann::ordered_json::parse(answer);
+  outcome.failure = failure_from_json(given.at("failure"));
+  if (given.contains("readings")) outcome.observables = observables_from_json(given.at("readings"));
+  if (given.contains("run")) outcome.run = run_from_json(given.at("run"));
+  return outcome;
+}
+
+}  // namespace
+
+Engine engine_of(py::function ask, std::string name) {
+  // The engine is copied and dropped by threads that do not hold the interpreter's lock.
+  const std::shared_ptr<py::function> function(new py::function(std::move(ask)), [](py::function* held) {
+    const py::gil_scoped_acquire lock;
+    delete held;
+  });
+  const auto names = std::make_shared<PackingNames>(std::move(name));
+  Engine engine;
+  engine.prepare = [names](const Test&, const RunOptions&) { return names->next(); };
+  engine.run = [names, function](const Test& test, const RunOptions& options) {
+    return outcome_of(answer_to(*function, task_json(test, options, names->of(options.packing.get())).dump(), options));
+  };
+  return engine;
+}
+
+void add_tasks(py::module_& module) {
+  module.def("simulate_task", simulate_task, py::call_guard<py::gil_scoped_release>());
+  module.def("failed_task", [](const std::string& message) {
+    Failure failure;
+    failure.reason = FailureReason::engine_failed;
+    failure.message = message;
+    return nlohmann::ordered_json{{"failure", to_json(std::optional(failure))}}.dump();
+  });
+}
+
+}  // namespace pastefit::python

@@ -1,0 +1,81 @@
+#include "calibrate/study/free_parameter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+/// How wide the way between two bounds is at least, as a share of the larger one, and how far apart they are at most on
+/// a logarithmic scale. Beyond either a coordinate between them has no digits that count.
+constexpr double narrowest = 1e-6, farthest_apart = 1e12;
+
+/// The standard deviation of a prior, as a share of the way between the bounds: narrower is a fixed value, wider says
+/// nothing.
+constexpr Range prior_deviations{1e-6, 1e6};
+
+/// Whether a coordinate can be told between the bounds; a fault if not.
+bool check_bounds(ObjectReader& reader, const std::vector<double>& bounds, Scale scale) {
+  const std::string both = "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are ";
+  const auto refused = [&](const std::string& what, std::string remedy) {
+    reader.fault("free", what, std::move(remedy));
+    return false;
+  };
+  if (bounds[0] >= bounds[1])
+    return refused(both + "not in order", "[lower, upper], lower below upper; for a fixed parameter give \"value\"");
+  if (bounds[1] - bounds[0] < narrowest * std::max(std::abs(bounds[0]), std::abs(bounds[1])))
+    return refused(both + "the same within a millionth", "wider ones; for a fixed parameter give \"value\"");
+  if (scale == Scale::linear) return true;
+  if (bounds[0] <= 0)
+    return refused("a lower bound of " + shown(bounds[0]) + " has no logarithm",
+                   "a lower bound above 0, or \"scale\": \"linear\"");
+  if (bounds[0] * farthest_apart < bounds[1])
+    return refused(both + "too far apart for a logarithmic scale",
+                   "a lower bound of at least " + shown(bounds[1] / farthest_apart) + ", or \"scale\": \"linear\"");
+  return true;
+}
+
+/// Requirement: the bounds of the parameter are good.
+void read_prior(ObjectReader& known, Parameter& parameter, const Range& range) {
+  Prior prior{0, 1};
+  Range admissible{0, largest_quantity, true};
+  const bool given = known.number("value", prior.value, range, Need::required);
+  const bool within = given && prior.value >= parameter.lower && prior.value <= parameter.upper;
+  if (given && !within)
+    known.fault(
+        "value",
+        shown(prior.value) + " contradicts the bounds " + shown(parameter.lower) + " to " + shown(parameter.upper),
+        "a value within them, or bounds that hold it");
+  if (within) {
+    parameter.prior = prior;
+    const double between_bounds = 1 / unit_prior(parameter).deviation;
+    admissible = {prior_deviations.smallest * between_bounds, prior_deviations.largest * between_bounds};
+  }
+  const bool spread = known.number("standard_deviation", prior.standard_deviation, admissible, Need::required);
+  parameter.prior.reset();
+  if (within && spread) parameter.prior = prior;
+}
+
+}  // namespace
+
+void read_free(ObjectReader& reader, const Range& range, Parameter& parameter) {
+  parameter.free = true;
+  reader.refuse("value", "stands beside \"free\"", "give one of them");
+  reader.choice("scale", parameter.scale, scales, Need::optional);
+  std::vector<double> bounds;
+  reader.known("prior");
+  if (!reader.numbers("free", bounds, range, Need::required, 2, 2)) return;
+  if (!check_bounds(reader, bounds, parameter.scale)) return;
+  parameter.lower = bounds[0];
+  parameter.upper = bounds[1];
+  reader.object("prior", Need::optional, [&](ObjectReader& known) { read_prior(known, parameter, range); });
+}
+
+}  // namespace pastefit

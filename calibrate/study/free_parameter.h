@@ -1,0 +1,11 @@
+#pragma once
+
+#include "calibrate/base/json_reader.h"
+#include "calibrate/study/study.h"
+
+namespace pastefit {
+
+/// Reads "free", "scale" and "prior" of a parameter. `range`: where it is admissible.
+void read_free(ObjectReader& reader, const Range& range, Parameter& parameter);
+
+}  // namespace pastefit

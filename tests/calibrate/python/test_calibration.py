@@ -1,0 +1,100 @@
+"""Calibrations from Python: the program's card, progress, interruption, resuming.
+
+usage: test_calibration.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import contextlib
+import importlib.util
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy as np
+from studies import PROGRAM, THREADS, Desk, coarse_study, main
+import pastefit as pf
+
+
+class Calibration(Desk):
+    def test_the_card_is_the_programs_to_the_byte(self):
+        study, there = self.study_file(), self.folder / "program"
+        subprocess.run([PROGRAM, "calibrate", study, "--out", there, "--threads", str(THREADS)], capture_output=True)
+        result = pf.calibrate(study, out=self.out, threads=THREADS)
+        self.assertEqual((self.out / "card.json").read_bytes(), (there / "card.json").read_bytes())
+        self.assertEqual((self.out / "summary.txt").read_bytes(), (there / "summary.txt").read_bytes())
+        self.assertEqual(sorted(file.name for file in self.out.iterdir()),
+                         sorted(file.name for file in there.iterdir()))
+        self.assertEqual(result.card, pf.Card.load(self.out / "card.json"))
+        self.assertEqual(result.summary, (self.out / "summary.txt").read_text())
+
+    def test_a_result_holds_readings_intervals_and_every_evaluation(self):
+        told = []
+        result = pf.calibrate(pf.Study(coarse_study()), progress=told.append)
+        self.assertTrue(result.confirmed, result.reason)
+        self.assertEqual(list(result.readings["name"]), ["step1.height_mm"])
+        self.assertLess(abs(result.readings["difference"][0]), 40)
+        self.assertEqual(list(result.intervals["parameter"]), ["strength_pa"])
+        self.assertEqual(len(result.evaluations), result.simulated)
+        self.assertTrue(np.all((300 <= result.evaluations["strength_pa"]) & (result.evaluations["strength_pa"] <= 40000)))
+        self.assertIn("step1.height_mm", result.evaluations.dtype.names)
+        self.assertEqual(told[-1]["simulations"], result.simulated)
+        self.assertEqual(told[-1]["budget"], 16)
+        for part in ("<table>", "<svg", "strength_pa"):
+            self.assertIn(part, result._repr_html_())
+
+    def test_a_bar_shows_how_far_it_is(self):
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            pf.calibrate(pf.Study(coarse_study()), progress=True)
+        self.assertRegex(shown.getvalue(), r"\d+.*16.*")
+        self.assertIn("tolerance", shown.getvalue())
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "there is no pandas")
+    def test_a_data_frame_has_a_row_for_each_evaluation(self):
+        result = pf.calibrate(pf.Study(coarse_study()))
+        frame = result.to_pandas()
+        self.assertEqual(len(frame), result.simulated)
+        self.assertEqual(list(frame["step1.height_mm"]), list(result.evaluations["step1.height_mm"]))
+
+    def test_a_folder_with_a_result_is_not_replaced_by_chance_and_resumes_without_a_simulation(self):
+        study = pf.Study(coarse_study())
+        first = pf.calibrate(study, out=self.out, page=False)
+        fault, = self.faults(pf.calibrate, study, out=self.out)
+        self.assertIn("resume=True", fault.remedy)
+        again = pf.calibrate(study, out=self.out, resume=True, page=False)
+        self.assertEqual(again.simulated, 0)
+        self.assertEqual(again.card, first.card)
+
+    def test_a_study_that_cannot_be_calibrated_is_told_so_before_anything_runs(self):
+        fault, = self.faults(pf.calibrate, pf.Study(coarse_study(strategy="defualt")), out=self.out)
+        self.assertEqual(fault.where, "search.strategy")
+        self.assertFalse(self.out.exists())
+
+    def test_an_error_in_progress_ends_the_calibration_and_is_raised(self):
+        def fail(_):
+            raise RuntimeError("no more")
+        with self.assertRaisesRegex(RuntimeError, "no more"):
+            pf.calibrate(pf.Study(coarse_study()), progress=fail)
+
+    def test_ctrl_c_leaves_a_store_that_resumes_to_the_same_card(self):
+        study = self.study_file()
+        code = f"import pastefit as pf\npf.calibrate({str(study)!r}, out={str(self.out)!r}, threads=1, page=False)\n"
+        process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, env=os.environ)
+        store = self.out / "evaluations.sqlite"
+        while process.poll() is None and not store.exists():
+            time.sleep(0.01)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        self.assertIn("KeyboardInterrupt", error)
+        self.assertNotIn("Fatal", error)
+        resumed = pf.calibrate(study, out=self.out, resume=True, page=False)
+        whole = pf.calibrate(study, out=self.folder / "whole", page=False)
+        self.assertLess(resumed.simulated, whole.simulated)
+        self.assertEqual(resumed.card, whole.card)
+
+
+if __name__ == "__main__":
+    main()
