@@ -15,7 +15,6 @@
 namespace pastefit {
 namespace {
 
-
 constexpr std::string_view drop_lab =
     R"(// What a laboratory measured in a drop test: a ball of the material falls on a plate. Lines like this one are comments;
 // the unit is in each key.
