@@ -1,0 +1,73 @@
+"""The command line over many workers: `python3 -m pastefit calibrate STUDY --out DIR`."""
+
+import argparse
+import concurrent.futures as futures
+import contextlib
+import sys
+from typing import Any, ContextManager, List, Optional
+
+from . import InputError, calibrate
+from .workers import processors
+
+_DESCRIPTION = """Calibrates a study as the program `pastefit calibrate` does, with the same card, and the simulations
+spread over processes of this machine (the default), the ranks of MPI, or the workers of a Dask cluster:
+
+    python3 -m pastefit calibrate STUDY --out DIR
+    mpiexec -n 65 python3 -m mpi4py.futures -m pastefit calibrate STUDY --out DIR
+    python3 -m pastefit calibrate STUDY --out DIR --dask ADDRESS
+"""
+
+
+def _arguments(words: Optional[List[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python3 -m pastefit", description=_DESCRIPTION,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    verb = parser.add_subparsers(dest="verb", required=True).add_parser(
+        "calibrate", description=_DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter)
+    verb.add_argument("study", metavar="STUDY", help="study file")
+    verb.add_argument("--out", metavar="DIR", required=True, help="folder for card, summary, page and all simulations")
+    earlier = verb.add_mutually_exclusive_group()
+    earlier.add_argument("--resume", action="store_true", help="go on with what DIR holds")
+    earlier.add_argument("--force", action="store_true", help="replace what DIR holds")
+    verb.add_argument("--quiet", action="store_true", help="no progress")
+    verb.add_argument("--time", metavar="SECONDS", type=float, default=0, help="end with the best so far after this time")
+    where = verb.add_mutually_exclusive_group()
+    where.add_argument("--processes", metavar="N", type=int, help="of this machine; one for each core if it is not given")
+    where.add_argument("--dask", metavar="ADDRESS", help="of a scheduler, tcp://host:8786, or its file")
+    return parser.parse_args(words)
+
+
+def _dask_client(address: str) -> ContextManager[Any]:
+    from dask.distributed import Client
+    return Client(scheduler_file=address) if address.endswith(".json") else Client(address)
+
+
+def _executor(arguments: argparse.Namespace) -> ContextManager[Any]:
+    """Where the simulations run. Under `python3 -m mpi4py.futures` the other ranks wait for work."""
+    if arguments.dask:
+        return _dask_client(arguments.dask)
+    if "mpi4py.futures" in sys.modules and arguments.processes is None:
+        from mpi4py.futures import MPIPoolExecutor
+        return MPIPoolExecutor()
+    return futures.ProcessPoolExecutor(arguments.processes or processors())
+
+
+def main(words: Optional[List[str]] = None) -> int:
+    """Exit status: 0 the material is confirmed, 1 it is not, 2 the input cannot be used."""
+    arguments = _arguments(words)
+    try:
+        with contextlib.ExitStack() as stack:
+            executor = stack.enter_context(_executor(arguments))
+            result = calibrate(arguments.study, out=arguments.out, executor=executor, progress=not arguments.quiet,
+                               resume=arguments.resume, force=arguments.force, wall_budget_s=arguments.time)
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: the best so far is written, and --resume goes on", file=sys.stderr)
+        return 1
+    print(result.summary, end="")
+    return 0 if result.confirmed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
