@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,13 +57,23 @@ void describe_dimensions(Fields& fields, Object& object, const std::array<Dimens
     fields.number(one.field.data(), object.*one.value, any_number, required);
 }
 
-/// Reads them from a file for people. `need`: of those without a default.
+/// Whether a number of a file is on the wrong side of nothing.
+inline bool is_below_nothing(const nlohmann::json* number, const Range& range) {
+  if (!number || !number->is_number()) return false;
+  const double value = number->get<double>();
+  return value < 0 ? range.smallest >= 0 : value == 0 && range.smallest > 0;
+}
+
+/// Reads them from a file for people. `need`: of those without a default. What is below nothing is a fault at once;
+/// else ranges are left to the test's `validate`, which judges all numbers together once they could be read.
 template <class Owner, std::size_t count>
 void read_dimensions(ObjectReader& reader, Owner& owner, const std::array<Dimension<Owner>, count>& dimensions,
                      Need need) {
   for (const Dimension<Owner>& one : dimensions) {
     const FileKey key = file_key(one.field);
-    reader.number(key.name, owner.*one.value, range_in_files(one), one.has_default ? Need::optional : need, key.per_si);
+    const Range range = range_in_files(one);
+    reader.number(key.name, owner.*one.value, is_below_nothing(reader.content(key.name), range) ? range : any_number,
+                  one.has_default ? Need::optional : need, key.per_si);
   }
 }
 

@@ -184,16 +184,19 @@ Faults validate(const Test& test) {
 
 namespace {
 
-/// The same fault of a field in SI for the key of a file: in millimetres, where the key is, and of a diameter.
+/// The same fault of a field in SI for the key of a file: in millimetres or degrees, where the key is, and of a
+/// diameter.
 Fault in_unit_of(std::string_view field, Fault fault) {
   const std::string& key = fault.where;
   if (!fault.range) return fault;
   const bool in_mm = key.find("_mm") != std::string::npos && field.find("_mm") == std::string_view::npos;
   const bool doubled = key.find("diameter") != std::string::npos && field.find("radius") != std::string_view::npos;
-  const double scale = (in_mm ? 1000 : 1) * (doubled ? 2 : 1);
+  const bool in_degrees = key.ends_with("_deg");
+  const double scale = (in_mm ? mm : in_degrees ? degrees : 1) * (doubled ? 2 : 1);
   OutOfRange range = *fault.range;
   for (double* number : {&range.value, &range.smallest, &range.largest}) *number *= scale;
   if (in_mm) range.unit = "m" + range.unit;
+  if (in_degrees) range.unit = "degrees";
   return FieldChecker::fault_of(key, std::move(range));
 }
 

@@ -23,7 +23,7 @@ bool ConfirmationPhase::confirm(bool whatever_it_does) {
   Verdict verdict = Verdict::undecided;
   if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
   while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !state_.history.stop_requested()) {
-    const std::size_t more = fresh.size() < all ? all - fresh.size() : all;
+    const std::size_t more = fresh.size() < all ? all - fresh.size() : fresh.size();
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
     confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);

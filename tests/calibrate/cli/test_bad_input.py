@@ -117,7 +117,7 @@ class BadInput(Desk):
             (pellet, ["apparatus.die_diameter_mm=8"], "grains.radius_mm", "of a few granules says nothing", "at most"),
             (pellet, ["apparatus.press_speedup=5000"], "apparatus.press_speedup", "sound in a bed", "slower punch"),
             (pellet, ["apparatus.platen_speed_mm_s=9000"], "apparatus.platen_speed_mm_s", "sound in a bed", "slower"),
-            (shear, ["apparatus.normal_stress_pa=-2000"], "apparatus.normal_stress_pa", "is -2000", "1 to 1e+07 Pa"),
+            (shear, ["apparatus.normal_stress_pa=-2000"], "apparatus.normal_stress_pa", "is -2000 Pa", "1 to 1e+07 Pa"),
             (pellet, ["grains.standard_deviation_mm=0.01", "grains.radius_mm=1.2", "grains.smallest_mm=0.5",
                       "grains.largest_mm=1.2", "grains.smallest_mm=1.19999"],
              "grains.standard_deviation_mm", "% of the grains between smallest and largest", "widen the bounds"))
