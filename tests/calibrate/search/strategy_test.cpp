@@ -266,7 +266,7 @@ TEST_CASE("if everything fails the calibration says so and keeps half of its bud
   }
 }
 
-TEST_CASE("large failing regions cost candidates, not the calibration") {
+TEST_CASE("large failing regions cost candidates, not the calibration", "[campaign]") {
   int confirmed = 0, reachable = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     CAPTURE(seed);
