@@ -82,6 +82,7 @@ std::vector<ConditionEffect> effects_on(const Calibration& found, const Study& s
     SimulationObjective other(changed, store, evaluator);
     auto runs = other.predict(point, packings, test);
     counts += other.counts();
+    if (objective.stop_requested()) runs.clear();  // some were cut off
     return runs;
   };
   const auto& fresh = found.confirmation.packings;

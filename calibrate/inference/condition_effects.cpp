@@ -1,6 +1,8 @@
 #include "calibrate/inference/condition_effects.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "calibrate/search/record.h"
 #include "calibrate/study/tests.h"
@@ -34,8 +36,10 @@ int add_means(const StudyTest& test, const RunsAtEnds& ends, std::vector<Conditi
   return static_cast<int>(usable.size());
 }
 
-ConditionEffect effect_of(const Study& study, const UnstatedCondition& condition, const UnitPoint& material,
-                          std::span<const std::uint64_t> packings, const SimulatePoint& simulate) {
+/// Nothing if the user did not wait for all of it.
+std::optional<ConditionEffect> effect_of(const Study& study, const UnstatedCondition& condition,
+                                         const UnitPoint& material, std::span<const std::uint64_t> packings,
+                                         const SimulatePoint& simulate) {
   ConditionEffect effect{condition.place,
                          condition.assumed,
                          condition.assumed / condition_range,
@@ -46,6 +50,7 @@ ConditionEffect effect_of(const Study& study, const UnstatedCondition& condition
   const Study upper = with_condition(study, condition, condition_range);
   for (const std::size_t test : condition.tests) {
     const RunsAtEnds ends{simulate(lower, material, packings, test), simulate(upper, material, packings, test)};
+    if (std::min(ends.lower.size(), ends.upper.size()) < packings.size()) return std::nullopt;
     effect.packings = std::min(effect.packings, add_means(study.tests[test], ends, effect.readings));
   }
   return effect;
@@ -60,7 +65,9 @@ std::vector<ConditionEffect> condition_effects(const Study& study, const UnitPoi
   for (const UnstatedCondition& condition : unstated_conditions(study)) {
     simulations -= static_cast<int>(2 * packings.size() * condition.tests.size());
     if (simulations < 0) break;
-    effects.push_back(effect_of(study, condition, material, packings, simulate));
+    auto effect = effect_of(study, condition, material, packings, simulate);
+    if (!effect) break;
+    effects.push_back(std::move(*effect));
   }
   return effects;
 }

@@ -19,7 +19,7 @@ using SimulatePoint = std::function<std::vector<StoredEvaluation>(
     const Study& study, const UnitPoint& point, std::span<const std::uint64_t> packings, std::size_t test)>;
 
 /// What each unstated condition of a study does to the readings of a material at the ends of its range, as long as
-/// there are simulations left. Requirement: `condition_packings` packings.
+/// there are simulations left and the user waits. Requirement: at least one packing.
 std::vector<ConditionEffect> condition_effects(const Study& study, const UnitPoint& material,
                                                std::span<const std::uint64_t> packings, int simulations,
                                                const SimulatePoint& simulate);

@@ -1,6 +1,7 @@
 #include "calibrate/calibrate.h"
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -106,6 +107,23 @@ TEST_CASE("a card says what a condition that nobody states moves, and keeps to t
   CHECK(to_json(again.card.value()) == to_json(*result.card));
   const nlohmann::json written = to_json(*result.card);
   CHECK(nlohmann::json(to_json(card_from_json(written).value())) == written);
+}
+
+TEST_CASE("a calibration that is stopped while conditions are simulated says nothing of them") {
+  const Folder folder;
+  Study study = coarse_study();
+  study.tests.at(0).lab.stated.clear();
+  study.search.budget_simulations = 40;
+  auto store = store_in(folder, study);
+  std::atomic<bool> stop = false;
+  Engine stopping;
+  stopping.run = [&](const Test& test, const RunOptions& options) {
+    if (std::get<SlumpTest>(test).lift_velocity_m_s != 0.1) stop = true;
+    return simulate(test, options);
+  };
+  const auto result = calibrate(study, store, {.threads = 1, .stop = &stop, .engine = stopping}).value();
+  REQUIRE(stop);
+  CHECK(result.card.value().inference.conditions.empty());
 }
 
 TEST_CASE("a study that cannot be calibrated is told so before anything is simulated") {
