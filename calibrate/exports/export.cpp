@@ -72,8 +72,8 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   auto* const slump = std::get_if<SlumpTest>(&scene.test);
   if (!slump) return scene;
   slump->packing_seed = packing.value_or(slump->packing_seed);
-  const auto poured = fill_mould(*slump);
-  scene.packing = poured->failure ? *poured : full_mould(*slump, *poured);
+  const auto filled = fill_mould(*slump);
+  scene.packing = filled->failure ? *filled : full_mould(*slump, *filled);
   if (const auto& failure = scene.packing.failure)
     return Fault{"packing " + std::to_string(slump->packing_seed), "the mould could not be filled: " + failure->message,
                  "take another seed with --packing, or finer grains with pastefit rescale"};

@@ -59,7 +59,7 @@ std::string preparation_key(const SlumpTest& test) {
 }
 
 double grains_needed(const SlumpTest& test) {
-  return poured_grains(test);
+  return grains_to_fill(test);
 }
 
 void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {

@@ -57,6 +57,13 @@ void thin(RecordingPart& part, double interval_s) {
   part.frames = std::move(kept);
 }
 
+/// By more than a person sees: what fits a column into its mould does not count.
+bool have_grown(const RecordingPart& part, const Particles& grains) {
+  constexpr double kSeen = 0.03;
+  const double before = part.radii_m[static_cast<std::size_t>(grains.identity[0])];
+  return std::fabs(grains.motion[0].radius - before) > kSeen * before;
+}
+
 }  // namespace
 
 std::size_t RunRecording::grains() const {
@@ -75,11 +82,13 @@ void RunRecorder::add(const Snapshot& snapshot) {
   if (!snapshot.world || snapshot.world->particles.count() == 0) return;
   const World& world = *snapshot.world;
   const auto grains = static_cast<std::size_t>(world.particles.count());
-  const bool anew = film_.parts.empty() || snapshot.time_s < last_s_ || snapshot.drop != drop_ ||
-                    film_.parts.back().radii_m.size() != grains;
-  if (anew) {
+  const bool others = film_.parts.empty() || snapshot.time_s < last_s_ || snapshot.drop != drop_ ||
+                      film_.parts.back().radii_m.size() != grains;
+  if (others) {
     begun_s_ = film_.parts.empty() ? 0 : film_.parts.back().frames.back().time_s;
     first_s_ = snapshot.drop > 0 ? snapshot.time_s : 0;  // the drop goes on with the clock of the heap
+  }
+  if (others || have_grown(film_.parts.back(), world.particles)) {
     RecordingPart part;
     part.radii_m.resize(grains);
     for (std::size_t i = 0; i < grains; ++i)

@@ -41,8 +41,9 @@ struct RunRecording {
   std::size_t frames() const;
 };
 
-/// Makes a film of the moments of a run (`RunOptions::watch`). A part ends where the grains are other ones: a stage of
-/// the test that begins its own clock, and at each further drop of one heap, whose phases say that they are of that.
+/// Makes a film of the moments of a run (`RunOptions::watch`). A part ends where the grains are other ones or have
+/// grown: at a stage of the test that begins its own clock, and at each further drop of one heap, whose phases say that
+/// they are of that.
 class RunRecorder {
  public:
   static constexpr double kInterval = 0.02;  ///< [s] between two pictures, for `RunOptions::watch_interval_s`

@@ -191,7 +191,7 @@ test("every phase of the test is in the film", async () => {
     .evaluateAll((buttons) => buttons.map((button) => button.getAttribute("data-phase")));
   // Of a few coarse grains none may stand out above the rim: then there is nothing to strike off.
   const lasting = phases.filter((phase) => phase !== "fill.strike");
-  assert.deepEqual(lasting, ["fill.pour", "fill.rest", "fill.settle", "step1.lift", "step1.rest"]);
+  assert.deepEqual(lasting, ["fill.grow", "fill.sink", "fill.rest", "fill.settle", "step1.lift", "step1.rest"]);
 });
 
 test("every plot has its data", async () => {

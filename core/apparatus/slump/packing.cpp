@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/apparatus/pour.h"
+#include "core/apparatus/slump/random_addition.h"
 #include "core/laws/constants.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
@@ -14,39 +15,36 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kOverfill = 1.12;  // solid volume poured over that of a mould packed to kSolidFraction
+constexpr double kStartSize = 0.8;     // of a grain before it grows, over its size
+constexpr double kLoosest = 0.55;      // solid fraction when all have grown, before they sink
+constexpr double kGrowthSpeed = 0.02;  // [m/s] of a grain's surface; nothing sinks faster meanwhile
+constexpr int kGrowthSteps = 10;
+constexpr double kOverfill = 1.12;  // solid volume of all grains over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
 constexpr double kLidSpeed = 0.2;    // [m/s]
 constexpr double kFillCap = 4.0;     // [s]
-constexpr double kScoopSpeed = 1.0;  // [m/s]
+constexpr double kScoopSpeed = 1.0;  // [m/s] at which grains sink
 constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
 constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
 
-// Frictions and steps of resting overlap that packings are poured at; candidates between them share one.
+// Frictions and steps of resting overlap at which moulds are filled; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
 constexpr double kRestingOverlapStep = 0.005;
 // [radii] What has its centre less than this below the rim is scraped away. Less of it, and the lid presses the rest so
 // hard that the column rises by 1 % when it is taken off.
 constexpr double kScrape = 0.7;
 
-/// Solid volume that is poured.
-double poured_volume(const Mould& mould) {
+/// Solid volume of the grains that fill mould and hopper.
+double drawn_volume(const Mould& mould) {
   return kOverfill * kSolidFraction * volume_m3(mould);
 }
 
-/// Inner radius at height z of the mould with a straight hopper on top of it.
-double inner_radius(const Mould& mould, double z) {
-  const double share = std::min(z / mould.height_m, 1.0);
-  return mould.base_radius_m + share * (mould.top_radius_m - mould.base_radius_m);
-}
-
-/// Loose grains in mould and hopper, until enough is poured.
-void pour_into(const SlumpTest& test, Packing& packing) {
-  LooseGrains poured = pour(test.grains, test.packing_seed, poured_volume(test.mould), wider_radius_m(test.mould),
-                            [&](double z) { return inner_radius(test.mould, z); });
-  packing.centres = std::move(poured.centres);
-  packing.radii = std::move(poured.radii);
-  packing.solid_volume_m3 = poured.solid_volume_m3;
+/// Grains of the test, in the order in which they are drawn, until they fill so much.
+void draw_grains(const SlumpTest& test, double solid_volume, Packing& packing) {
+  while (packing.solid_volume_m3 < solid_volume) {
+    packing.radii.push_back(draw_radius(test.grains, test.packing_seed, packing.radii.size()));
+    packing.solid_volume_m3 += sphere_volume_m3(packing.radii.back());
+  }
 }
 
 /// Frictional grains without cohesion, so that candidates may share the fill. Or the test's own.
@@ -113,24 +111,52 @@ void take_work(Packing& packing, const RunSummary& run) {
   packing.run.simulated_s += run.simulated_s;
 }
 
-/// Speed at which grains sink while they are poured: as a scoop lets them down, but no faster than presses a grain that
-/// hits a plane of its own kind in by `kGentle` of its radius (Hertz; the same for all sizes).
-double pouring_speed(const World& world) {
+/// Speed at which grains sink: as a scoop lets them down, but no faster than presses a grain that hits a plane of its
+/// own kind in by `kGentle` of its radius (Hertz; the same for all sizes).
+double sinking_speed(const World& world) {
   const double modulus = 0.5 * world.grain_pair.normal_stiffness;
   const double harmless =
       std::sqrt(std::pow(kGentle, 2.5) * 0.8 / std::numbers::pi * modulus / world.particles.density_kg_m3);
   return std::min(kScoopSpeed, harmless);
 }
 
-/// The grains sink as in a liquid. A free fall from the top of the hopper crushes soft ones, and packs 0.62 instead of
-/// 0.59: a weak paste then stands 20 mm lower.
-void let_fall(const SlumpTest& test, const RunOptions& options, Packing& packing) {
-  const double top = highest(packing);
-  World world = filling_world(test, options, packing, top);
-  const double speed = pouring_speed(world);
-  world.drag = kGravity / speed;
-  Runner runner(world, options, posture_of_heap);
-  packing.failure = runner.settle({"fill.pour"}, kFillCap, top / speed);
+/// What is no higher and no wider than before is at rest, though a single grain may still roll about on top.
+std::vector<double> posture_of_fill(const Particles& grains) {
+  auto posture = posture_of_heap(grains);
+  posture.erase(posture.begin());  // the highest point
+  return posture;
+}
+
+/// Small grains at random places grow to their size where they are, until they fill mould and hopper loosely. They lie
+/// in no layers, as grains do that are let down from a lattice.
+std::optional<Failure> grow(const SlumpTest& test, World& world, Runner& runner) {
+  const double step = (1 - kStartSize) * test.grains.radius_m / kGrowthSpeed / kGrowthSteps;
+  world.drag = kGravity / kGrowthSpeed;
+  double size = kStartSize;
+  for (auto& grain : world.particles.motion) grain.radius *= size;
+  for (int i = 1; i <= kGrowthSteps; ++i) {
+    const double next = kStartSize + (1 - kStartSize) * i / kGrowthSteps;
+    for (auto& grain : world.particles.motion) grain.radius *= next / size;
+    size = next;
+    runner.changed();
+    const double left = step * (kGrowthSteps - i);
+    if (auto problem = runner.run({.name = "fill.grow", .after = {left, left}}, i * step - world.time)) return problem;
+  }
+  return {};
+}
+
+/// The grains sink as in a liquid. A free fall crushes soft ones, and packs 0.62 instead of 0.59: a weak paste then
+/// stands 20 mm lower.
+void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing) {
+  std::vector<double> small = packing.radii;
+  for (double& radius : small) radius *= kStartSize;
+  packing.centres =
+      random_addition(test.mould, small, kLoosest * kStartSize * kStartSize * kStartSize, test.packing_seed);
+  World world = filling_world(test, options, packing, highest(packing));
+  Runner runner(world, options, posture_of_fill);
+  packing.failure = grow(test, world, runner);
+  world.drag = kGravity / sinking_speed(world);
+  if (!packing.failure) packing.failure = runner.settle({"fill.sink"}, kFillCap);
   take_work(packing, runner.summary());
   take_grains(world, packing);
 }
@@ -164,12 +190,12 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
 
 }  // namespace
 
-double poured_grains(const SlumpTest& test) {
+double grains_to_fill(const SlumpTest& test) {
   constexpr int kDraws = 1000;
   double volume = 0;
   for (int n = 0; n < kDraws; ++n)
     volume += sphere_volume_m3(draw_radius(test.grains, test.packing_seed, static_cast<std::uint64_t>(n))) / kDraws;
-  return poured_volume(test.mould) / volume * std::pow(1 + filling_of(test).resting_overlap, 3);
+  return drawn_volume(test.mould) / volume * std::pow(1 + filling_of(test).resting_overlap, 3);
 }
 
 double grain_density(const SlumpTest& test, const Packing& packing) {
@@ -195,12 +221,12 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
   options.steps.fixed_step_s.reset();
   options.steps.sleep = options.steps.energy_balance = false;
   const double swelling = options.own_fill ? 1 : 1 + filling_of(test).resting_overlap;
-  SlumpTest poured = test;
-  poured.grains = enlarged(test.grains, 1 / swelling);
+  SlumpTest smaller = test;
+  smaller.grains = enlarged(test.grains, 1 / swelling);
   auto packing = std::make_shared<Packing>();
-  pour_into(poured, *packing);
-  let_fall(poured, options, *packing);
-  if (!packing->failure) strike_off(poured, options, *packing);
+  draw_grains(smaller, drawn_volume(test.mould), *packing);
+  let_sink(smaller, options, *packing);
+  if (!packing->failure) strike_off(smaller, options, *packing);
   const double fraction = packing->solid_volume_m3 / volume_m3(test.mould);
   if (!packing->failure && fraction < kEmptiest)
     packing->failure = Failure{FailureReason::packing_failed,
@@ -211,7 +237,7 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
                                fraction,
                                kEmptiest,
                                "the grains bridge in the mould and leave it partly empty; take smaller grains"};
-  const Fit fit = fit_of(test.mould, make_particles(packing->centres, packing->radii, 1), poured.grains.radius_m);
+  const Fit fit = fit_of(test.mould, make_particles(packing->centres, packing->radii, 1), smaller.grains.radius_m);
   packing->roughness_m = fit.roughness_m;
   packing->gap_m = fit.gap_m;
   for (double& r : packing->radii) r *= swelling;

@@ -24,20 +24,20 @@ struct Packing {
 /// How a mould is filled for a candidate. Tests that differ in the material only, and whose fillings are equal, share
 /// their packings.
 ///
-/// Attraction presses soft grains into each other until it is balanced, and a packing poured without it would shrink
-/// from the mould when it acts. So smaller grains are poured, by one plus `resting_overlap`: where they touch, the
-/// candidate's own grains overlap as much as they will.
+/// Attraction presses soft grains into each other until it is balanced, and a packing made without it would shrink from
+/// the mould when it acts. So the mould is filled with smaller grains, by one plus `resting_overlap`: where they touch,
+/// the candidate's own grains overlap as much as they will.
 struct Filling {
-  double friction = 0;           ///< while it is poured: the candidate's, rounded down, since a looser fill would sink
+  double friction = 0;           ///< meanwhile: the candidate's, rounded down, since a looser fill would sink
   double resting_overlap = 0;    ///< rounded
   double youngs_modulus_pa = 0;  ///< rounded to half an octave
   auto operator<=>(const Filling&) const = default;
 };
 Filling filling_of(const SlumpTest& test);
 
-/// Fills and strikes off the mould of `test`: frictional grains without cohesion, poured as `filling_of` says,
-/// so that the packing serves all tests with the same mould, grain sizes, density, seed and
-/// filling; with `own_fill` under the laws and walls of `test`, for it alone.
+/// Fills and strikes off the mould of `test`: frictional grains without cohesion, as `filling_of` says, grown at random
+/// places in mould and hopper and let sink, so that the packing serves all tests with the same mould, grain sizes,
+/// density, seed and filling; with `own_fill` under the laws and walls of `test`, for it alone.
 std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& options = {});
 
 /// What is in the mould when it is lifted: the packing at rest under the laws and walls of `test`. All lengths of the
@@ -54,8 +54,8 @@ Fit fit_of(const Mould& mould, const Particles& grains, double mean_radius);
 /// Density at which the packing's grains have the mass that the laboratory's material has in the mould [kg/m^3].
 double grain_density(const SlumpTest& test, const Packing& packing);
 
-/// Number of grains that are poured to fill the mould: its volume times the share of it that is poured as solid, over
-/// the mean volume of a grain. Some of them are struck off.
-double poured_grains(const SlumpTest& test);
+/// Number of grains that fill mould and hopper: their solid volume over the mean volume of a grain. Some of them are
+/// struck off.
+double grains_to_fill(const SlumpTest& test);
 
 }  // namespace pastefit

@@ -73,7 +73,7 @@ class Report(Desk):
         data = zlib.decompress(base64.b64decode(element_of(page, "film-0")))
         self.assertEqual(len(data), sum(reel["grains"] * (2 + 9 * len(reel["frames"])) for reel in film["reels"]))
         phases = {frame["phase"] for reel in film["reels"] for frame in reel["frames"]}
-        self.assertEqual(phases, {"fill.pour", "fill.strike", "fill.rest", "fill.settle", "step1.lift", "step1.rest"})
+        self.assertEqual(phases, {"fill.grow", "fill.sink", "fill.strike", "fill.rest", "fill.settle", "step1.lift", "step1.rest"})
 
     def test_the_film_is_kept_beside_the_card_and_simulated_anew_only_where_it_is_not_whole(self):
         self.calibrates(self.study())

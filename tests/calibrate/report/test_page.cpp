@@ -148,7 +148,10 @@ TEST_CASE("a look at a test has its film, and the readings and outlines of every
   CHECK_FALSE(view.film.empty());
   const auto drawings = drawings_of(of_card.test, view.runs, {});
   REQUIRE(drawings.size() == 1);
-  CHECK(std::ranges::count(drawings[0].lines, DrawnBy::run, &DrawnLine::by) == 2);
+  // So few grains may shear off.
+  CHECK(std::ranges::count(drawings[0].lines, DrawnBy::run, &DrawnLine::by) +
+            std::ranges::count(drawings[0].lines, DrawnBy::rejected, &DrawnLine::by) ==
+        2);
   const TestView stopped = view_of(of_card, packings, 1, [] { return false; });
   CHECK(stopped.runs.empty());
   CHECK(stopped.failures.empty());

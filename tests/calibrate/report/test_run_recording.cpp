@@ -123,6 +123,21 @@ TEST_CASE("a film begins a part where the grains are other ones, and its clock g
   CHECK(film.parts[2].frames.front().phase == "step2.rest, heap turned half round");
 }
 
+TEST_CASE("a film shows grains that grow as they are, on one clock") {
+  RunRecorder recorder;
+  World world = world_of({{0, 0, 0}, {0, 0, 1}});
+  const double grown = world.particles.motion[0].radius;
+  for (const double size : {0.8, 0.9, 1.0, 1.01}) {
+    for (auto& grain : world.particles.motion) grain.radius = size * grown;
+    recorder.add({"fill.grow", size, 0, &world});
+  }
+  const RunRecording film = std::move(recorder).film();
+  REQUIRE(film.parts.size() == 3);
+  CHECK(film.parts[0].radii_m[1] == Approx(0.8 * grown));
+  CHECK(film.parts[2].radii_m[1] == Approx(grown));
+  CHECK(film.parts[2].frames.back().time_s == Approx(1.01));
+}
+
 TEST_CASE("a long film is thinned to what a page holds, and keeps the last picture of each part") {
   RunRecorder recorder;
   World world = world_of({{0, 0, 0}});

@@ -65,13 +65,13 @@ TEST_CASE("what is lifted fills the mould, whatever the strength and the frictio
       INFO("strength " << strength << " Pa, friction " << friction);
       double volume = 0;
       for (test.packing_seed = 1; test.packing_seed <= kPackings; ++test.packing_seed) {
-        const auto poured = fill_mould(test);
-        REQUIRE_FALSE(poured->failure);
-        const Packing full = full_mould(test, *poured);
+        const auto struck_off = fill_mould(test);
+        REQUIRE_FALSE(struck_off->failure);
+        const Packing full = full_mould(test, *struck_off);
         REQUIRE_FALSE(full.failure);
-        Packing as_poured = *poured;
-        for (double& radius : as_poured.radii) radius = test.grains.radius_m / (1 + filling_of(test).resting_overlap);
-        const Stand before = stand_of(test, as_poured), now = stand_of(test, full);
+        Packing as_filled = *struck_off;
+        for (double& radius : as_filled.radii) radius = test.grains.radius_m / (1 + filling_of(test).resting_overlap);
+        const Stand before = stand_of(test, as_filled), now = stand_of(test, full);
         const Mould& mould = test.mould;
         volume += ((now.height - before.height) / mould.height_m -
                    4 * (now.gap - before.gap) / (mould.base_radius_m + mould.top_radius_m)) /

@@ -48,18 +48,18 @@ TEST_CASE("the mould is filled level with its rim") {
   CHECK(fraction < 0.64);
 }
 
-TEST_CASE("as many grains are poured as is foretold, whatever their sizes") {
+TEST_CASE("as many grains fill the mould as is foretold, whatever their sizes") {
   SlumpTest wide = small_test(0);
   wide.grains = {SizeDistribution::uniform, 0.010, 0, 0.007, 0.013};
   for (const SlumpTest& test : {small_test(0), small_test(30), wide}) {
-    std::int64_t poured = 0;
+    std::int64_t drawn = 0;
     RunOptions options;
     options.watch = [&](const Snapshot& snapshot) {
-      poured = snapshot.world->particles.count();
+      drawn = snapshot.world->particles.count();
       return false;
     };
     (void)fill_mould(test, options);
-    CHECK(poured_grains(test) == Approx(static_cast<double>(poured)).epsilon(0.05));
+    CHECK(grains_to_fill(test) == Approx(static_cast<double>(drawn)).epsilon(0.05));
   }
 }
 

@@ -82,7 +82,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("JKR in a crowd: sticking grains that are poured under their own laws lie looser than dry ones") {
+TEST_CASE("JKR in a crowd: sticking grains that fill a mould under their own laws lie looser than dry ones") {
   RunOptions own;
   own.own_fill = true;
   const auto fraction = [&](double pull_off) {
@@ -90,5 +90,5 @@ TEST_CASE("JKR in a crowd: sticking grains that are poured under their own laws 
     REQUIRE_FALSE(packing->failure);
     return packing->solid_volume_m3 / volume_m3(Mould{});
   };
-  CHECK(fraction(3) < 0.95 * fraction(0));
+  CHECK(fraction(3) < 0.98 * fraction(0));
 }
