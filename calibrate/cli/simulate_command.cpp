@@ -49,7 +49,6 @@ struct SimulateOptions {
   std::optional<double> vtk_interval_s;
   std::optional<double> time_step_s;
   int threads = 1;
-  bool sleep = false;
 };
 
 const std::string kResult = "outcome.json";
@@ -135,7 +134,6 @@ nlohmann::ordered_json simulation_json(const Outcome& outcome, const nlohmann::o
                 {"time_step_s", run.time_step_s},
                 {"advised_step_s", run.advised_step_s},
                 {"energy_error", run.energy_error ? nlohmann::ordered_json(*run.energy_error) : nullptr},
-                {"asleep_share", run.asleep_share},
                 {"simulated_s", run.simulated_s},
                 {"wall_s", wall_s},
                 {"particle_steps_per_s", wall_s > 0 ? static_cast<double>(run.particle_steps) / wall_s : 0},
@@ -285,7 +283,6 @@ int simulate_file(const SimulateOptions& options) {
   RunOptions run;
   run.steps.fixed_step_s = options.time_step_s;
   run.steps.threads = options.threads;
-  run.steps.sleep = options.sleep;
   const auto& stop = listen_for_stop();
   std::optional<SavedRun> saved;
   if (!options.checkpoint.empty()) {
@@ -401,8 +398,6 @@ Command add_simulate(CLI::App& verb) {
       ->check(number_from(1e-9, 0.01));
   add_threads(verb, options->threads,
               "threads that share the grains of the simulation (1); the result does not change");
-  verb.add_flag("--sleep", options->sleep,
-                "grains at rest sleep until something reaches them: faster where much rests for long, other bits");
   verb.add_flag("--json", options->json, "print the outcome as JSON");
   verb.add_option("--vtk", options->vtk_interval_s, "simulated time between two pictures of a ParaView series")
       ->type_name("SECONDS")

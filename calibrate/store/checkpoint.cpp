@@ -29,9 +29,8 @@ bool rounds_once() {
 
 std::string name_of_run(const Test& test, const RunOptions& options) {
   const auto& step = options.steps.fixed_step_s;
-  return content_hash(nlohmann::json{identity_of(test), step ? nlohmann::json(*step) : nlohmann::json(),
-                                     options.steps.sleep, rounds_once()}
-                          .dump());
+  return content_hash(
+      nlohmann::json{identity_of(test), step ? nlohmann::json(*step) : nlohmann::json(), rounds_once()}.dump());
 }
 
 /// Takes a line off the text.
@@ -74,7 +73,7 @@ Result<RunState> Checkpoint::read() const {
     return fault("was written by " + printable(std::string(program)) + ", this is " + program_identity(),
                  std::string("go on with that program; or ") + kAnew);
   if (run != run_)
-    return fault("is of another run: another test, seed, --set, --time-step or --sleep",
+    return fault("is of another run: another test, seed, --set or --time-step",
                  std::string("go on with the same command; or ") + kAnew);
   const std::string wall(next_line(left)), hash(next_line(left));
   if (content_hash(wall + "\n" + std::string(left)) != hash || left.empty())

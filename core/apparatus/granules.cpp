@@ -48,9 +48,9 @@ LooseGrains struck_off(const LooseGrains& grains, double height) {
 FilledVessel fill_vessel(const Specimen& granules, const Pouring& pouring, const LooseGrains& loose,
                          const Vessel& vessel, const RestMeasure& rest_measure, const RunOptions& asked) {
   RunOptions options = with_bounds_of(granules, asked);
-  // A fixed step, sleep and the energy balance are meant for the test.
+  // A fixed step and the energy balance are meant for the test.
   options.steps.fixed_step_s.reset();
-  options.steps.sleep = options.steps.energy_balance = false;
+  options.steps.energy_balance = false;
   FilledVessel filled;
   const auto settle = [&](World world, std::string_view phase, double moved_s) {
     Runner runner(world, options, rest_measure);

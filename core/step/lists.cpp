@@ -19,8 +19,8 @@ constexpr float kLeastShare = 0.5;  // of the displacement bound a grain would b
 
 }  // namespace
 
-Lists::Lists(World& world, double skin, ThreadPool& pool, Sleepers* sleepers, StageClock* clock)
-    : world_(world), skin_(skin), pool_(pool), sleepers_(sleepers), clock_(clock) {
+Lists::Lists(World& world, double skin, ThreadPool& pool, StageClock* clock)
+    : world_(world), skin_(skin), pool_(pool), clock_(clock) {
   selections_.resize(pool.size());
 }
 
@@ -68,7 +68,6 @@ void Lists::check_state() const {
 bool Lists::goes_on(double duration) {
   const Timed timed(clock_, StageClock::choice);
   take_along();
-  let_sleep();
   return give_leeway(duration);
 }
 
@@ -82,13 +81,6 @@ void Lists::take_along() {
   };
   pool_.each(static_cast<int>(blocks.size()), [&](int b, int) {
     for (std::int32_t i = blocks[b].grains; i < blocks[b].grains_end && !exceeded_[b]; ++i) exceeded_[b] = nearly(i);
-  });
-}
-
-void Lists::let_sleep() {
-  if (!sleepers_) return;
-  pool_.each(static_cast<int>(world_.pairs.blocks.size()), [&](int b, int) {
-    if (exceeded_[b]) sleepers_->fall_asleep(world_, b);
   });
 }
 
@@ -106,7 +98,6 @@ void Lists::list_candidates() {
   }
   bounds_.own.assign(particles.count(), 0);
   exceeded_.assign(world_.pairs.blocks.size(), true);
-  if (sleepers_) sleepers_->take_place(world_);
   valid_ = true;
 }
 
@@ -115,14 +106,13 @@ bool Lists::give_leeway(double duration) {
   const std::vector<Motion>& motion = world_.particles.motion;
   const double least = kSmallestBound * world_.reference_radius, most = kLargestBound * world_.reference_radius;
   const auto blocks = static_cast<int>(pairs.blocks.size());
-  const auto sleeps = [&](std::int32_t i) { return sleepers_ && sleepers_->is_asleep(world_.particles.identity[i]); };
   pool_.each(blocks, [&](int b, int) {
     if (!exceeded_[b]) return;
     for (std::int32_t i = pairs.blocks[b].grains; i < pairs.blocks[b].grains_end; ++i) {
       const double own = std::clamp(norm(world_.particles.velocity[i].linear) * duration, least, most);
-      bounds_.own[i] = sleeps(i) ? 0 : static_cast<float>(own);
+      bounds_.own[i] = static_cast<float>(own);
       put_rounded(motion[i].position, bounds_.bounds[i].from);
-      bounds_.bounds[i].distance = static_cast<float>(sleeps(i) ? least : own);
+      bounds_.bounds[i].distance = static_cast<float>(own);
     }
   });
   in_two_rounds(pool_, blocks, [&](int b, int) {
@@ -173,7 +163,6 @@ Deepest Lists::select_pairs() {
     if (!exceeded_[b] && !next_strayed) return;
     deepest[b] = pastefit::select_pairs(world_.particles, world_.domain, blocks[b], world_.particles.count() + b,
                                         selections_[member], world_.reach(), bounds_);
-    if (sleepers_) sleepers_->note_chosen(b);
   });
   return *std::max_element(deepest.begin(), deepest.end(),
                            [](const Deepest& a, const Deepest& b) { return a.overlap < b.overlap; });

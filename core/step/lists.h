@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/step/sleepers.h"
 #include "core/step/stage_clock.h"
 #include "core/thread_pool.h"
 #include "core/world/selection.h"
@@ -11,11 +10,11 @@ namespace pastefit {
 /// Keeps the lists of a world true while its grains and walls move. Three kinds, each made from the one before when a
 /// bound on what may have moved is used up: all grains, sorted in space; candidates, made anew for the whole world when
 /// a grain has used up its share of the skin; contacts and bridges, chosen anew for the blocks of which a grain has
-/// left its displacement bound, and for their neighbours that share pairs with them. What is calm is left alone.
+/// left its displacement bound, and for their neighbours that share pairs with them.
 class Lists {
  public:
-  /// `skin`: of the candidates [m]. `sleepers`: none where no grain may sleep.
-  Lists(World& world, double skin, ThreadPool& pool, Sleepers* sleepers, StageClock* clock = nullptr);
+  /// `skin`: of the candidates [m].
+  Lists(World& world, double skin, ThreadPool& pool, StageClock* clock = nullptr);
 
   /// To be called after the world was changed from outside.
   void forget() { valid_ = false; }
@@ -48,7 +47,6 @@ class Lists {
 
   bool goes_on(double duration);
   void take_along();
-  void let_sleep();
   void list_candidates();
   /// Gives the grains of the exceeded blocks a new displacement bound; false if one has too little of its skin left.
   bool give_leeway(double duration);
@@ -59,7 +57,6 @@ class Lists {
   World& world_;
   double skin_;
   ThreadPool& pool_;
-  Sleepers* sleepers_;
   StageClock* clock_;
   std::vector<Selection> selections_;  ///< one for each member of the pool
   DisplacementBounds bounds_;

@@ -77,8 +77,7 @@ struct RunSummary {
   bool settled = false;      ///< every rest phase ended by its criterion, not by its cap
   bool ended_early = false;  ///< the run left `RunOptions::cutoff`: the later readings were not taken
   std::optional<double>
-      energy_error;         ///< unexplained energy over energy put in; none without `StepOptions::energy_balance`
-  double asleep_share = 0;  ///< of the particle steps after the fill; `StepOptions::sleep`
+      energy_error;  ///< unexplained energy over energy put in; none without `StepOptions::energy_balance`
 };
 
 struct CurvePoint {

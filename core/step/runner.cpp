@@ -61,8 +61,7 @@ void Runner::recall(const RunCheckpoint::Wait& left) {
   hidden(rest);
   rest.end();
   stepper_.check_state();
-  demand(summary_.steps >= 0 && summary_.steps <= options_.step_limit && asleep_steps_ >= 0 &&
-             summary_.particle_steps >= asleep_steps_,
+  demand(summary_.steps >= 0 && summary_.steps <= options_.step_limit && summary_.particle_steps >= 0,
          "its steps are not those of this run");
 }
 
@@ -151,7 +150,6 @@ std::optional<Failure> Runner::advance(const Phase& phase) {
     }
     ++summary_.steps;
     summary_.particle_steps += world_.particles.count();
-    asleep_steps_ += stepper_.sleeping();
     if (summary_.steps >= options_.step_limit)
       return Failure{FailureReason::step_limit,
                      std::string(phase.name),
@@ -253,8 +251,6 @@ std::optional<Failure> Runner::settle_now(const Phase& phase, double cap_s, bool
 const RunSummary& Runner::summary() {
   summary_.simulated_s = world_.time;
   if (options_.steps.energy_balance) summary_.energy_error = energy_error();
-  summary_.asleep_share =
-      static_cast<double>(asleep_steps_) / static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
   summary_.advised_step_s = stepper_.smallest_advised_step();
   summary_.time_step_s = summary_.steps > 0 ? world_.time / static_cast<double>(summary_.steps) : 0;
   return summary_;

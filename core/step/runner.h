@@ -109,7 +109,7 @@ class Runner {
   template <class Archive>
   void hidden(Archive& archive) {
     archive(world_.pairs, stepper_, summary_.steps, summary_.particle_steps, summary_.settled, summary_.ended_early,
-            asleep_steps_, progress_, next_watch_);
+            progress_, next_watch_);
   }
 
   /// Steps until `progress_.end`, or the phase is done.
@@ -130,7 +130,6 @@ class Runner {
   Stepper stepper_;
   RunSummary summary_;
   double next_watch_ = 0;
-  std::int64_t asleep_steps_ = 0;  ///< of a grain
   Progress progress_;
   std::optional<std::size_t> last_ended_;  ///< wait in the checkpoint
   bool is_whole_ = true;                   ///< all of what was recalled last is there, and the run can go on from it

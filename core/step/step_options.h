@@ -15,7 +15,6 @@ struct StepOptions {
   double bridge_resolution = 10;       ///< steps in which the fastest grain crosses a bridge
   double overlap_limit = 0.5;          ///< largest overlap over the smaller radius; beyond it the run is invalid
   double skin = 0.8;                   ///< skin of the candidate list over the mean radius
-  bool sleep = false;                  ///< grains at rest sleep (core/step/sleepers.h): another heap, the same readings
   int threads = 1;                     ///< that share the work of a step; the bits do not depend on it
   /// Energy is accounted for (core/step/energy_balance.h), and a run that makes or loses some of it fails. Without: the
   /// same motion, bit for bit, and only the other kinds of failure are seen.

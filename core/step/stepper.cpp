@@ -34,8 +34,7 @@ Stepper::Stepper(World& world, const StepOptions& options)
       options_(options),
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
       pool_(options.threads),
-      sleepers_(options.sleep ? std::make_optional<Sleepers>() : std::nullopt),
-      lists_(world, options.skin * world.reference_radius, pool_, sleepers_ ? &*sleepers_ : nullptr, options.clock),
+      lists_(world, options.skin * world.reference_radius, pool_, options.clock),
       wall_batches_(pool_.size()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {
@@ -80,7 +79,6 @@ std::optional<Failure> Stepper::step(const std::function<void(World&, double)>& 
 
 void Stepper::check_state() const {
   lists_.check_state();
-  if (sleepers_) sleepers_->check_state(world_, lists_.hold());
   demand(dt_ >= 0 && fastest_ >= 0 && fastest_ <= kRunawaySpeed && stiffest_ >= 0 && time_step_.is_sound(),
          "a time step, a speed or a stiffness is below nothing, or beyond any");
   demand(pierced_ == -1 && runaway_ == -1, "the run has failed");
@@ -126,7 +124,6 @@ void Stepper::compute_forces(std::optional<double> dt) {
       pool_, static_cast<int>(blocks), [&](int b, int) { act_on_pairs(b); },
       [&](int b, int member) {
         act_on_walls(b, member);
-        if (sleepers_ && sleepers_->balance(world_, b)) lists_.note_exceeded(b);
         if (dt) move_block(b, *dt);
       });
   add_up_walls();
@@ -151,18 +148,17 @@ void Stepper::act_on_pairs(int b) {
   Block& block = world_.pairs.blocks[b];
   KernelTask mine = task(world_.grain_pair, b);
   mine.contacts = block.contacts.batches.data();
-  mine.stretch = {0, block.contacts.near / kBatch, block.contacts.awake / kBatch};
+  mine.stretch = {0, block.contacts.near / kBatch, block.contacts.batch_count()};
   {
     const Timed timed(options_.clock, StageClock::pair);
     pairs(mine);
   }
   mine.bridges = block.bridges.batches.data();
-  mine.stretch = {0, 0, block.bridges.awake / kBatch};
-  if (block.bridges.awake > 0) {
+  mine.stretch = {0, 0, block.bridges.batch_count()};
+  if (block.bridges.count > 0) {
     const Timed timed(options_.clock, StageClock::bridge);
     bridges(mine);
   }
-  if (sleepers_) sleepers_->hold(world_, b, mine, pairs, bridges);
 }
 
 void Stepper::move_block(int b, double dt) {

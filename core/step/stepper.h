@@ -27,10 +27,7 @@ class Stepper {
   std::optional<Failure> step(const std::function<void(World&, double)>& drive);
 
   /// To be called after the world was changed from outside (walls or laws added or removed, grains moved).
-  void forget_lists() {
-    lists_.forget();
-    if (sleepers_) sleepers_->wake_all();
-  }
+  void forget_lists() { lists_.forget(); }
 
   /// Takes the last wall away, and with it what its contacts and bridges hold: the work of whoever removes it.
   void take_away_last_wall();
@@ -48,13 +45,10 @@ class Stepper {
   /// For `RunCheckpoint`: all but the world. The rest is scratch, or follows from the test.
   template <class Archive>
   void serialize(Archive& archive) {
-    if (sleepers_) archive(*sleepers_);
     archive(lists_, dt_, fastest_, stiffest_, pierced_, runaway_, time_step_, energy_, energy_balance_, looked_);
   }
   /// Throws `BadState` unless what was read is of the world as it is.
   void check_state() const;
-  /// Grains asleep in the last step.
-  std::int64_t sleeping() const { return sleepers_ ? sleepers_->count() : 0; }
 
  private:
   /// What a block does to a wall.
@@ -88,7 +82,6 @@ class Stepper {
   StepOptions options_;
   const KernelTable& kernels_;
   ThreadPool pool_;
-  std::optional<Sleepers> sleepers_;  ///< where grains may sleep
   Lists lists_;
 
   double dt_ = 0;              ///< step that led to the present positions; 0 before the first

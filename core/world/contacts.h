@@ -30,7 +30,6 @@ class BatchList {
  public:
   Column<Batch> batches;
   std::int32_t count = 0;  ///< pairs, the padding among them once it is there
-  std::int32_t awake = 0;  ///< of them those that act in every step; those of two sleepers come last
 
   void clear() { count = 0; }
   /// Becomes these lists one after the other, all of them padded. Takes little more memory than they need, and gives up
@@ -51,7 +50,7 @@ class BatchList {
   template <class Archive>
   void serialize(Archive& archive) {
     batches.resize(static_cast<std::size_t>(batch_count()));
-    archive(batches, count, awake);
+    archive(batches, count);
   }
   void reserve(std::int32_t pairs) { batches.reserve((pairs + kBatch - 1) / kBatch); }
   std::int32_t batch_count() const { return (count + kBatch - 1) / kBatch; }
@@ -66,11 +65,10 @@ class BatchList {
   }
 };
 
-/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch, then from
-/// `awake` on the dormant ones.
+/// Contacts; those that touched when they were chosen first, then from `near` on those that may touch.
 class ContactList : public BatchList<ContactBatch> {
  public:
-  std::int32_t near = 0;  ///< a multiple of kBatch, as `awake` and `count` are of padded lists
+  std::int32_t near = 0;  ///< a multiple of kBatch, as `count` is of a padded list
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
   void pad(std::int32_t dummy);

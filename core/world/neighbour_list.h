@@ -15,7 +15,7 @@ namespace pastefit {
 class NeighbourList {
  public:
   /// In which of its block's lists a pair is kept, in all of them in the order of the candidates.
-  enum Kept : std::uint32_t { nowhere, touching, near, dormant, bridge, dormant_bridge, kinds };
+  enum Kept : std::uint32_t { nowhere, touching, near, bridge, kinds };
 
   /// A pair's second grain, and where the pair is kept.
   class Pair {

@@ -24,13 +24,13 @@ double longest_hold(double pull_off_gap, double size_scale) {
 }  // namespace
 
 void Selection::clear() {
-  for (ContactList* list : {&contacts, &near, &dormant}) list->clear();
-  for (BridgeList* list : {&bridges, &dormant_bridges}) list->clear();
+  for (ContactList* list : {&contacts, &near}) list->clear();
+  bridges.clear();
 }
 
 void Selection::pad(std::int32_t dummy) {
-  for (ContactList* list : {&contacts, &near, &dormant}) list->pad(dummy);
-  for (BridgeList* list : {&bridges, &dormant_bridges}) list->pad(dummy);
+  for (ContactList* list : {&contacts, &near}) list->pad(dummy);
+  bridges.pad(dummy);
 }
 
 Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
@@ -41,15 +41,13 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
   // The next of each list, as the candidates come.
   std::array<std::int32_t, NeighbourList::kinds> next{};
   next[NeighbourList::near] = block.contacts.near;
-  next[NeighbourList::dormant] = block.contacts.awake;
-  next[NeighbourList::dormant_bridge] = block.bridges.awake;
   Deepest deepest;
   const auto choose = [&](NeighbourList::Pair& candidate, std::int32_t i, std::int32_t ahead) {
     __builtin_prefetch(&particles.motion[ahead]);
     __builtin_prefetch(&bounds.way[ahead]);
     const NeighbourList::Kept kept = candidate.kept();
     const std::int32_t j = candidate.grain(), place = next[kept]++;
-    const bool contact = kept >= NeighbourList::touching && kept <= NeighbourList::dormant;
+    const bool contact = kept == NeighbourList::touching || kept == NeighbourList::near;
     const Motion &a = particles.motion[i], &b = particles.motion[j];
     const Vec3 between = domain.minimum_image(a.position, b.position);
     const double square = dot(between, between), touch = a.radius + b.radius;
@@ -62,13 +60,12 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
     const float alive = contact                          ? block.contacts.bridge(place)
                         : kept == NeighbourList::nowhere ? 0
                                                          : block.bridges.bridge(place);
-    const bool dormant = bounds.own[i] == 0 && bounds.own[j] == 0;
     if (!is_near) {
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
       if (square >= range * range) return;
-      candidate.keep(dormant ? NeighbourList::dormant_bridge : NeighbourList::bridge);
-      (dormant ? chosen.dormant_bridges : chosen.bridges).add(i, j, static_cast<float>(scale), alive);
+      candidate.keep(NeighbourList::bridge);
+      chosen.bridges.add(i, j, static_cast<float>(scale), alive);
       return;
     }
     Contact pair = contact ? block.contacts.contact(place) : new_contact(particles, i, j);
@@ -76,17 +73,15 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
     const double smaller = std::min(a.radius, b.radius), deeper = touch - deepest.overlap * smaller;
     if (square < deeper * deeper) deepest = {(touch - std::sqrt(square)) / smaller, i};
     const bool met = square < touch * touch || pair.sqrt_contact_radius > 0;
-    candidate.keep(dormant ? NeighbourList::dormant : met ? NeighbourList::touching : NeighbourList::near);
-    (dormant ? chosen.dormant : met ? chosen.contacts : chosen.near).add(i, j, pair);
+    candidate.keep(met ? NeighbourList::touching : NeighbourList::near);
+    (met ? chosen.contacts : chosen.near).add(i, j, pair);
   };
   block.candidates.each(block.grains, choose);
   chosen.pad(dummy);
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.
-  block.contacts.join({&chosen.contacts, &chosen.near, &chosen.dormant});
+  block.contacts.join({&chosen.contacts, &chosen.near});
   block.contacts.near = chosen.contacts.count;
-  block.contacts.awake = chosen.contacts.count + chosen.near.count;
-  block.bridges.join({&chosen.bridges, &chosen.dormant_bridges});
-  block.bridges.awake = chosen.bridges.count;
+  block.bridges.join({&chosen.bridges});
   return deepest;
 }
 

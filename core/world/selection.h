@@ -12,7 +12,7 @@ namespace pastefit {
 struct DisplacementBounds {
   std::vector<DisplacementBound> bounds;
   std::vector<float> way;  ///< how far each grain may still go from where it is, across its room if need be [m]
-  std::vector<float> own;  ///< what each grain by itself would be given; nothing, if it is asleep [m]
+  std::vector<float> own;  ///< what each grain by itself would be given [m]
 };
 
 /// The deepest overlap of two grains over the smaller radius, and one of them.
@@ -23,16 +23,15 @@ struct Deepest {
 
 /// Lists in the making, for one member of a pool at a time; kept so that nothing is allocated in a steady scene.
 struct Selection {
-  ContactList contacts, near, dormant, at_wall;  ///< apart, because a list keeps the room it has once had
-  BridgeList bridges, dormant_bridges;
+  ContactList contacts, near, at_wall;  ///< apart, because a list keeps the room it has once had
+  BridgeList bridges;
 
   void clear();
   void pad(std::int32_t dummy);  ///< but for `at_wall`
 };
 
 /// Chooses from a block's candidates the pairs that act or may act while no grain leaves its room: contacts
-/// those that may touch, bridges the rest; pairs of two grains that are asleep are dormant. `dummy`: the block's own,
-/// for padding.
+/// those that may touch, bridges the rest. `dummy`: the block's own, for padding.
 Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
                      Selection& selection, const AttractionReach& reach, const DisplacementBounds& bounds);
 

@@ -51,8 +51,8 @@ Fit fit_of(const Mould& mould, const Particles& grains, double radius) {
 
 Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptions& asked) {
   RunOptions options = asked;
-  options.steps.energy_balance = options.steps.sleep = false;  // the column is worked on from outside
-  options.steps.fixed_step_s.reset();                          // meant for the test
+  options.steps.energy_balance = false;  // the column is worked on from outside
+  options.steps.fixed_step_s.reset();    // meant for the test
   World world = world_in_mould(test, packing);
   world.drag = kDrag;
   Runner runner(world, options, posture_of_heap);

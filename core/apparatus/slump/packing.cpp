@@ -217,9 +217,9 @@ Filling filling_of(const SlumpTest& test) {
 
 std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOptions& asked) {
   RunOptions options = asked;
-  // A fixed step, sleep and the energy balance are meant for the test; the packing is always the same.
+  // A fixed step and the energy balance are meant for the test; the packing is always the same.
   options.steps.fixed_step_s.reset();
-  options.steps.sleep = options.steps.energy_balance = false;
+  options.steps.energy_balance = false;
   const double swelling = options.own_fill ? 1 : 1 + filling_of(test).resting_overlap;
   SlumpTest smaller = test;
   smaller.grains = enlarged(test.grains, 1 / swelling);

@@ -113,7 +113,6 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
     mean.run.advised_step_s = side == 0 ? run.advised_step_s : std::min(mean.run.advised_step_s, run.advised_step_s);
     if (run.energy_error && std::fabs(*run.energy_error) >= std::fabs(mean.run.energy_error.value_or(0)))
       mean.run.energy_error = run.energy_error;
-    mean.run.asleep_share += run.asleep_share / kSides;
     mean.run.settled = mean.run.settled && run.settled;
     if (mean.failure) return mean;
     ruler.read(drop.grains(), "step2", of_sides.emplace_back());

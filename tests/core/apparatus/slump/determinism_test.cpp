@@ -87,33 +87,6 @@ std::uint64_t hash_of_large_heap(const SlumpTest& material, int threads) {
   return world.pairs.blocks.size() < 4 ? 0 : hash_of(world.particles);
 }
 
-/// A floor covered with grains in several blocks, most of which fall asleep before a clump of others lands on them; 0
-/// if it failed, or if none slept or woke.
-std::uint64_t hash_of_sleeping_floor(int threads) {
-  const SlumpTest material = sticky_test();
-  const double radius = material.grains.radius_m;
-  std::vector<Vec3> centres;
-  for (int n = 0; n < 9000; ++n) centres.push_back({2.05 * (n % 50) * radius, 2.05 * (n / 50) * radius, radius});
-  for (int n = 0; n < 200; ++n) centres.push_back(radius * Vec3{40 + 2.1 * (n % 20), 100 + 2.1 * (n / 20), 4});
-  World world;
-  world.particles = make_particles(centres, std::vector<double>(centres.size(), radius), 2500);
-  set_contact_model(world, material.contact, radius);
-  world.walls.resize(1);
-  world.walls[0].pair = wall_pair(material.contact, material.table_wall, radius);
-  StepOptions options;
-  options.threads = threads;
-  options.sleep = true;
-  Stepper stepper(world, options);
-  std::int64_t most = 0;
-  bool some_woke = false;
-  for (int n = 0; n < 450; ++n) {
-    if (stepper.step({})) return 0;
-    some_woke |= stepper.sleeping() < most;
-    most = std::max(most, stepper.sleeping());
-  }
-  return world.pairs.blocks.size() < 4 || most < 2000 || !some_woke ? 0 : hash_of(world.particles);
-}
-
 }  // namespace
 
 TEST_CASE("1, 2, 3 and 8 threads running side by side give the same bits") {
@@ -146,13 +119,6 @@ TEST_CASE("a slump of grains that stick gives the same bits on 1, 2 and 3 thread
     options.steps.threads = threads;
     CHECK(hash_of_run(jkr_test(), options) == alone);
   }
-}
-
-TEST_CASE("1, 2 and 3 threads give the same bits where grains sleep and wake") {
-  const std::uint64_t alone = hash_of_sleeping_floor(1);
-  REQUIRE(alone != 0);
-  CHECK(hash_of_sleeping_floor(2) == alone);
-  CHECK(hash_of_sleeping_floor(3) == alone);
 }
 
 TEST_CASE("without the energy balance a run has the same bits, and says that it kept none") {
