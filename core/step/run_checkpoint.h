@@ -15,7 +15,7 @@ namespace pastefit {
 /// apparatus need not know of it, but for what its phases sum up step by step (`Runner::remember`).
 ///
 /// One checkpoint serves one call of `simulate`. Requirements of a state: it is of the same test, options (but for
-/// `StepOptions::threads`), program and instruction set. Not covered: apparatus without a `Runner` (impacts).
+/// `StepOptions::threads`), program and instruction set. Not covered: impacts, which take milliseconds.
 class RunCheckpoint {
  public:
   /// What a wait leaves behind, as bytes: what an apparatus can see, and what its runner needs to go on besides.

@@ -1,13 +1,14 @@
 #include "core/apparatus/impact/impact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/apparatus/impact/approach.h"
-#include "core/apparatus/impact/swing.h"
+#include "core/apparatus/impact/impact_record.h"
 #include "core/apparatus/rotor.h"
 #include "core/laws/table.h"
-#include "core/step/stepper.h"
+#include "core/step/runner.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -49,143 +50,87 @@ Course path(const ImpactGrain& grain, double time) {
           back ? -grain.velocity_m_s : grain.velocity_m_s};
 }
 
-/// The experiment in progress. Everything by the grains' places in the test, not in the world, which sorts them.
+World make_world(const Impact& test) {
+  World world;
+  std::vector<Vec3> centres;
+  std::vector<double> radii;
+  for (const ImpactGrain& grain : test.grains) {
+    centres.push_back(grain.centre_m);
+    radii.push_back(grain.radius_m);
+  }
+  world.particles = make_particles(centres, radii, test.density_kg_m3);
+  for (std::size_t i = 0; i < test.grains.size(); ++i) {
+    set_velocity(world.particles, static_cast<std::int32_t>(i), test.grains[i].velocity_m_s, test.grains[i].spin_rad_s);
+  }
+  set_contact_model(world, test.contact, test.reference_radius_m);
+  world.gravity = test.gravity_m_s2;
+  for (const ImpactWall& of_test : test.walls) {
+    Wall wall;
+    wall.shape = of_test.shape;
+    wall.pair = wall_pair(test.contact, of_test.surface, test.reference_radius_m);
+    wall.velocity = of_test.velocity_m_s;
+    wall.angular_velocity = {0, of_test.turning_rad_s, 0};
+    wall.pivot = of_test.hinge_m;
+    world.walls.push_back(wall);
+  }
+  return world;
+}
+
+/// The impact as a run: the step is the test's own, and no balance of energies is kept, because it would know nothing
+/// of the hands that hold grains.
+RunOptions options_of(const Impact& test, RunOptions options) {
+  options.steps = {};
+  options.steps.energy_balance = false;
+  if (test.step != ImpactStep::engine) options.steps.fixed_step_s = constant_step(test);
+  options.checkpoint = nullptr;
+  return options;
+}
+
+/// The experiment in progress.
 class ImpactRun {
  public:
-  explicit ImpactRun(const Impact& test)
+  ImpactRun(const Impact& test, const RunOptions& options)
       : test_(test),
-        n_(test.grains.size()),
+        options_(options_of(test, options)),
         world_(make_world(test)),
-        stepper_(world_, step_options(test)),
-        now_(n_),
-        held_force_(n_) {
-    for (std::size_t i = 0; i < n_; ++i) mass_.push_back(mass_kg(test, test.grains[i]));
-  }
+        runner_(world_, options_, {}),
+        record_(test, world_) {}
 
-  Outcome run(const RunOptions& options) {
+  /// Until the duration is over, to half a step, and one step more, from which the velocities at that moment are known.
+  Outcome run() {
+    const auto drive = [this](World&, double dt) { drive_rotors(dt); };
+    const auto is_over = [this](const World&) {
+      end_step();
+      return world_.time > test_.duration_s - 0.5 * dt_ || record_.rebound_is_over();
+    };
+    const Phase phase{"impact", drive, is_over};
     Outcome outcome;
-    bool last = false;
-    for (std::int64_t step = 0; !last; ++step) {
-      last = (world_.time > test_.duration_s - 0.5 * stepper_.time_step() && step > 0) || rebound_is_over();
-      const double most_s = std::max(0.0, test_.duration_s - world_.time);
-      const Snapshot snapshot{"impact", world_.time, world_.step, &world_, 0, {0, most_s}};
-      bool goes_on = !options.pulse || step % kStepsPerPulse != 0 || options.pulse(snapshot);
-      if (options.watch && world_.time >= next_watch_) {
-        next_watch_ = world_.time + options.watch_interval_s;
-        goes_on = options.watch(snapshot) && goes_on;
-      }
-      if (!goes_on)
-        outcome.failure = Failure{FailureReason::stopped, "", step, world_.time, -1, 0, 0, "the run was asked to stop"};
-      if (!outcome.failure) outcome.failure = advance();
-      if (step >= options.step_limit && !outcome.failure)
-        outcome.failure = Failure{FailureReason::step_limit,
-                                  "",
-                                  step,
-                                  world_.time,
-                                  -1,
-                                  static_cast<double>(step),
-                                  static_cast<double>(options.step_limit),
-                                  "the bound on the number of steps was reached; allow more or shorten the test"};
-      if (outcome.failure) {
-        outcome.failure->phase = "impact";
-        break;
-      }
-      outcome.run.steps = step;
-    }
-    outcome.run.particles = static_cast<std::int64_t>(n_);
-    outcome.run.particle_steps = outcome.run.particles * outcome.run.steps;
-    outcome.run.simulated_s = last_time_;
-    outcome.run.time_step_s = last_time_ / static_cast<double>(std::max<std::int64_t>(outcome.run.steps, 1));
-    outcome.run.settled = true;
-    if (!outcome.failure) read(outcome.observables);
+    record_.begin_step();
+    outcome.failure = runner_.run(phase, test_.duration_s);
+    if (!outcome.failure) outcome.failure = runner_.run(phase, 0.5 * dt_);
+    outcome.run = runner_.summary();
+    if (outcome.failure) return outcome;
+    record_.read(outcome.observables);
+    if (!rotor_time_) return outcome;
+    outcome.observables.set("rotor_time_s", *rotor_time_);
+    outcome.observables.set("rotor_rad_s", rotor_speed_);
     return outcome;
   }
 
  private:
-  /// A grain at the moment to which the last forces belong.
-  struct Sample {
-    Vec3 position, velocity, spin;
-    Vec3 force;  ///< all but its weight [N]
-  };
-
-  static StepOptions step_options(const Impact& test) {
-    StepOptions options;
-    if (test.step != ImpactStep::engine) options.fixed_step_s = constant_step(test);
-    return options;
-  }
-
-  static World make_world(const Impact& test) {
-    World world;
-    std::vector<Vec3> centres;
-    std::vector<double> radii;
-    for (const ImpactGrain& grain : test.grains) {
-      centres.push_back(grain.centre_m);
-      radii.push_back(grain.radius_m);
-    }
-    world.particles = make_particles(centres, radii, test.density_kg_m3);
-    for (std::size_t i = 0; i < test.grains.size(); ++i) {
-      set_velocity(world.particles, static_cast<std::int32_t>(i), test.grains[i].velocity_m_s,
-                   test.grains[i].spin_rad_s);
-    }
-    set_contact_model(world, test.contact, test.reference_radius_m);
-    world.gravity = test.gravity_m_s2;
-    for (const ImpactWall& of_test : test.walls) {
-      Wall wall;
-      wall.shape = of_test.shape;
-      wall.pair = wall_pair(test.contact, of_test.surface, test.reference_radius_m);
-      wall.velocity = of_test.velocity_m_s;
-      wall.angular_velocity = {0, of_test.turning_rad_s, 0};
-      wall.pivot = of_test.hinge_m;
-      world.walls.push_back(wall);
-    }
-    return world;
-  }
-
-  /// One step; afterwards `now_` is what was at its beginning, when the forces acted.
-  std::optional<Failure> advance() {
-    const double step_before = stepper_.time_step(), time = world_.time;
-    const double depth = watched_overlap();
-    std::vector<Sample> before = states();
-    const auto turn_rotors = [&](World&, double dt) { drive_rotors(0.5 * (step_before + dt), dt); };
-    if (auto problem = stepper_.step(turn_rotors)) return problem;
-    const double kick = 0.5 * (step_before + stepper_.time_step());
-    const std::vector<Sample> after = states();
-    const Vec3 weight{0, 0, -test_.gravity_m_s2};
-    for (std::size_t i = 0; i < n_; ++i) {
-      Sample& sample = before[i];
-      sample.force = mass_[i] * ((1 / kick) * (after[i].velocity - sample.velocity) - weight);
-      if (step_before > 0) {
-        sample.velocity = 0.5 * (sample.velocity + after[i].velocity);
-        sample.spin = 0.5 * (sample.spin + after[i].spin);
-      }
-    }
-    account_momentum(before, kick);
-    account_work(before);
-    now_ = before;
-    watch_first(time, depth);
-    watch_rebound();
-    watch_swing(time);
-    if (first_) kinetic_at_start_ = kinetic_energy();
-    first_ = false;
+  void end_step() {
+    record_.end_step(kick_);
     hold();
-    last_time_ = time;
-    return {};
+    record_.begin_step();
   }
 
-  std::vector<Sample> states() const {
-    std::vector<Sample> states(n_);
-    const Particles& particles = world_.particles;
-    for (std::int32_t i = 0; i < particles.count(); ++i)
-      states[particles.identity[i]] = {
-          particles.motion[i].position, particles.velocity[i].linear, particles.velocity[i].angular, {}};
-    return states;
-  }
-
-  void drive_rotors(double kick, double dt) {
+  void drive_rotors(double dt) {
+    kick_ = 0.5 * (dt_ + dt);
+    dt_ = dt;
     for (std::size_t w = 0; w < test_.walls.size(); ++w) {
       if (!test_.walls[w].rotor_mass_kg || rotor_time_) continue;
       const Rotor plate{*test_.walls[w].rotor_mass_kg, rotor_inertia(test_.walls[w])};
-      const auto landing = turn_freely(plate, world_.walls[w], world_.gravity, kick, dt);
+      const auto landing = turn_freely(plate, world_.walls[w], world_.gravity, kick_, dt);
       if (!landing) continue;
       rotor_time_ = world_.time + landing->after_s;
       rotor_speed_ = landing->turning_rad_s;
@@ -207,149 +152,13 @@ class ImpactRun {
     }
   }
 
-  double watched_overlap() {
-    const std::vector<Sample> states = this->states();
-    const double radius = test_.grains[0].radius_m;
-    double deepest = -1e300;
-    for (std::size_t j = 1; j < n_; ++j) {
-      const Vec3 between = states[j].position - states[0].position;
-      const double distance = norm(between), overlap = radius + test_.grains[j].radius_m - distance;
-      if (overlap <= deepest) continue;
-      deepest = overlap;
-      towards_nearest_ = (1 / distance) * between;
-    }
-    for (const Wall& wall : world_.walls) {
-      const Nearest point = nearest(wall.shape, states[0].position);
-      if (radius - point.distance <= deepest) continue;
-      deepest = radius - point.distance;
-      towards_nearest_ = point.direction;
-    }
-    return deepest;
-  }
-
-  void watch_first(double time, double depth) {
-    const double force = norm(now_[0].force), pull = dot(now_[0].force, towards_nearest_);
-    max_force_ = std::max(max_force_, force);
-    max_overlap_ = first_ ? depth : std::max(max_overlap_, depth);
-    if (!first_) {
-      const double interval = time - last_time_;
-      const double inside = std::max(depth, 0.0) + std::max(overlap_, 0.0), spanned = std::fabs(depth - overlap_);
-      // Share of the interval in which the overlap, a straight line, was positive.
-      if (depth > 0 && overlap_ > 0)
-        contact_time_ += interval;
-      else if (inside > 0)
-        contact_time_ += interval * inside / spanned;
-      for (std::size_t k = 0; k < test_.pull_gaps_m.size(); ++k) {
-        const double from_start = -test_.pull_gaps_m[k] - overlap_, step = depth - overlap_;
-        if (step == 0 || from_start / step < 0 || from_start / step > 1) continue;
-        pulls_[k] = pull_ + from_start / step * (pull - pull_);
-      }
-    } else {
-      pulls_.assign(test_.pull_gaps_m.size(), std::nullopt);
-    }
-    overlap_ = depth;
-    pull_ = pull;
-  }
-
-  void watch_rebound() {
-    if (overlap_ <= 0 && !top_) return;
-    top_ = std::max(top_.value_or(now_[0].position.z), now_[0].position.z);
-    const bool recedes = dot(now_[0].velocity, towards_nearest_) < 0;
-    came_back_ = came_back_ || (receded_ && !recedes);
-    receded_ = receded_ || recedes;
-  }
-
-  bool rebound_is_over() const {
-    return test_.rebound_gap_m && top_ && (came_back_ || -overlap_ > *test_.rebound_gap_m);
-  }
-
-  void watch_swing(double time) {
-    const ImpactGrain& grain = test_.grains[0];
-    swing_.add(time, dot(now_[0].position - grain.centre_m, grain.velocity_m_s));
-  }
-
-  void account_momentum(const std::vector<Sample>& samples, double kick) {
-    Vec3 change, given;
-    double size = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      change += kick * samples[i].force;
-      size += mass_[i] * norm(samples[i].velocity);
-    }
-    for (const Wall& wall : world_.walls) given += -(kick * wall.force);
-    unexplained_ += change - given;
-    momentum_size_ = std::max(momentum_size_, size);
-  }
-
-  void account_work(const std::vector<Sample>& samples) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (!test_.grains[i].held) continue;
-      if (!first_) work_ -= 0.5 * dot(held_force_[i] + samples[i].force, samples[i].position - now_[i].position);
-      held_force_[i] = samples[i].force;
-    }
-  }
-
-  double kinetic_energy() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const double r = test_.grains[i].radius_m;
-      const Vec3 &v = now_[i].velocity, &w = now_[i].spin;
-      sum += mass_[i] * (0.5 * dot(v, v) + 0.2 * r * r * dot(w, w));
-    }
-    return sum;
-  }
-
-  void read(Observables& readings) const {
-    const auto set = [&](std::size_t i, const char* what, const char* unit, const Vec3& v) {
-      const std::string name = "grain" + std::to_string(i) + "." + what;
-      readings.set(name + "_x_" + unit, v.x);
-      readings.set(name + "_y_" + unit, v.y);
-      readings.set(name + "_z_" + unit, v.z);
-    };
-    for (std::size_t i = 0; i < n_; ++i) {
-      set(i, "position", "m", now_[i].position);
-      set(i, "velocity", "m_s", now_[i].velocity);
-      set(i, "spin", "rad_s", now_[i].spin);
-      readings.set("grain" + std::to_string(i) + ".speed_m_s", norm(now_[i].velocity));
-    }
-    if (n_ > 1) readings.set("relative_speed_m_s", norm(now_[0].velocity - now_[1].velocity));
-    readings.set("overlap_m", overlap_);
-    readings.set("max_overlap_m", max_overlap_);
-    readings.set("max_force_n", max_force_);
-    readings.set("contact_time_s", contact_time_);
-    for (std::size_t k = 0; k < pulls_.size(); ++k)
-      if (pulls_[k]) readings.set("pull" + std::to_string(k) + "_n", *pulls_[k]);
-    if (kinetic_at_start_ > 0) readings.set("kinetic_energy_ratio", kinetic_energy() / kinetic_at_start_);
-    if (momentum_size_ > 0) readings.set("momentum_drift", norm(unexplained_) / momentum_size_);
-    if (const auto rate = swing_.decay_rate()) readings.set("decay_rate_1_s", *rate);
-    if (top_) readings.set("rebound_top_m", *top_);
-    readings.set("work_j", work_);
-    readings.set("time_s", last_time_);
-    if (!rotor_time_) return;
-    readings.set("rotor_time_s", *rotor_time_);
-    readings.set("rotor_rad_s", rotor_speed_);
-  }
-
   const Impact& test_;
-  const std::size_t n_;
+  const RunOptions options_;
   World world_;
-  Stepper stepper_;
-  std::vector<double> mass_;
-  std::vector<Sample> now_;
-  double last_time_ = 0;  ///< of `now_`
-  double next_watch_ = 0;
-  bool first_ = true;
-
-  Vec3 towards_nearest_;
-  double overlap_ = 0, pull_ = 0, max_overlap_ = 0, max_force_ = 0, contact_time_ = 0;
-  std::vector<std::optional<double>> pulls_;
-  std::optional<double> top_;  ///< of the first grain since it touched [m]
-  bool receded_ = false, came_back_ = false;
-  double kinetic_at_start_ = 0;
-  Vec3 unexplained_;
-  double momentum_size_ = 0;
-  std::vector<Vec3> held_force_;
-  double work_ = 0;
-  Swing swing_;
+  Runner runner_;
+  ImpactRecord record_;
+  double dt_ = 0;    ///< the last step [s]
+  double kick_ = 0;  ///< over which it changed the velocities [s]
   std::optional<double> rotor_time_;
   double rotor_speed_ = 0;
 };
@@ -361,7 +170,7 @@ double mass_kg(const Impact& test, const ImpactGrain& grain) {
 }
 
 Outcome simulate(const Impact& test, const RunOptions& options) {
-  return ImpactRun(test).run(options);
+  return ImpactRun(test, options).run();
 }
 
 }  // namespace pastefit

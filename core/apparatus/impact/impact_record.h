@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/apparatus/impact/impact.h"
+#include "core/apparatus/impact/swing.h"
+#include "core/observe/observables.h"
+#include "core/world/world.h"
+
+namespace pastefit {
+
+/// What is measured of an impact, step by step. Everything by the grains' places in the test, not in the world, which
+/// sorts them.
+///
+/// Forces of a step act where the grains are at its beginning; the velocities there are the means of the half steps
+/// before and after. So a step is known once it is over, and what is read is of its beginning.
+class ImpactRecord {
+ public:
+  /// Both have to outlive the record.
+  ImpactRecord(const Impact& test, const World& world);
+
+  /// To be called before each step.
+  void begin_step();
+  /// To be called after each step, which has changed the velocities over the time `kick`.
+  void end_step(double kick);
+
+  /// The first grain has touched something and is far from it, or comes back (`Impact::rebound_gap_m`).
+  bool rebound_is_over() const;
+
+  /// The readings of `simulate(Impact)` but for those of a rotor.
+  void read(Observables& readings) const;
+
+ private:
+  /// A grain at the moment to which the last forces belong.
+  struct Sample {
+    Vec3 position, velocity, spin;
+    Vec3 force;  ///< all but its weight [N]
+  };
+
+  std::vector<Sample> samples() const;
+  double watched_overlap();
+  /// The samples at the beginning of the step that is over.
+  std::vector<Sample> complete(double kick) const;
+  void account_momentum(const std::vector<Sample>& samples, double kick);
+  void account_work(const std::vector<Sample>& samples);
+  void watch_contact();
+  void watch_pulls(double pull);
+  void watch_rebound();
+  double kinetic_energy() const;
+  void read_grains(Observables& readings) const;
+
+  const Impact& test_;
+  const World& world_;
+  const std::size_t n_;
+  std::vector<double> mass_;
+  bool first_ = true;  ///< no step is over yet
+
+  // As the step that is under way began.
+  std::vector<Sample> begun_;
+  double begun_s_ = 0, begun_overlap_ = 0;
+
+  // As the last step that is over began.
+  std::vector<Sample> now_;
+  double now_s_ = 0, overlap_ = 0, pull_ = 0;
+  Vec3 towards_nearest_;
+
+  // Since the start.
+  double max_overlap_ = 0, max_force_ = 0, contact_time_ = 0;
+  std::vector<std::optional<double>> pulls_;
+  std::optional<double> top_;  ///< of the first grain since it touched [m]
+  bool receded_ = false, came_back_ = false;
+  double kinetic_at_start_ = 0;
+  Vec3 unexplained_;
+  double momentum_size_ = 0;
+  std::vector<Vec3> held_force_;
+  double work_ = 0;
+  Swing swing_;
+};
+
+}  // namespace pastefit
