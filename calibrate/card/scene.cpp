@@ -290,4 +290,8 @@ Result<FoundScene> read_scene(const std::filesystem::path& file, const std::vect
   return faults;
 }
 
+Outcome simulate(const Scene& scene, const RunOptions& options) {
+  return std::visit([&](const auto& test) { return simulate(test, options); }, scene);
+}
+
 }  // namespace pastefit

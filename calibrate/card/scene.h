@@ -15,6 +15,9 @@ namespace pastefit {
 /// A test that can be simulated.
 using Scene = std::variant<Test, Impact>;
 
+/// The outcome of a scene of either kind. Requirement: its `validate` is empty.
+Outcome simulate(const Scene& scene, const RunOptions& options);
+
 /// A scene of a file, and what a person should know of where it comes from; mostly nothing.
 struct FoundScene {
   Scene scene;

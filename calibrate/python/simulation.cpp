@@ -81,7 +81,7 @@ class SimulationRun {
       return true;
     };
     options.pulse = [this](const Snapshot&) { return !stop_->asked; };
-    outcome = std::visit([&](const auto& test) { return simulate(test, options); }, scene_);
+    outcome = simulate(scene_, options);
   }
 
   std::string outcome_json() const {

@@ -1,0 +1,65 @@
+#include "calibrate/cli/run_pictures.h"
+
+#include <array>
+#include <string_view>
+
+#include "core/world/world.h"
+
+namespace pastefit {
+
+namespace {
+
+/// What a picture is made of, each a series of its own: the name of that of the grains, and what is added to it.
+constexpr std::array<std::string_view, 3> kLayers{"", "-links", "-walls"};
+
+std::vector<std::string> names_of_stages(const Scene& scene) {
+  const auto* test = std::get_if<Test>(&scene);
+  if (!test) return {"grains"};
+  const auto names = series_of(*test);
+  return {names.begin(), names.end()};
+}
+
+std::size_t stage_of(const Scene& scene, const Snapshot& snapshot) {
+  const auto* test = std::get_if<Test>(&scene);
+  return test ? series_at(*test, snapshot) : 0;
+}
+
+}  // namespace
+
+RunPictures::RunPictures(const std::filesystem::path& folder, const Scene& scene) : scene_(scene) {
+  for (const std::string& name : names_of_stages(scene)) {
+    Stage& stage = stages_.emplace_back();
+    for (const std::string_view layer : kLayers) stage.layers.emplace_back(folder, name + std::string(layer));
+  }
+}
+
+std::vector<std::string> RunPictures::index_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const std::string& name : names_of_stages(scene))
+    for (const std::string_view layer : kLayers) names.push_back(name + std::string(layer) + ".pvd");
+  return names;
+}
+
+Faults RunPictures::add(const Snapshot& snapshot) {
+  Stage& stage = stages_.at(stage_of(scene_, snapshot));
+  // A stage may be several runs, one after the other.
+  if (snapshot.time_s < stage.last_s) stage.earlier_s += stage.last_s;
+  stage.last_s = snapshot.time_s;
+  stage.begun = true;
+  const World& world = *snapshot.world;
+  const std::array<std::string, kLayers.size()> files{vtp_of(grain_frame(world)), vtp_of(link_frame(world)),
+                                                      vtp_of(wall_frame(world))};
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (auto faults = stage.layers[i].add(snapshot.time_s + stage.earlier_s, files[i]); !faults.empty()) return faults;
+  return {};
+}
+
+std::vector<std::filesystem::path> RunPictures::indices() const {
+  std::vector<std::filesystem::path> files;
+  for (const Stage& stage : stages_)
+    for (const VtkSeries& layer : stage.layers)
+      if (stage.begun) files.push_back(layer.index());
+  return files;
+}
+
+}  // namespace pastefit
