@@ -116,66 +116,92 @@ Result<std::vector<std::string>> strategies_of(const CompareOptions& options, Se
   return able;
 }
 
-int compare(const CompareOptions& options) {
-  const auto read = read_study(options.study);
-  if (!read.ok()) return report(read.faults());
-  const auto& study = read.value();
-  if (const auto faults = validate_memory(study, options.threads); !faults.empty())
-    return report(in_file(faults, options.study));
-  const MisfitUnit unit = misfit_unit_of(study);
+/// What is to be compared. Errors: the study, or the strategies that were asked for, cannot be.
+Result<ComparisonOptions> comparison_of(const CompareOptions& options, const Study& study) {
+  if (auto faults = validate_memory(study, options.threads); !faults.empty()) return faults;
   ComparisonOptions comparison;
   comparison.search = study.search;
   if (options.budget > 0) comparison.search.budget_simulations = options.budget;
   comparison.seeds = options.seeds;
   auto strategies =
       strategies_of(options, comparison.search, free_count(study), static_cast<int>(tests_of(study, false).size()));
-  if (!strategies.ok()) return report(in_file(strategies.faults(), options.study));
+  if (!strategies.ok()) return strategies.faults();
   comparison.strategies = std::move(strategies).value();
   for (int k = 0; k < options.judge_packings; ++k)
     comparison.judge_packings.push_back(kFirstJudge + static_cast<std::uint64_t>(k));
+  return comparison;
+}
 
+Result<OutputFolder> comparison_folder(const CompareOptions& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
   auto folder = OutputFolder::open(options.out, kComparison, earlier, kSpace);
-  if (!folder.ok()) return report(folder.faults());
-  if (options.force) folder.value().clear(kComparison);
-  auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
-  if (!store.ok()) return report(store.faults());
-  for (const auto& remark : store.value().remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
+  if (folder.ok() && options.force) folder.value().clear(kComparison);
+  return folder;
+}
 
+/// Runs the trials, and says of each how it ended.
+std::vector<StrategyTrial> run_trials(const CompareOptions& options, const ComparisonOptions& comparison,
+                                      const Study& study, Store& store) {
+  const MisfitUnit unit = misfit_unit_of(study);
   const auto& stop = listen_for_stop();
   const auto objective = [&](int budget) -> std::unique_ptr<Objective> {
     EvaluatorOptions evaluator;
     evaluator.threads = options.threads;
     evaluator.budget = budget;
     evaluator.stop = &stop;
-    return std::make_unique<SimulationObjective>(study, store.value(), evaluator);
+    return std::make_unique<SimulationObjective>(study, store, evaluator);
   };
-  const auto trials = compare_strategies(objective, comparison, [&](const StrategyTrial& trial) {
+  return compare_strategies(objective, comparison, [&](const StrategyTrial& trial) {
     note("%-22s seed %-4llu %-12s %4d simulations, %d failed, judged %s\n", trial.strategy.c_str(),
          static_cast<unsigned long long>(trial.seed), std::string(name_of(trial.status)).c_str(), trial.simulations,
          trial.failures, trial.judged >= 0 ? unit.words(trial.judged, "%.2f").c_str() : "-");
   });
-  if (trials.empty()) {
-    std::fprintf(stderr, "pastefit: stopped before the first strategy was through; go on with --resume\n");
-    return kFailed;
-  }
-  const bool all = trials.size() == comparison.strategies.size() * static_cast<std::size_t>(comparison.seeds);
-  if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
-  const auto rows = summary_of(trials);
-  if (options.json)
-    print("%s", json_text(comparison_json(rows, unit)).c_str());
-  else
-    print_comparison(rows, unit);
+}
+
+/// The table, its course and its figure.
+Faults write_comparison(const OutputFolder& folder, const std::vector<StrategyTrial>& trials,
+                        const std::vector<StrategySummary>& rows, const Study& study) {
+  const MisfitUnit unit = misfit_unit_of(study);
   const std::vector<std::pair<std::string, std::string>> files{{kTrials, trials_csv(trials, unit)},
                                                                {kCourse, course_of(trials, unit)},
                                                                {kFigure, misfit_figure(rows, unit, study.title)}};
   for (const auto& [name, content] : files) {
-    if (const auto faults = write_atomically(folder.value().file(name), content); !faults.empty())
-      return report(faults, kFailed);
-    note("wrote %s\n", folder.value().file(name).c_str());
+    if (auto faults = write_atomically(folder.file(name), content); !faults.empty()) return faults;
+    note("wrote %s\n", folder.file(name).c_str());
   }
+  return {};
+}
+
+int compare(const CompareOptions& options) {
+  const auto read = read_study(options.study);
+  if (!read.ok()) return report(read.faults());
+  const auto& study = read.value();
+  const auto comparison = comparison_of(options, study);
+  if (!comparison.ok()) return report(in_file(comparison.faults(), options.study));
+  const auto folder = comparison_folder(options);
+  if (!folder.ok()) return report(folder.faults());
+  auto store = Store::open(folder.value().file(kStore), {program_identity(), inputs_of(study)});
+  if (!store.ok()) return report(store.faults());
+  for (const auto& remark : store.value().remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
+
+  const auto trials = run_trials(options, comparison.value(), study, store.value());
+  if (trials.empty()) {
+    std::fprintf(stderr, "pastefit: stopped before the first strategy was through; go on with --resume\n");
+    return kFailed;
+  }
+  const auto asked = comparison.value().strategies.size() * static_cast<std::size_t>(options.seeds);
+  const bool all = trials.size() == asked;
+  if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
+  const auto rows = summary_of(trials);
+  const MisfitUnit unit = misfit_unit_of(study);
+  if (options.json)
+    print("%s", json_text(comparison_json(rows, unit)).c_str());
+  else
+    print_comparison(rows, unit);
+  if (const auto faults = write_comparison(folder.value(), trials, rows, study); !faults.empty())
+    return report(faults, kFailed);
   return all ? kDone : kFailed;
 }
 
