@@ -20,81 +20,110 @@ constexpr double published_mould_mm = 300, published_height_mm = 7.5, published_
 constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2",
                         "leave it out, or describe the plate in apparatus.drop_plate"};
 
+/// What the sizes of mould and table allow for.
+struct SlumpRanges {
+  explicit SlumpRanges(const SlumpTest& test)
+      : mould_mm(1e3 * test.mould.height_m),
+        base_mm(2e3 * test.mould.base_radius_m),
+        table_mm(1e3 * test.table_length_m),
+        full_kg(test.bulk_density_kg_m3 * volume_m3(test.mould)) {}
+
+  double mould_mm, base_mm, table_mm, full_kg;
+  double deviation_of_height = published_height_mm * (mould_mm / published_mould_mm);
+  double deviation_of_spread = published_spread_mm * (mould_mm / published_mould_mm);
+  ReadingRange mass{0.5 * full_kg, 1.5 * full_kg}, share{0, 1};
+  ReadingRange height{0, (1 + room) * mould_mm}, slump{-room * mould_mm, mould_mm}, sag{-mould_mm, mould_mm};
+  ReadingRange spread{(1 - room) * base_mm, std::max(table_mm, base_mm)}, on_the_table{0, table_mm};
+};
+
+// clang-format off
+std::vector<ReadingKind> fill_kinds(const SlumpRanges& ranges) {
+  return {
+    ReadingKind{.name = "fill.mass_kg", .key = "fill.mass_kg", .measure = "fill.mass_kg", .stage = kFill,
+                .possible = ranges.mass, .advised = true, .checked = true},
+    ReadingKind{.name = "fill.solid_fraction", .key = "", .measure = "", .stage = kFill, .possible = ranges.share,
+                .checked = true}};
+}
+
+std::vector<ReadingKind> step1_kinds(const SlumpRanges& ranges) {
+  return {
+    ReadingKind{.name = "step1.spilled_share", .key = "", .measure = "", .stage = kStep1, .possible = ranges.share},
+    ReadingKind{.name = "step1.height_mm", .key = "step1.height_mm", .measure = "step1.height_mm", .stage = kStep1,
+                .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step1.height_max_mm", highest_is_above}}}, .advised = true, .ends_early = true,
+                .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step1.slump_mm", .key = "step1.slump_mm", .measure = "step1.height_mm", .stage = kStep1,
+                .possible = ranges.slump, .worst_miss = ranges.mould_mm, .less_than = ranges.mould_mm,
+                .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step1.height_axis_mm", .key = "step1.height_axis_mm", .measure = "step1.height_axis_mm",
+                .stage = kStep1, .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step1.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published,
+                .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step1.height_max_mm", .key = "step1.height_max_mm", .measure = "step1.height_max_mm",
+                .stage = kStep1, .possible = ranges.height, .worst_miss = ranges.mould_mm, .advised = true,
+                .checked = true, .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step1.lateral_shift_mm", .key = "step1.lateral_shift_mm", .measure = "step1.lateral_shift_mm",
+                .stage = kStep1, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
+    ReadingKind{.name = "step1.spread_mm", .key = "step1.spread_mm", .measure = "step1.spread_mm", .stage = kStep1,
+                .possible = ranges.spread, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step2.spread_mm", not_drawn}}}, .advised = true, .checked = true,
+                .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
+    ReadingKind{.name = "step1.spread_orthogonal_mm", .key = "step1.spread_orthogonal_mm",
+                .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = ranges.spread,
+                .worst_miss = ranges.mould_mm, .repeatability = published_spread,
+                .published_deviation = ranges.deviation_of_spread},
+    ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
+                .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true}};
+}
+
+std::vector<ReadingKind> step2_kinds(const SlumpRanges& ranges) {
+  return {
+    ReadingKind{.name = "step2.spilled_share", .key = "", .measure = "", .stage = kStep2, .possible = ranges.share},
+    ReadingKind{.name = "step2.height_mm", .key = "step2.height_mm", .measure = "step2.height_mm", .stage = kStep2,
+                .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step2.height_max_mm", highest_is_above}, {"step1.height_mm", not_raised}}},
+                .advised = true, .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step2.slump_mm", .key = "step2.slump_mm", .measure = "step2.height_mm", .stage = kStep2,
+                .possible = ranges.slump, .worst_miss = ranges.mould_mm, .less_than = ranges.mould_mm,
+                .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step2.height_axis_mm", .key = "step2.height_axis_mm", .measure = "step2.height_axis_mm",
+                .stage = kStep2, .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step2.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published,
+                .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step2.height_max_mm", .key = "step2.height_max_mm", .measure = "step2.height_max_mm",
+                .stage = kStep2, .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step1.height_max_mm", not_raised}}}, .advised = true, .checked = true,
+                .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "step2.lateral_shift_mm", .key = "", .measure = "", .stage = kStep2,
+                .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
+    ReadingKind{.name = "step2.spread_mm", .key = "step2.spread_mm", .measure = "step2.spread_mm", .stage = kStep2,
+                .possible = ranges.spread, .worst_miss = ranges.mould_mm, .advised = true, .checked = true,
+                .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
+    ReadingKind{.name = "step2.spread_orthogonal_mm", .key = "step2.spread_orthogonal_mm",
+                .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = ranges.spread,
+                .worst_miss = ranges.mould_mm, .repeatability = published_spread,
+                .published_deviation = ranges.deviation_of_spread},
+    ReadingKind{.name = "step2.profile_mm", .key = "step2.profile", .measure = "step2.profile_mm", .stage = kStep2,
+                .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true},
+    ReadingKind{.name = "step2.plateau_sag_mm", .key = "step2.plateau_sag_mm", .measure = "step2.plateau_sag_mm",
+                .stage = kStep2, .possible = ranges.sag, .worst_miss = ranges.mould_mm, .advised = true,
+                .checked = true},
+    ReadingKind{.name = "step2.plateau_width_mm", .key = "step2.plateau_width_mm", .measure = "step2.plateau_width_mm",
+                .stage = kStep2, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .advised = true,
+                .checked = true}};
+}
+// clang-format on
+
 }  // namespace
 
 std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
-  const double mould_mm = 1e3 * test.mould.height_m, base_mm = 2e3 * test.mould.base_radius_m;
-  const double table_mm = 1e3 * test.table_length_m;
-  const double full_kg = test.bulk_density_kg_m3 * volume_m3(test.mould);
-  const double size = mould_mm / published_mould_mm;
-  const double of_height = published_height_mm * size, of_spread = published_spread_mm * size;
-  const ReadingRange mass{0.5 * full_kg, 1.5 * full_kg}, share{0, 1};
-  const ReadingRange height{0, (1 + room) * mould_mm}, slump{-room * mould_mm, mould_mm};
-  const ReadingRange spread{(1 - room) * base_mm, std::max(table_mm, base_mm)}, on_the_table{0, table_mm};
-  const ReadingRange sag{-mould_mm, mould_mm};
-  // clang-format off
-  std::vector<ReadingKind> kinds{
-    ReadingKind{.name = "fill.mass_kg", .key = "fill.mass_kg", .measure = "fill.mass_kg", .stage = kFill,
-                .possible = mass, .advised = true, .checked = true},
-    ReadingKind{.name = "fill.solid_fraction", .key = "", .measure = "", .stage = kFill,
-                .possible = share, .checked = true},
-    ReadingKind{.name = "step1.spilled_share", .key = "", .measure = "", .stage = kStep1,
-                .possible = share},
-    ReadingKind{.name = "step1.height_mm", .key = "step1.height_mm", .measure = "step1.height_mm", .stage = kStep1,
-                .possible = height, .worst_miss = mould_mm, .ceilings = {{{"step1.height_max_mm", highest_is_above}}},
-                .advised = true, .ends_early = true, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step1.slump_mm", .key = "step1.slump_mm", .measure = "step1.height_mm", .stage = kStep1,
-                .possible = slump, .worst_miss = mould_mm, .less_than = mould_mm, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step1.height_axis_mm", .key = "step1.height_axis_mm", .measure = "step1.height_axis_mm",
-                .stage = kStep1, .possible = height, .worst_miss = mould_mm,
-                .ceilings = {{{"step1.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step1.height_max_mm", .key = "step1.height_max_mm", .measure = "step1.height_max_mm",
-                .stage = kStep1, .possible = height, .worst_miss = mould_mm, .advised = true, .checked = true,
-                .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step1.lateral_shift_mm", .key = "step1.lateral_shift_mm", .measure = "step1.lateral_shift_mm",
-                .stage = kStep1, .possible = on_the_table, .worst_miss = mould_mm},
-    ReadingKind{.name = "step1.spread_mm", .key = "step1.spread_mm", .measure = "step1.spread_mm", .stage = kStep1,
-                .possible = spread, .worst_miss = mould_mm, .ceilings = {{{"step2.spread_mm", not_drawn}}},
-                .advised = true, .checked = true,
-                .repeatability = published_spread, .published_deviation = of_spread},
-    ReadingKind{.name = "step1.spread_orthogonal_mm", .key = "step1.spread_orthogonal_mm",
-                .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = spread, .worst_miss = mould_mm,
-                .repeatability = published_spread, .published_deviation = of_spread},
-    ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
-                .possible = on_the_table, .worst_miss = mould_mm, .from_outline = true},
-    ReadingKind{.name = "step2.spilled_share", .key = "", .measure = "", .stage = kStep2,
-                .possible = share},
-    ReadingKind{.name = "step2.height_mm", .key = "step2.height_mm", .measure = "step2.height_mm", .stage = kStep2,
-                .possible = height, .worst_miss = mould_mm,
-                .ceilings = {{{"step2.height_max_mm", highest_is_above}, {"step1.height_mm", not_raised}}},
-                .advised = true, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step2.slump_mm", .key = "step2.slump_mm", .measure = "step2.height_mm", .stage = kStep2,
-                .possible = slump, .worst_miss = mould_mm, .less_than = mould_mm, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step2.height_axis_mm", .key = "step2.height_axis_mm", .measure = "step2.height_axis_mm",
-                .stage = kStep2, .possible = height, .worst_miss = mould_mm,
-                .ceilings = {{{"step2.height_max_mm", highest_is_above}}}, .checked = true, .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step2.height_max_mm", .key = "step2.height_max_mm", .measure = "step2.height_max_mm",
-                .stage = kStep2, .possible = height, .worst_miss = mould_mm,
-                .ceilings = {{{"step1.height_max_mm", not_raised}}}, .advised = true, .checked = true,
-                .repeatability = published, .published_deviation = of_height},
-    ReadingKind{.name = "step2.lateral_shift_mm", .key = "", .measure = "", .stage = kStep2,
-                .possible = on_the_table, .worst_miss = mould_mm},
-    ReadingKind{.name = "step2.spread_mm", .key = "step2.spread_mm", .measure = "step2.spread_mm", .stage = kStep2,
-                .possible = spread, .worst_miss = mould_mm, .advised = true, .checked = true,
-                .repeatability = published_spread, .published_deviation = of_spread},
-    ReadingKind{.name = "step2.spread_orthogonal_mm", .key = "step2.spread_orthogonal_mm",
-                .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = spread, .worst_miss = mould_mm,
-                .repeatability = published_spread, .published_deviation = of_spread},
-    ReadingKind{.name = "step2.profile_mm", .key = "step2.profile", .measure = "step2.profile_mm", .stage = kStep2,
-                .possible = on_the_table, .worst_miss = mould_mm, .from_outline = true},
-    ReadingKind{.name = "step2.plateau_sag_mm", .key = "step2.plateau_sag_mm", .measure = "step2.plateau_sag_mm",
-                .stage = kStep2, .possible = sag, .worst_miss = mould_mm, .advised = true, .checked = true},
-    ReadingKind{.name = "step2.plateau_width_mm", .key = "step2.plateau_width_mm", .measure = "step2.plateau_width_mm",
-                .stage = kStep2, .possible = on_the_table, .worst_miss = mould_mm, .advised = true, .checked = true},};
-  // clang-format on
-  if (!test.drop)
-    for (ReadingKind& kind : kinds)
-      if (kind.stage == kStep2) kind.lack = no_plate;
+  const SlumpRanges ranges(test);
+  std::vector<ReadingKind> kinds = fill_kinds(ranges);
+  for (const ReadingKind& kind : step1_kinds(ranges)) kinds.push_back(kind);
+  for (ReadingKind& kind : step2_kinds(ranges)) {
+    if (!test.drop) kind.lack = no_plate;
+    kinds.push_back(kind);
+  }
   return kinds;
 }
 
