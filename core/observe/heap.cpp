@@ -164,31 +164,60 @@ Widths widths_of(const Particles& particles, const std::vector<std::int32_t>& bo
   return result;
 }
 
-}  // namespace
-
-Widths widths(const Particles& particles, double mean_radius) {
-  // Grains as discs in plan, widened by half the gap that may separate grains of one body.
-  const double widening = 0.5 * mean_radius, spacing = 0.5 * mean_radius;
-  double farthest = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Vec3& p = particles.motion[i].position;
-    farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y)});
+/// Grains as discs in plan, widened by half the gap that may separate grains of one body, and sorted into square cells.
+class PlanCells {
+ public:
+  PlanCells(const Particles& particles, double mean_radius)
+      : particles_(particles), widening_(0.5 * mean_radius), spacing_(0.5 * mean_radius) {
+    double farthest = 0, largest_radius = 0;
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Motion& grain = particles.motion[i];
+      farthest = std::max({farthest, std::fabs(grain.position.x), std::fabs(grain.position.y)});
+      largest_radius = std::max(largest_radius, grain.radius);
+    }
+    half_ = static_cast<int>(std::ceil((std::min(farthest, 5.0) + 4 * mean_radius) / spacing_));
+    side_ = 2 * half_ + 1;
+    reach_ = static_cast<int>(std::ceil(2 * (largest_radius + widening_) / spacing_)) + 1;
+    cells_.resize(static_cast<std::size_t>(side_) * side_);
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Vec3& p = particles.motion[i].position;
+      cells_[index(p.y) * static_cast<std::size_t>(side_) + index(p.x)].push_back(i);
+    }
   }
-  const int half = static_cast<int>(std::ceil((std::min(farthest, 5.0) + 4 * mean_radius) / spacing));
-  const int n = 2 * half + 1;
-  std::vector<std::vector<std::int32_t>> at(static_cast<std::size_t>(n) * n);
-  const auto index = [&](double c) { return std::clamp(static_cast<int>(std::lround(c / spacing)) + half, 0, n - 1); };
-  double largest_radius = 0;
-  for (std::int32_t i = 0; i < particles.count(); ++i) {
-    const Vec3& p = particles.motion[i].position;
-    at[index(p.y) * static_cast<std::size_t>(n) + index(p.x)].push_back(i);
-    largest_radius = std::max(largest_radius, particles.motion[i].radius);
-  }
-  const int reach = static_cast<int>(std::ceil(2 * (largest_radius + widening) / spacing)) + 1;
 
+  /// Calls `visit(j)` for all grains that may touch grain `i`, itself among them.
+  template <class Visitor>
+  void each_near(std::int32_t i, const Visitor& visit) const {
+    const Vec3& p = particles_.motion[i].position;
+    const int cx = index(p.x), cy = index(p.y);
+    for (int y = std::max(cy - reach_, 0); y <= std::min(cy + reach_, side_ - 1); ++y)
+      for (int x = std::max(cx - reach_, 0); x <= std::min(cx + reach_, side_ - 1); ++x)
+        for (const std::int32_t j : cells_[y * static_cast<std::size_t>(side_) + x]) visit(j);
+  }
+
+  bool touch(std::int32_t i, std::int32_t j) const {
+    const Motion &a = particles_.motion[i], &b = particles_.motion[j];
+    const double dx = b.position.x - a.position.x, dy = b.position.y - a.position.y;
+    const double touch = a.radius + b.radius + 2 * widening_;
+    return dx * dx + dy * dy <= touch * touch;
+  }
+
+ private:
+  int index(double c) const { return std::clamp(static_cast<int>(std::lround(c / spacing_)) + half_, 0, side_ - 1); }
+
+  const Particles& particles_;
+  double widening_, spacing_;
+  int half_ = 0, side_ = 0, reach_ = 0;  ///< cells
+  std::vector<std::vector<std::int32_t>> cells_;
+};
+
+/// The grains of the largest body in plan; all of them, where none has half of them.
+std::vector<std::int32_t> largest_body(const Particles& particles, double mean_radius) {
+  const PlanCells cells(particles, mean_radius);
   std::vector<char> belongs(particles.count(), 0);
-  std::vector<std::int32_t> body, front;
-  const auto flood = [&](std::int32_t seed) {
+  std::vector<std::int32_t> largest, body, front;
+  for (std::int32_t seed = 0; seed < particles.count(); ++seed) {
+    if (belongs[seed]) continue;
     body.clear();
     front = {seed};
     belongs[seed] = 1;
@@ -196,32 +225,25 @@ Widths widths(const Particles& particles, double mean_radius) {
       const std::int32_t i = front.back();
       front.pop_back();
       body.push_back(i);
-      const Motion& a = particles.motion[i];
-      const int cx = index(a.position.x), cy = index(a.position.y);
-      for (int y = std::max(cy - reach, 0); y <= std::min(cy + reach, n - 1); ++y)
-        for (int x = std::max(cx - reach, 0); x <= std::min(cx + reach, n - 1); ++x)
-          for (const std::int32_t j : at[y * static_cast<std::size_t>(n) + x]) {
-            if (belongs[j]) continue;
-            const Motion& b = particles.motion[j];
-            const double dx = b.position.x - a.position.x, dy = b.position.y - a.position.y;
-            const double touch = a.radius + b.radius + 2 * widening;
-            if (dx * dx + dy * dy > touch * touch) continue;
-            belongs[j] = 1;
-            front.push_back(j);
-          }
+      cells.each_near(i, [&](std::int32_t j) {
+        if (belongs[j] || !cells.touch(i, j)) return;
+        belongs[j] = 1;
+        front.push_back(j);
+      });
     }
-  };
-  std::vector<std::int32_t> largest;
-  for (std::int32_t seed = 0; seed < particles.count(); ++seed) {
-    if (belongs[seed]) continue;
-    flood(seed);
     if (body.size() > largest.size()) largest = body;
   }
   if (2 * largest.size() < belongs.size()) {
     largest.resize(belongs.size());
     std::iota(largest.begin(), largest.end(), 0);
   }
-  return widths_of(particles, largest);
+  return largest;
+}
+
+}  // namespace
+
+Widths widths(const Particles& particles, double mean_radius) {
+  return widths_of(particles, largest_body(particles, mean_radius));
 }
 
 }  // namespace pastefit
