@@ -26,6 +26,9 @@ constexpr std::string_view slump_lab =
   // Of the fresh material, as it fills the mould.
   "material": {"bulk_density_kg_m3": 2300},
 
+  // What it was mixed of, in any names with their units: not simulated, but in the table of many studies (pastefit batch).
+  // "mix": {"water_kg_m3": 180, "superplasticizer_kg_m3": 4.5},
+
   // Spheres of the simulation: larger than real grains, a tenth of the mould's smallest opening or less.
   // Equal spheres, {"distribution": "mono", "radius_mm": 8}, lie in layers and shear off along them; they cost a fifth less.
   // Or {"distribution": "normal", "radius_mm": 8, "standard_deviation_mm": 1, "smallest_mm": 6, "largest_mm": 10}.

@@ -80,6 +80,26 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
           "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
 }
 
+/// "mix": numbers under names that the laboratory chooses.
+void read_mix(ObjectReader& document, std::vector<MixVariable>& mix) {
+  if (!document.has("mix")) return document.known("mix");
+  document.object(
+      "mix", Need::optional,
+      [&](ObjectReader& reader) {
+        for (const std::string& name : reader.keys()) {
+          double value = 0;
+          if (!reader.number(name, value, {}, Need::required)) continue;
+          const bool word = name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+          if (word && !name.empty() && name[0] >= 'a')
+            mix.push_back({name, value});
+          else
+            reader.fault(name, "is no name of a mix variable",
+                         "small letters, digits and _, with the unit at its end: \"water_kg_m3\"");
+        }
+      },
+      "names with their units and numbers: {\"water_kg_m3\": 180}");
+}
+
 }  // namespace
 
 std::string sheared_in_words(const Lab::Repeats& repeats) {
@@ -102,6 +122,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     read_kind(reader, lab.test);
     preset = read_apparatus(reader, lab.test, folder);
     read_material(reader, lab.test);
+    read_mix(reader, lab.mix);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
     lab.test = with_default_contact(lab.test);
     // A test with a faulty section would only be judged by values nobody gave.

@@ -21,6 +21,12 @@ struct Provenance {
   bool twin = false;  ///< produced by a simulation with known parameters
 };
 
+/// An amount or a property of the mix that a laboratory file names, e.g. water_kg_m3.
+struct MixVariable {
+  std::string name;  ///< with its unit
+  double value = 0;
+};
+
 /// A laboratory file: the test as an apparatus with default contact parameters, and what was measured.
 struct Lab {
   /// How often the test was made, and in how many of them the heap sheared off, which then has no readings.
@@ -34,6 +40,7 @@ struct Lab {
   Test test;
   std::vector<Measurement> measurements;
   Repeats repeats;                  ///< none made: it is not said
+  std::vector<MixVariable> mix;     ///< what the material was mixed of, in alphabetical order; not simulated
   std::vector<std::string> stated;  ///< of what is often unstated (`FilePlace`): the places that the file gives
   std::string content;              ///< what the file and the preset that it names say, as JSON text
   std::string hash;                 ///< of the file's content, with the preset it names (64-bit, hexadecimal)

@@ -172,8 +172,11 @@ std::string inputs_of(const Study& study) {
     search->erase("budget_simulations");
     if (search->empty()) inputs["study"].erase(search);
   }
-  for (const StudyTest& test : study.tests)
-    inputs["laboratories"].push_back(json::parse(test.lab.content.empty() ? "{}" : test.lab.content));
+  for (const StudyTest& test : study.tests) {
+    json content = json::parse(test.lab.content.empty() ? "{}" : test.lab.content);
+    if (content.contains("laboratory")) content["laboratory"].erase("mix");  // of which no search knows
+    inputs["laboratories"].push_back(std::move(content));
+  }
   return inputs.dump();
 }
 

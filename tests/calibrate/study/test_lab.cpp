@@ -394,5 +394,22 @@ TEST_CASE("more heaps sheared than made, all of them, or readings of heaps that 
   CHECK(faults_of(document).empty());
 }
 
+TEST_CASE("a laboratory file names its mix, and a name or a value that is none is a fault") {
+  json document = lab();
+  document["mix"] = {{"water_kg_m3", 180}, {"cement_kg_m3", 320.5}};
+  const Result<Lab> read = lab_from_json(document, ".");
+  REQUIRE(read.ok());
+  REQUIRE(read.value().mix.size() == 2);
+  CHECK(read.value().mix[0].name == "cement_kg_m3");
+  CHECK(read.value().mix[1].value == 180);
+  document["mix"] = {{"water", "180"}, {"Water kg", 180}};
+  const Faults faults = faults_of(document);
+  CHECK(faults.size() == 2);
+  CHECK(says(at(faults, "mix.Water kg"), "water_kg_m3"));
+  CHECK(says(at(faults, "mix.water"), "180"));
+  document["mix"] = 180;
+  CHECK(says(at(faults_of(document), "mix"), "water_kg_m3"));
+}
+
 }  // namespace
 }  // namespace pastefit

@@ -247,7 +247,7 @@ TEST_CASE("a prior or bounds that would leave residuals without digits are refus
   refused("youngs_modulus_pa", R"({"free": [1e6, 1.0000001e6]})", "free", "the same within a millionth");
 }
 
-TEST_CASE("the inputs of a study change with what decides the search, not with its budget or title") {
+TEST_CASE("the inputs of a study change with what decides the search, not with its budget, title or mix") {
   const Desk desk;
   json document = Desk::study();
   const std::string first = inputs_of(desk.read(document).value());
@@ -262,6 +262,11 @@ TEST_CASE("the inputs of a study change with what decides the search, not with i
   CHECK(inputs_of(desk.read(document).value()) != first);
   desk.folder().write("lab.json", test::with(template_text("lab").value(), "158", "159"));
   CHECK(inputs_of(desk.read(Desk::study()).value()) != first);
+  const std::string lab = template_text("lab").value();
+  desk.folder().write("lab.json", lab);
+  const std::string without_mix = inputs_of(desk.read(Desk::study()).value());
+  desk.folder().write("lab.json", test::with(lab, "\"material\":", "\"mix\": {\"water_kg_m3\": 180}, \"material\":"));
+  CHECK(inputs_of(desk.read(Desk::study()).value()) == without_mix);
 }
 
 TEST_CASE("a budget that pays for no answer is a fault") {
