@@ -5,7 +5,8 @@ Source of the table: I-Cheng Yeh, "Concrete Slump Test", UCI Machine Learning Re
 licence CC BY 4.0. Columns, by position: number, seven amounts in kg per cubic metre of concrete (cement, slag, fly ash,
 water, superplasticizer, coarse aggregate, fine aggregate), slump in cm, flow in cm, strength in MPa.
 
-Usage: make_concrete_mixes.py TABLE.csv
+usage: make_concrete_mixes.py            writes those of `MIXES`, here and in ../studies
+       make_concrete_mixes.py --all DIR  writes those of all rows into a new folder, each with its mix: for pastefit batch
 """
 
 import csv
@@ -13,6 +14,7 @@ import json
 import pathlib
 import sys
 
+TABLE = pathlib.Path(__file__).resolve().parent / "concrete-slump-test.csv"
 LAB = pathlib.Path(__file__).resolve().parent
 STUDIES = LAB.parent / "studies"
 
@@ -35,6 +37,7 @@ FINE_ONLY = {66, 89}
 MOULD_HEIGHT_MM = 300
 HEIGHT_DEVIATION_MM = 7.5
 SPREAD_DEVIATION_MM = 25
+AMOUNTS = ("cement", "slag", "fly_ash", "water", "superplasticizer", "coarse_aggregate", "fine_aggregate")
 SHEAR_MM = 40  # a top that shifts by more than 0.4 of the base radius has sheared off
 
 
@@ -44,9 +47,8 @@ def number(value):
     return int(rounded) if rounded == int(rounded) else rounded
 
 
-def lab_file(row, kind):
+def lab_file(row, kind, both):
     mix = int(row[0])
-    both = mix not in HEIGHT_FITTED
     amounts, slump_cm, flow_cm = [float(cell) for cell in row[1:8]], float(row[8]), float(row[9])
     return {
         "format": "pastefit-lab-1",
@@ -76,9 +78,8 @@ def lab_file(row, kind):
     }
 
 
-def study_file(row, kind):
+def study_file(row, kind, both):
     mix = int(row[0])
-    both = mix not in HEIGHT_FITTED
     fitted = "height and spread" if both else "the height"
     study = {
         "format": "pastefit-study-1",
@@ -132,18 +133,42 @@ def write(path, content):
     path.write_text(text(content) + "\n", encoding="utf-8")
 
 
-def main(table):
-    with open(table, newline="", encoding="utf-8") as file:
-        rows = {int(row[0]): row for row in csv.reader(file) if row and row[0].strip().isdigit()}
-    missing = sorted(set(MIXES) - set(rows))
-    if missing:
-        sys.exit(f"{table}: no rows {missing}; give the table of 103 concrete mixes")
+def mix_of(row):
+    """The amounts, and the water over all binders, by mass."""
+    mix = {f"{name}_kg_m3": number(float(cell)) for name, cell in zip(AMOUNTS, row[1:8])}
+    binders = mix["cement_kg_m3"] + mix["slag_kg_m3"] + mix["fly_ash_kg_m3"]
+    return mix | {"water_binder_ratio": number(mix["water_kg_m3"] / binders)}
+
+
+def read_table():
+    with TABLE.open(newline="", encoding="utf-8") as file:
+        return {int(row[0]): row for row in csv.reader(file) if row and row[0].strip().isdigit()}
+
+
+def write_all(folder):
+    """Every mix with the same bounds and tolerances, its height and spread fitted."""
+    if folder.exists():
+        sys.exit(f"{folder} is there already: name a new folder")
+    (folder / "lab").mkdir(parents=True)
+    for mix, row in read_table().items():
+        name = f"concrete-mix-{mix:03}.json"
+        lab, study = lab_file(row, "one of 103", True), study_file(row, "one of 103", True)
+        write(folder / "lab" / name, lab | {"mix": mix_of(row)})
+        write(folder / name, study | {"lab": f"lab/{name}"})
+
+
+def write_shipped():
+    rows = read_table()
     for mix, kind in MIXES.items():
-        write(LAB / f"concrete-mix-{mix:02}.json", lab_file(rows[mix], kind))
-        write(STUDIES / f"concrete-mix-{mix:02}.json", study_file(rows[mix], kind))
+        both = mix not in HEIGHT_FITTED
+        write(LAB / f"concrete-mix-{mix:02}.json", lab_file(rows[mix], kind, both))
+        write(STUDIES / f"concrete-mix-{mix:02}.json", study_file(rows[mix], kind, both))
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) == 3 and sys.argv[1] == "--all":
+        write_all(pathlib.Path(sys.argv[2]))
+    elif len(sys.argv) == 1:
+        write_shipped()
+    else:
         sys.exit(__doc__)
-    main(sys.argv[1])
