@@ -28,9 +28,10 @@ def commands(page):
 
 def cut_short(command):
     """What a test runs in place of a calibration: the same of fewer and larger grains, with a handful of simulations."""
-    if study := re.match(r"pastefit calibrate (\S+)", command):
-        return f"{sys.executable} {pathlib.Path(__file__).resolve()} --shrink {study.group(1)}\n{command} || test $? = 1"
-    return command
+    if not re.match("pastefit (calibrate|batch) ", command):
+        return command
+    shrunk = [f"{sys.executable} {pathlib.Path(__file__).resolve()} --shrink {study}" for study in re.findall(r"\S+\.json", command)]
+    return "\n".join([*shrunk, f"{command} || test $? = 1"])
 
 
 def shrink(study):

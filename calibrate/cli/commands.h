@@ -14,6 +14,7 @@ inline constexpr int kBadInput = 2;  ///< what the user gave cannot be used; not
 
 /// A verb adds its options to the program and returns what runs it, with the exit status as answer.
 using Command = std::function<int()>;
+Command add_batch(CLI::App& verb);
 Command add_calibrate(CLI::App& verb);
 Command add_compare_optimisers(CLI::App& verb);
 Command add_check(CLI::App& verb);

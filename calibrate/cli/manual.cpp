@@ -1,5 +1,6 @@
 #include "calibrate/cli/manual.h"
 
+#include "calibrate/base/shell_word.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {
@@ -17,18 +18,6 @@ std::string roff(std::string_view text) {
       out += c;
   }
   return out;
-}
-
-/// Text between single quotes of a shell.
-std::string shell_word(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'')
-      out += "'\\''";
-    else
-      out += c;
-  }
-  return out + "'";
 }
 
 bool is_positional(const CLI::Option& option) {

@@ -1,0 +1,195 @@
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/shell_word.h"
+#include "calibrate/batch/array_job.h"
+#include "calibrate/batch/batch.h"
+#include "calibrate/batch/batch_page.h"
+#include "calibrate/batch/batch_table.h"
+#include "calibrate/calibrate.h"
+#include "calibrate/cli/child_process.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/effort_checks.h"
+#include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/output_file.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/search/effort.h"
+
+namespace pastefit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BatchArguments {
+  std::vector<std::string> studies;
+  std::string out;
+  int workers = 0;
+  bool table = false;     ///< only the table, of what is there
+  bool no_table = false;  ///< as an element of an array, whose table another job makes
+  bool slurm = false;     ///< only the scripts
+  bool force = false;
+};
+
+constexpr int kMostDeaths = 3;      // of one calibration's process, as of a worker
+constexpr int kElementWorkers = 4;  // cores of an element of an array, if it is not said
+const std::string kBatchTable = "batch.csv", kBatchPage = "batch.html";
+const std::string kArrayScript = "batch.sbatch", kTableScript = "batch-table.sbatch";
+
+/// What keeps some study from being calibrated, of all studies at once.
+Faults unfit_studies(const std::vector<BatchStudy>& batch, const BatchArguments& options) {
+  Faults faults;
+  for (const BatchStudy& one : batch) {
+    CalibrateOptions how;
+    how.threads = options.slurm ? 1 : options.workers;  // this machine's memory says nothing of a cluster's
+    const bool asked_for = options.force || is_finished(one);
+    Faults found = in_file(validate(one.study, how), one.file);
+    if (found.empty())
+      found = long_run_faults(one.file.string() + ": search.budget_simulations",
+                              format("%d simulations", one.study.search.budget_simulations), least_effort_s(one.study),
+                              options.workers, asked_for, "larger grains, a smaller budget");
+    for (Fault& fault : found) faults.push_back(std::move(fault));
+  }
+  return faults;
+}
+
+Faults write_table(const std::vector<BatchRow>& rows, const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  auto faults = write_atomically(out / kBatchTable, batch_csv(rows));
+  if (faults.empty()) faults = write_atomically(out / kBatchPage, batch_page(rows));
+  if (faults.empty()) note("wrote %s\nwrote %s\n", (out / kBatchTable).c_str(), (out / kBatchPage).c_str());
+  return faults;
+}
+
+/// Why a calibration has no card, from how its process ended; nothing if it has one.
+std::optional<BatchFailure> failure_after(const BatchStudy& one, const ChildEnd& end) {
+  if (end.signal != 0)
+    return BatchFailure{"failed", format("its process was killed by signal %d, ", end.signal) +
+                                      format("%d times; the same command goes on with it", kMostDeaths)};
+  if (end.status != kDone && end.status != kFailed)
+    return BatchFailure{"failed", format("ended with status %d; to see why: ", end.status) + "pastefit calibrate " +
+                                      shell_word(one.file.string()) + " --resume --out " +
+                                      shell_word(one.folder.string())};
+  const auto answer = nlohmann::json::parse(end.output, nullptr, false);
+  if (answer.is_object() && answer.contains("format")) return std::nullopt;
+  if (!answer.is_object() || !answer.contains("reason"))
+    return BatchFailure{"failed", "it could not write its result to " + one.folder.string()};
+  return BatchFailure{answer.value("status", "failed"), answer.value("reason", "")};
+}
+
+/// Calibrates one study as `pastefit calibrate --resume` does, in a process of its own: what kills that one stops no
+/// other study.
+Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const std::atomic<bool>& stop) {
+  std::vector<std::string> words{"calibrate", one.file.string(), "--out", one.folder.string(), "--resume", "--json"};
+  if (options.workers > 0) words.insert(words.end(), {"--threads", std::to_string(options.workers)});
+  if (is_quiet()) words.push_back("--quiet");
+  std::error_code error;
+  fs::remove(one.folder / kFailureFile, error);
+  ChildEnd end;
+  for (int deaths = 0; deaths < kMostDeaths; ++deaths) {
+    end = run_this_program(words, stop);
+    if (end.signal == 0 || stop) break;
+    note("pastefit: %s: the process was killed by signal %d\n", one.name.c_str(), end.signal);
+  }
+  if (end.signal != 0 && stop) return {};  // it goes on where it was
+  const auto failure = failure_after(one, end);
+  return failure ? write_failure(one, *failure) : Faults{};
+}
+
+/// Calibrates what is not finished, one after the other.
+Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments& options,
+                     const std::atomic<bool>& stop) {
+  for (std::size_t i = 0; i < batch.size() && !stop; ++i) {
+    const BatchStudy& one = batch[i];
+    const bool finished = is_finished(one);
+    note("%zu of %zu: %s%s\n", i + 1, batch.size(), one.name.c_str(), finished ? ": finished before" : "");
+    if (finished) continue;
+    if (auto faults = calibrate_one(one, options, stop); !faults.empty()) return faults;
+    const BatchRow row = row_of(one);
+    print("%s: %s%s%s\n", one.name.c_str(), row.verdict.c_str(), row.reasons.empty() ? "" : ": ", row.reasons.c_str());
+    std::fflush(stdout);
+  }
+  return {};
+}
+
+int run_on_this_machine(const std::vector<BatchStudy>& batch, const BatchArguments& options) {
+  const std::atomic<bool>& stop = listen_for_stop();
+  if (!options.table)
+    if (const auto faults = calibrate_all(batch, options, stop); !faults.empty()) return report(faults, kFailed);
+  std::vector<BatchRow> rows;
+  for (const BatchStudy& one : batch) rows.push_back(row_of(one));
+  if (!options.no_table)
+    if (const auto faults = write_table(rows, options.out); !faults.empty()) return report(faults, kFailed);
+  if (stop) std::fprintf(stderr, "pastefit: interrupted; the same command goes on\n");
+  const auto confirmed = std::ranges::count(rows, "confirmed", &BatchRow::verdict);
+  if (!options.no_table) print("%td of %zu studies are confirmed\n", confirmed, rows.size());
+  return options.table || confirmed == std::ssize(rows) ? kDone : kFailed;
+}
+
+/// Writes the scripts, and says how they are submitted.
+int write_jobs(const BatchArguments& options) {
+  std::error_code error;
+  ArrayJob job{fs::read_symlink("/proc/self/exe", error), fs::current_path(error), options.out, options.studies,
+               options.workers > 0 ? options.workers : kElementWorkers};
+  const fs::path out = options.out, array = out / kArrayScript, table = out / kTableScript;
+  fs::create_directories(out, error);
+  auto faults = write_atomically(array, array_job_script(job));
+  if (faults.empty()) faults = write_atomically(table, table_job_script(job));
+  if (!faults.empty()) return report(faults, kFailed);
+  note("wrote %s\nwrote %s\n", array.c_str(), table.c_str());
+  const std::string submit = "sbatch --dependency=afterany:$(sbatch --parsable " + shell_word(array.string()) + ") " +
+                             shell_word(table.string());
+  note("To run the %zu studies, %d cores each, and then make the table:\n", job.studies.size(), job.workers);
+  print("%s\n", submit.c_str());
+  return kDone;
+}
+
+int run_batch(const BatchArguments& options) {
+  auto batch = read_batch(options.studies, options.out);
+  Faults faults = batch.ok() ? unfit_studies(batch.value(), options) : batch.faults();
+  for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
+  if (!faults.empty()) return report(faults);
+  return options.slurm ? write_jobs(options) : run_on_this_machine(batch.value(), options);
+}
+
+}  // namespace
+
+Command add_batch(CLI::App& verb) {
+  const auto options = std::make_shared<BatchArguments>();
+  verb.add_option("STUDIES", options->studies, "study files")->required();
+  verb.add_option("--out", options->out,
+                  "folder for " + kBatchTable + ", " + kBatchPage + " and a folder of each study")
+      ->required()
+      ->type_name("DIR");
+  verb.add_option(
+          "--workers", options->workers,
+          "simulations at the same time; default: one for each processor. With --slurm the cores of an element; "
+          "default: " +
+              std::to_string(kElementWorkers))
+      ->type_name("N")
+      ->check(whole_number(1, 100'000));
+  auto* slurm =
+      verb.add_flag("--slurm", options->slurm, "simulate nothing, write an array job of Slurm: " + kArrayScript);
+  auto* table = verb.add_flag("--table", options->table, "simulate nothing, make the table of what is there");
+  table->excludes(slurm);
+  verb.add_flag("--no-table", options->no_table, "make no table, as an element of an array")
+      ->excludes(table)
+      ->excludes(slurm);
+  verb.add_flag("--force", options->force, "compute for more than a day a study");
+  return [options] { return run_batch(*options); };
+}
+
+}  // namespace pastefit

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace pastefit {
+
+/// How a child process ended.
+struct ChildEnd {
+  int status = 0;      ///< exit status
+  int signal = 0;      ///< that killed it; 0: none
+  std::string output;  ///< what it wrote to standard output
+};
+
+/// Runs this program again with these arguments, as a process of its own, and waits for its end. Its standard error is
+/// that of this process. Once `stop` is true it is asked to end, and waited for; it does not outlive this process.
+/// Throws std::system_error if no process can be started.
+ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+}  // namespace pastefit
