@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calibrate/search/early_end.h"
+#include "calibrate/search/low_fidelity.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
@@ -161,6 +162,8 @@ std::string changed_places(const Store& store) {
 
 Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
   if (store.size() == 0 || holding(study, store) > 0) return {};
+  // A search that was stopped early may have looked with coarse grains only.
+  if (study.search.coarse_first && holding(with_coarse_grains(study), store) > 0) return {};
   return {{file,
            "none of its " + std::to_string(store.size()) +
                " evaluations is of a test of this study; changed: " + changed_places(store),

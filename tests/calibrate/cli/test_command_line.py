@@ -152,6 +152,12 @@ class CommandLine(Desk):
         self.assertTrue(all(packing < 1 << 40 for packing in card["confirmation"]["packings"]))
         resumed = self.calibrates(study, "--resume")
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
+        # As of a search that was stopped while it had looked with coarse grains only.
+        with contextlib.closing(sqlite3.connect(self.out / "evaluations.sqlite")) as store:
+            store.execute("DELETE FROM evaluations WHERE CAST(packing AS INTEGER) < 1 << 40")
+            store.commit()
+        self.calibrates(study, "--resume")
+        self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
 
         lab = json.loads((self.folder / "lab.json").read_text())
         lab["grains"] = {"distribution": "mono", "radius_mm": 15}  # half as large again, two would fill the mould's mouth
