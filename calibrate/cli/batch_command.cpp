@@ -99,14 +99,19 @@ Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const
   std::error_code error;
   fs::remove(one.folder / kFailureFile, error);
   ChildEnd end;
-  for (int deaths = 0; deaths < kMostDeaths; ++deaths) {
-    end = run_this_program(words, stop);
-    if (end.signal == 0 || stop) break;
-    note("pastefit: %s: the process was killed by signal %d\n", one.name.c_str(), end.signal);
+  try {
+    for (int deaths = 0; deaths < kMostDeaths; ++deaths) {
+      end = run_this_program(words, stop);
+      if (end.signal == 0 || stop) break;
+      note("pastefit: %s: the process was killed by signal %d\n", one.name.c_str(), end.signal);
+    }
+  } catch (const std::system_error& failed) {
+    return write_failure(one, {"failed", std::string("no process could be started: ") + failed.what()});
   }
   if (end.signal != 0 && stop) return {};  // it goes on where it was
-  const auto failure = failure_after(one, end);
-  return failure ? write_failure(one, *failure) : Faults{};
+  if (const auto failure = failure_after(one, end)) return write_failure(one, *failure);
+  fs::remove(one.folder / kFailureFile, error);  // of another batch that met this one at work
+  return {};
 }
 
 /// Calibrates what is not finished, one after the other.
@@ -152,7 +157,7 @@ int write_jobs(const BatchArguments& options) {
   note("wrote %s\nwrote %s\n", array.c_str(), table.c_str());
   const std::string submit = "sbatch --dependency=afterany:$(sbatch --parsable " + shell_word(array.string()) + ") " +
                              shell_word(table.string());
-  note("To run the %zu studies, %d cores each, and then make the table:\n", job.studies.size(), job.workers);
+  note("to run them, %d cores each, and then make the table:\n", job.workers);
   print("%s\n", submit.c_str());
   return kDone;
 }
