@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/card/card_format.h"
 #include "calibrate/card/material_json.h"
@@ -177,6 +178,16 @@ MisfitUnit misfit_unit_of(const Card& card) {
   return misfit_unit_of(fitted);
 }
 
+std::string interpolation_in_words(const Interpolation& interpolation) {
+  return "Interpolated, not confirmed: " + interpolation.variable + " " + shown(interpolation.value) + ", " +
+         (interpolation.model == "linear" ? "linear" : "Gaussian process") + " between " +
+         std::to_string(interpolation.studies.size()) + " materials";
+}
+
+std::string title_of(const Card& card) {
+  return (card.interpolated ? interpolation_in_words(*card.interpolated) + ": " : "") + card.title;
+}
+
 ordered_json to_json(const Card& card) {
   ordered_json out;
   out["format"] = "pastefit-card-" + std::to_string(kCardVersion);
@@ -204,6 +215,9 @@ ordered_json to_json(const Card& card) {
   add_inference(out, card.inference);
   for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));
   for (const auto& step : card.rescaled) out["rescaled"].push_back(rescaling_to_json(step));
+  if (const auto& one = card.interpolated)
+    out["interpolated"] = {
+        {"variable", one->variable}, {"value", one->value}, {"model", one->model}, {"studies", one->studies}};
   return out;
 }
 

@@ -155,6 +155,17 @@ struct Rescaling {
   std::vector<Bias> bias;  ///< empty: not measured
 };
 
+/// A material that was interpolated between calibrated ones, and fitted to no reading of its own.
+struct Interpolation {
+  std::string variable;  ///< of the laboratory files, e.g. "mix.water_kg_m3"
+  double value = 0;
+  std::string model;                 ///< "linear" or "gaussian_process"
+  std::vector<std::string> studies;  ///< whose materials it lies between
+};
+
+/// "Interpolated, not confirmed: mix.water_kg_m3 195, linear between 5 materials", for people.
+std::string interpolation_in_words(const Interpolation& interpolation);
+
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
 /// comes from. File format "pastefit-card-5", `data/schema/card.schema.json`.
 struct Card {
@@ -167,7 +178,11 @@ struct Card {
   CardInference inference;
   std::vector<Rebaseline> rebaselined;  ///< oldest first
   std::vector<Rescaling> rescaled;      ///< oldest first
+  std::optional<Interpolation> interpolated;
 };
+
+/// The card's title, which begins with what an interpolated one is.
+std::string title_of(const Card& card);
 
 /// In which people are told the card's misfit.
 MisfitUnit misfit_unit_of(const Card& card);
@@ -176,8 +191,8 @@ MisfitUnit misfit_unit_of(const Card& card);
 /// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
 /// Derived on writing and not read back: difference = simulated - measured, `standard_error`, `conditions` of each test
 /// (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`,
-/// `correlation`, `not_identified`, `unstated_conditions`, `rebaselined` and `rescaled` are written when there is
-/// something in them, `packings` of a reading when a laboratory would reject some of the confirmation's.
+/// `correlation`, `not_identified`, `unstated_conditions`, `rebaselined`, `rescaled` and `interpolated` are written
+/// when there is something in them, `packings` of a reading when a laboratory would reject some of the confirmation's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

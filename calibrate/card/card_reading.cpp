@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -313,6 +314,20 @@ void read_rescaling(ObjectReader& reader, const json& document, Rescaling& step)
   });
 }
 
+void read_interpolation(ObjectReader& card, std::optional<Interpolation>& interpolated) {
+  if (!card.has("interpolated")) return card.known("interpolated");
+  card.object("interpolated", kOptional, [&](ObjectReader& reader) {
+    Interpolation& one = interpolated.emplace();
+    reader.text("variable", one.variable, kRequired);
+    reader.number("value", one.value, kAny, kRequired);
+    static constexpr std::array<Named<std::string_view>, 2> models{
+        {{"linear", "linear"}, {"gaussian_process", "gaussian_process"}}};
+    std::string_view model;
+    if (reader.choice("model", model, models, kRequired)) one.model = model;
+    reader.texts("studies", one.studies, kRequired);
+  });
+}
+
 }  // namespace
 
 Result<Card> card_from_json(const json& document) {
@@ -342,6 +357,7 @@ Result<Card> card_from_json(const json& document) {
     read_inference(reader, document, card.inference);
     read_list(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, document, "rescaled", card.rescaled, read_rescaling);
+    read_interpolation(reader, card.interpolated);
   }
   for (CardTest& test : card.tests)
     for (CardObservable& observable : test.observables)

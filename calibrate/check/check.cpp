@@ -192,7 +192,7 @@ int simulations_to_check_against(const Card& card, const CheckOptions& options) 
 
 CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
   CardCheck out;
-  out.card = card.title;
+  out.card = title_of(card);
   out.false_alarm = options.false_alarm;
   out.same_program = std::ranges::all_of(card.tests, [&](const CardTest& test) {
     return test.baseline.program == engine.program && test.baseline.machine == engine.machine;
@@ -239,7 +239,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
 
 CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& options, const CheckEngine& engine) {
   CardCheck out;
-  out.card = card.title;
+  out.card = title_of(card);
   out.false_alarm = options.false_alarm;
   Test test = with_material_of(card, lab.test);
   if (const auto faults = validate(test); !faults.empty()) {

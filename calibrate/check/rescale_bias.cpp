@@ -86,7 +86,7 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
   confirmation.fresh = true;
   const Misfit misfit = misfit_of(after);
   confirmation.misfit = misfit.difference;
-  confirmation.meets_laboratory = verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
+  confirmation.meets_laboratory = !after.interpolated && verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
   return after;
 }
 

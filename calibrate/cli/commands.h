@@ -21,6 +21,7 @@ Command add_check(CLI::App& verb);
 Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);
 Command add_infer(CLI::App& verb);
+Command add_interpolate(CLI::App& verb);
 Command add_new(CLI::App& verb);
 Command add_read(CLI::App& verb);
 Command add_report(CLI::App& verb);

@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
       {"new", "write a laboratory file and a study from what a measuring sheet says", add_new},
       {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
       {"batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch},
+      {"interpolate", "write the card of a mix between those of a batch, not confirmed", add_interpolate},
       {"infer", "say what a calibration's stored simulations tell of the parameters, without simulating", add_infer},
       {"compare-optimisers", "run all search strategies on one study with the same budget", add_compare_optimisers},
       {"simulate", "run the test of a study, card, laboratory, apparatus or impact file once", add_simulate},

@@ -49,7 +49,7 @@ Result<Exporter> exporter_named(const std::string& name) {
 }
 
 std::string title_of(const Card& card, const CardTest& test) {
-  return card.title + (test.name.empty() ? "" : ", test " + test.name);
+  return title_of(card) + (test.name.empty() ? "" : ", test " + test.name);
 }
 
 Result<CardTest> test_to_export(const Card& card, const std::string& name) {

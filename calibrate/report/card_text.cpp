@@ -31,8 +31,10 @@ std::string conditions_lines(const Card& card) {
   for (const auto& test : card.tests) {
     const auto& grains = specimen_of(test.test).grains;
     const bool mono = grains.distribution == SizeDistribution::mono;
-    out += (test.hold_out ? "Predicted in" : "Fitted in") + (test.name.empty() ? "" : " test " + test.name) + "\n" +
-           conditions_in_words(test.test);
+    out += (card.interpolated ? "For"
+            : test.hold_out   ? "Predicted in"
+                              : "Fitted in") +
+           (test.name.empty() ? "" : " test " + test.name) + "\n" + conditions_in_words(test.test);
     out += mono ? format("  grains                   radius %g mm\n", 1e3 * grains.radius_m)
                 : format("  grains                   radius %g to %g mm\n", 1e3 * grains.smallest_m,
                          1e3 * grains.largest_m);

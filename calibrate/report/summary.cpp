@@ -134,12 +134,16 @@ std::string reservation_lines(const Card& card) {
 }  // namespace
 
 std::string verdict_of(const Card& card) {
+  if (card.interpolated)
+    return interpolation_in_words(*card.interpolated) +
+           ". No reading of this mix was met: measure it, and hold the card against it (pastefit check --against).";
   return verdict_on_fitted(card) + unfitted_words(card);
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = one_line(card.title) + "\n\n" + type_in_lines(card) + "\n" + parameter_lines(card) + "\n" +
                     reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
+  if (card.interpolated) return wrapped(lines_of(out) + one_line(verdict_of(card)) + "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);
   if (card.search.failures.empty()) out += ", none failed";
