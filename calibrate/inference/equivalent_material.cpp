@@ -46,7 +46,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
                                           int count) {
   const TrainingData& evidence = model.training_data();
   const auto error = [&](std::size_t k, const UnitPoint& point) {
-    const ReadingEvidence& reading = evidence.readings[k];
+    const ReadingTrainingData& reading = evidence.readings[k];
     return std::abs(model.predict(k, point).mean - *reading.measured) / reading.deviation;
   };
   const double as_well = std::max(1.0, model.normalised_error(recommended));  // priors included

@@ -21,7 +21,7 @@ bool measurable(const std::string& name) {
 
 /// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.
 bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recommended) {
-  const ReadingEvidence& evidence = model.training_data().readings[reading];
+  const ReadingTrainingData& evidence = model.training_data().readings[reading];
   if (!evidence.measured) return true;
   const auto prediction = model.predict(reading, recommended);
   return std::abs(prediction.mean - *evidence.measured) <=
@@ -33,7 +33,7 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
 /// (var m + error)), m the mean reading of a member.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
                         const Moments& moments, std::size_t lead, int repeats, double typical_deviation) {
-  const ReadingEvidence& evidence = model.training_data().readings[reading];
+  const ReadingTrainingData& evidence = model.training_data().readings[reading];
   MeasurementGain gain;
   gain.reading = evidence.name;
   gain.measurements = repeats;
@@ -68,7 +68,7 @@ MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const s
 std::vector<MeasurementGain> measurement_gains(const ResponseModel& model, const std::vector<UnitPoint>& sample,
                                                const Moments& moments, const UnitPoint& recommended, std::size_t lead,
                                                int repeats) {
-  const std::vector<ReadingEvidence>& readings = model.training_data().readings;
+  const std::vector<ReadingTrainingData>& readings = model.training_data().readings;
   double typical_deviation = std::numeric_limits<double>::infinity();
   for (const std::size_t k : model.fitted()) typical_deviation = std::min(typical_deviation, readings[k].deviation);
   std::vector<MeasurementGain> gains;

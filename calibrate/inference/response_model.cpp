@@ -32,7 +32,7 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
   if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
   const auto [places, sites] = sites_of(evidence_.points);
   for (std::size_t k = 0; k < evidence_.readings.size(); ++k) {
-    const ReadingEvidence& reading = evidence_.readings[k];
+    const ReadingTrainingData& reading = evidence_.readings[k];
     std::vector<ReadingModel::Answer> answers;
     for (std::size_t i = 0; i < sites.size(); ++i)
       if (const double value = reading.simulated[static_cast<Eigen::Index>(i)]; !std::isnan(value))
@@ -64,7 +64,7 @@ void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {
       if (sites[i] != site) continue;
       Eigen::VectorXd heap(count);
       for (Eigen::Index k = 0; k < count; ++k) {
-        const ReadingEvidence& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
+        const ReadingTrainingData& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
         heap[k] = reading.bound(i) ? std::nan("") : reading.simulated[static_cast<Eigen::Index>(i)];
       }
       if (heap.array().isNaN().any()) continue;
@@ -116,7 +116,7 @@ void ResponseModel::take_conditions() {
   for (const ConditionEffect& condition : evidence_.conditions) {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const ReadingEvidence& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
+      const ReadingTrainingData& reading = evidence_.readings[fitted_[static_cast<std::size_t>(k)]];
       for (const ConditionEffect::Reading& one : condition.readings)
         if (one.name == reading.name) moved[k] = (one.at_upper - one.at_lower) / std::sqrt(reading.weight);
     }
@@ -170,13 +170,13 @@ Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingMod
   Eigen::MatrixXd out(count, count);
   std::vector<double> of_heap;  // part of the laboratory's deviation that is the heap's
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
-    const ReadingEvidence& first = evidence_.readings[fitted_[j]];
+    const ReadingTrainingData& first = evidence_.readings[fitted_[j]];
     const auto row = static_cast<Eigen::Index>(j);
     out(row, row) = first.variance();
     of_heap.push_back(std::min(models_[fitted_[j]].noise_at(predictions[j].mean), first.widening * first.deviation) /
                       std::sqrt(first.weight));
     for (std::size_t k = 0; k < j; ++k) {
-      const ReadingEvidence& second = evidence_.readings[fitted_[k]];
+      const ReadingTrainingData& second = evidence_.readings[fitted_[k]];
       const auto column = static_cast<Eigen::Index>(k);
       out(row, column) = out(column, row) =
           correlation_(row, column) * of_heap[j] * of_heap[k] / std::max(first.repeats, second.repeats);
@@ -204,7 +204,7 @@ Eigen::MatrixXd ResponseModel::predictive_variance(const std::vector<ReadingMode
 double ResponseModel::normalised_error(const UnitPoint& point) const {
   double squares = 0;
   for (const std::size_t k : fitted_) {
-    const ReadingEvidence& reading = evidence_.readings[k];
+    const ReadingTrainingData& reading = evidence_.readings[k];
     squares += reading.weight * std::pow((models_[k].predict(point).mean - *reading.measured) / reading.deviation, 2);
   }
   return std::sqrt(squares + distance_from_priors(evidence_, point));

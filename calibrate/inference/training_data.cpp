@@ -56,7 +56,7 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
   const bool some_accepted = std::ranges::find(evidence.rejected, false) != evidence.rejected.end();
   const auto readings = [](const StoredEvaluation* one) { return one->observables.all().size(); };
   for (const Observable& reading : (*std::ranges::max_element(good, {}, readings))->observables.all()) {
-    ReadingEvidence one;
+    ReadingTrainingData one;
     one.name = reading.name;
     one.test = test_of(study, reading.name);
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));

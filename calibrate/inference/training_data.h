@@ -13,7 +13,7 @@
 namespace pastefit {
 
 /// One reading as the laboratory took it, and as the simulations answered it.
-struct ReadingEvidence {
+struct ReadingTrainingData {
   std::string name;
   std::size_t test = 0;            ///< of the study
   std::optional<double> measured;  ///< mean of the laboratory's repeats; empty: not measured
@@ -36,7 +36,7 @@ struct TrainingData {
   std::vector<UnitPoint> points;      ///< of the simulations that ended well; one
                                       ///< for each simulated value
   std::vector<UnitPoint> failed;      ///< of those that did not
-  std::vector<ReadingEvidence> readings;
+  std::vector<ReadingTrainingData> readings;
   std::vector<bool> rejected;  ///< by a laboratory, e.g. a heap that sheared off; one for each point; empty: not judged
   int accepted_heaps = 0;      ///< of the laboratory: those that it reports, which it would not if it rejected them
   std::vector<ConditionEffect> conditions;  ///< of which the laboratory says nothing

@@ -126,7 +126,7 @@ bool AskedSearch::finished() {
 
 /// Measured against simulated, as a card has it.
 static ordered_json readings_json(const Scoring& scoring, const Response& shown,
-                                  const std::vector<ReadingEvidence>& evidence) {
+                                  const std::vector<ReadingTrainingData>& evidence) {
   ordered_json out = ordered_json::array();
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     const double simulated = shown.observables[static_cast<Eigen::Index>(i)];

@@ -101,7 +101,7 @@ TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
     }
   for (std::size_t k = 0; k < problem_.readings.size(); ++k) {
     const StudyReading& reading = problem_.readings[k];
-    ReadingEvidence one;
+    ReadingTrainingData one;
     one.name = reading.name;
     one.measured = reading.measurement.value;
     one.deviation = reading.measurement.standard_deviation;

@@ -12,10 +12,10 @@ namespace pastefit {
 /// Radius of the coarse grains over that of the study. A simulation costs about the fourth power of it: a fifth.
 inline constexpr double coarse_radius_ratio = 1.5;
 
-/// First packing seed of the coarse rung: its simulations can lie in one store with those of the study.
+/// First packing seed of coarse grains: its simulations can lie in one store with those of the study.
 inline constexpr std::uint64_t coarse_packings = 1ULL << 40;
 
-/// The packings of the coarse rung: the same for every candidate.
+/// The packings of coarse grains: the same for every candidate.
 std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count);
 
 /// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
@@ -24,10 +24,10 @@ Study with_coarse_grains(Study study);
 
 /// What coarse simulations say of fine ones: each feasible one, its residuals moved by the bias between the rungs,
 ///     bias = mean over the feasible fine simulations of (their residuals - coarse surrogate at their point),
-/// one for each reading. The search tries every candidate on the coarse rung before it does on the fine one, so the
-/// surrogate is read where it knows. 0 as long as there is no fine simulation. Limits: one bias for all candidates; the
-/// fine simulations gather about the target, so it is the bias there. Requirements: `coarse` and `fine` are simulations
-/// on one packing each, with residuals of the same weights.
+/// one for each reading. The search tries every candidate with coarse grains before it does with the study's own, so
+/// the surrogate is read where it knows. 0 as long as there is no fine simulation. Limits: one bias for all candidates;
+/// the fine simulations gather about the target, so it is the bias there. Requirements: `coarse` and `fine` are
+/// simulations on one packing each, with residuals of the same weights.
 std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine);
 
 }  // namespace pastefit

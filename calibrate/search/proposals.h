@@ -21,7 +21,7 @@ inline constexpr double same_point = 0.01;
 /// come (Snoek, Larochelle & Adams 2012, section 3.2, with one draw; the noise of the packings is left out, because it
 /// would scatter the proposals).
 ///
-/// With a coarse rung each proposal is the first such point that has been tried there and is still as good as any, as
+/// With coarse grains each proposal is the first such point that has been tried there and is still as good as any, as
 /// far as the noise lets tell.
 ///
 /// Requirement: what the constructor is given outlives the object.

@@ -88,7 +88,7 @@ double highest_point(const Particles& particles) {
   return top;
 }
 
-std::vector<double> posture_of_heap(const Particles& particles) {
+std::vector<double> rest_measure_of_heap(const Particles& particles) {
   const double n = std::max(particles.count(), 1);
   double height = 0, distance = 0;
   for (std::int32_t i = 0; i < particles.count(); ++i) {

@@ -36,7 +36,7 @@ double highest_point(const Particles& particles);
 
 /// What stays where it is once a heap rests [m]: its highest point, the mean height of its grains, and their mean
 /// distance from the axis.
-std::vector<double> posture_of_heap(const Particles& particles);
+std::vector<double> rest_measure_of_heap(const Particles& particles);
 
 /// Where a flat-ended probe of this diameter is let down on a heap [m].
 struct Disc {

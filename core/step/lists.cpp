@@ -33,7 +33,7 @@ Deepest Lists::update(double dt, double wall_way, double wall_speed) {
   if (relisted) {
     const Timed timed(clock_, StageClock::list);
     list_candidates();
-    give_leeway(duration);
+    give_displacement_bounds(duration);
   }
   if (walls_due || relisted) {
     const double radius = world_.reference_radius;
@@ -68,7 +68,7 @@ void Lists::check_state() const {
 bool Lists::goes_on(double duration) {
   const Timed timed(clock_, StageClock::choice);
   take_along();
-  return give_leeway(duration);
+  return give_displacement_bounds(duration);
 }
 
 /// Blocks that would stray soon are chosen for together with those that have: every one of them costs its neighbour
@@ -101,7 +101,7 @@ void Lists::list_candidates() {
   valid_ = true;
 }
 
-bool Lists::give_leeway(double duration) {
+bool Lists::give_displacement_bounds(double duration) {
   const Pairs& pairs = world_.pairs;
   const std::vector<Motion>& motion = world_.particles.motion;
   const double least = kSmallestBound * world_.reference_radius, most = kLargestBound * world_.reference_radius;

@@ -49,7 +49,7 @@ class Lists {
   void take_along();
   void list_candidates();
   /// Gives the grains of the exceeded blocks a new displacement bound; false if one has too little of its skin left.
-  bool give_leeway(double duration);
+  bool give_displacement_bounds(double duration);
   Deepest select_pairs();
   void note_ways();
   void select_at_walls(bool everywhere);

@@ -27,7 +27,7 @@ double largest_change(const std::vector<double>& before, const std::vector<doubl
 // step closes to a thousandth, all over the admissible box to half a hundredth; an unstable step creates many times
 // what was put in.
 constexpr double kEnergyTolerance = 0.02;
-constexpr std::int64_t kStepsPerAudit = 8 * Stepper::kLedgerInterval;
+constexpr std::int64_t kStepsPerAudit = 8 * Stepper::kBalanceInterval;
 
 // Readings of a specimen that still changes by more than this in one window mean nothing.
 constexpr double kStillFlowing = 0.1;  // of the mean radius
@@ -76,7 +76,7 @@ void Runner::check_progress(double longest_s, double cap_s) const {
 }
 
 template <class Body>
-std::optional<Failure> Runner::journaled(const Body& wait) {
+std::optional<Failure> Runner::resumable(const Body& wait) {
   RunCheckpoint* const checkpoint = options_.checkpoint.get();
   if (!checkpoint) return wait(false);
   if (const RunCheckpoint::Wait* ended = checkpoint->next_ended()) {
@@ -132,7 +132,7 @@ std::optional<Failure> Runner::show(std::string_view phase) {
 }
 
 std::optional<Failure> Runner::run(const Phase& phase, double duration_s) {
-  return journaled([&](bool midway) {
+  return resumable([&](bool midway) {
     if (midway)
       check_progress(duration_s, 0);
     else
@@ -223,12 +223,12 @@ Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway
 
 std::optional<Failure> Runner::run_until_rest(const Phase& phase, double longest_s,
                                               const std::function<bool(const World&)>& free) {
-  return journaled([&](bool midway) { return wait_for_rest(phase, longest_s, midway, free).failure; });
+  return resumable([&](bool midway) { return wait_for_rest(phase, longest_s, midway, free).failure; });
 }
 
 std::optional<Failure> Runner::settle(const Phase& phase, double cap_s, double moved_s) {
   if (options_.fixed_wait_s) return run(phase, moved_s + *options_.fixed_wait_s);
-  return journaled([&](bool midway) { return settle_now(phase, moved_s + cap_s, midway); });
+  return resumable([&](bool midway) { return settle_now(phase, moved_s + cap_s, midway); });
 }
 
 std::optional<Failure> Runner::settle_now(const Phase& phase, double cap_s, bool midway) {

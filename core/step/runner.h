@@ -93,7 +93,7 @@ class Runner {
   /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before
   /// that (`RunCheckpoint`).
   template <class Body>
-  std::optional<Failure> journaled(const Body& wait);
+  std::optional<Failure> resumable(const Body& wait);
   RunCheckpoint::Wait state();
   void recall(const RunCheckpoint::Wait& left);
   void check_progress(double longest_s, double cap_s) const;

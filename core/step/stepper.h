@@ -37,11 +37,11 @@ class Stepper {
   double time_step() const { return dt_; }
   /// The smallest step the scene has asked for so far [s]: what a fixed step should have been.
   double smallest_advised_step() const { return time_step_.smallest(); }
-  /// As of the last step that was a multiple of `kLedgerInterval`.
+  /// As of the last step that was a multiple of `kBalanceInterval`.
   const EnergyBalance& energy_balance() const { return energy_balance_; }
   /// The run goes on from where another one ended, whose energy balance this is.
   void follow(const EnergyBalance& before);
-  static constexpr std::int64_t kLedgerInterval = 32;
+  static constexpr std::int64_t kBalanceInterval = 32;
   /// For `RunCheckpoint`: all but the world. The rest is scratch, or follows from the test.
   template <class Archive>
   void serialize(Archive& archive) {
@@ -74,7 +74,7 @@ class Stepper {
   double held_by(std::size_t wall);
   void move_block(int block, double dt);
   void note_moved();
-  bool looks_at_energy() const { return options_.energy_balance && world_.step % kLedgerInterval == 0; }
+  bool looks_at_energy() const { return options_.energy_balance && world_.step % kBalanceInterval == 0; }
   void look_at_energy(double dt);
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 

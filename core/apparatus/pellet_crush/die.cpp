@@ -39,7 +39,7 @@ FilledVessel fill_die(const PelletCrush& test, const RunOptions& options) {
       test, {test.fill_height_m, test.pour_speed_m_s},
       pour(test.grains, test.packing_seed, poured_volume_m3(filled_volume_m3(test)), radius,
            [&](double) { return radius; }),
-      [&](const LooseGrains& grains) { return empty_die(test, grains); }, posture_of_heap, options);
+      [&](const LooseGrains& grains) { return empty_die(test, grains); }, rest_measure_of_heap, options);
   const double fraction = filled.grains.solid_volume_m3 / filled_volume_m3(test);
   if (!filled.failure && fraction < kEmptiest) filled.failure = bridged(filled, fraction, kEmptiest);
   return filled;

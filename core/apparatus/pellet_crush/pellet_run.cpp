@@ -24,7 +24,10 @@ constexpr std::size_t kPunch = 1;
 class Pressing {
  public:
   Pressing(const PelletCrush& test, const FilledVessel& filled, const RunOptions& options)
-      : test_(test), options_(options), world_(filled_world(test, filled)), runner_(world_, options, posture_of_heap) {
+      : test_(test),
+        options_(options),
+        world_(filled_world(test, filled)),
+        runner_(world_, options, rest_measure_of_heap) {
     runner_.follow(filled.fall);
     runner_.remember([this] { return summed_ >= 0 && is_finite(curve_); }, sum_, summed_, curve_);
   }

@@ -55,7 +55,7 @@ Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptio
   options.steps.fixed_step_s.reset();    // meant for the test
   World world = world_in_mould(test, packing);
   world.drag = kDrag;
-  Runner runner(world, options, posture_of_heap);
+  Runner runner(world, options, rest_measure_of_heap);
   Packing full = packing;
   const Mould& mould = test.mould;
   const double width = mould.base_radius_m + mould.top_radius_m;

@@ -121,10 +121,10 @@ double sinking_speed(const World& world) {
 }
 
 /// What is no higher and no wider than before is at rest, though a single grain may still roll about on top.
-std::vector<double> posture_of_fill(const Particles& grains) {
-  auto posture = posture_of_heap(grains);
-  posture.erase(posture.begin());  // the highest point
-  return posture;
+std::vector<double> rest_measure_of_fill(const Particles& grains) {
+  auto lengths = rest_measure_of_heap(grains);
+  lengths.erase(lengths.begin());  // the highest point
+  return lengths;
 }
 
 /// Small grains at random places grow to their size where they are, until they fill mould and hopper loosely. They lie
@@ -153,7 +153,7 @@ void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing
   packing.centres =
       random_addition(test.mould, small, kLoosest * kStartSize * kStartSize * kStartSize, test.packing_seed);
   World world = filling_world(test, options, packing, highest(packing));
-  Runner runner(world, options, posture_of_fill);
+  Runner runner(world, options, rest_measure_of_fill);
   packing.failure = grow(test, world, runner);
   world.drag = kGravity / sinking_speed(world);
   if (!packing.failure) packing.failure = runner.settle({"fill.sink"}, kFillCap);
@@ -176,7 +176,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   const double top = std::max(highest(packing), rim);
   World world = filling_world(test, options, packing, top);
   world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
-  Runner runner(world, options, posture_of_heap);
+  Runner runner(world, options, rest_measure_of_heap);
   world.walls.back().velocity = {0, 0, -kLidSpeed};
   packing.failure = runner.run({"fill.strike"}, (top - rim) / kLidSpeed);
   if (!packing.failure) {

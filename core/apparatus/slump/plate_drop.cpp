@@ -19,7 +19,10 @@ constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 class Drop {
  public:
   Drop(const SlumpTest& test, World world, const EnergyBalance& before, const RunOptions& options)
-      : test_(test), world_(std::move(world)), runner_(world_, options, posture_of_heap), table_(world_.walls[kTable]) {
+      : test_(test),
+        world_(std::move(world)),
+        runner_(world_, options, rest_measure_of_heap),
+        table_(world_.walls[kTable]) {
     runner_.follow(before);
     runner_.remember([] { return true; }, stopped_);
   }

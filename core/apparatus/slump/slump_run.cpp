@@ -24,7 +24,7 @@ class MouldLift {
       : test_(test),
         options_(options),
         world_(world_in_mould(test, filled)),
-        runner_(world_, options, posture_of_heap),
+        runner_(world_, options, rest_measure_of_heap),
         ruler_(test, filled.roughness_m, world_.particles) {
     if (options_.cutoff)
       lost_below_ = 1e-3 * options_.cutoff->lowest - ruler_.above_highest_m() - kRebound * test_.grains.radius_m;

@@ -57,7 +57,7 @@ class CommandLine(Desk):
         text = both.read_text()
         self.assertLess(text.index("particle-steps a second"), text.index("wrote "), text)
 
-    def test_simulate_takes_impacts_which_have_no_ledger(self):
+    def test_simulate_takes_impacts_which_have_no_energy_balance(self):
         taken = 0
         for case in sorted((SOURCE / "tests/cases").glob("*.json")):
             document = json.loads(case.read_text())

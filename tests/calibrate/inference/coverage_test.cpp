@@ -62,7 +62,7 @@ MadeUpStudy made_up(std::uint64_t seed, bool with_spread) {
     measured.spread += (heap.spread + tape * normal(seed, 20 + k)) / repeats;
   }
   const double noise = noise_of_height(study.truth);
-  ReadingEvidence height, spread;
+  ReadingTrainingData height, spread;
   height.name = "step1.height_mm";
   height.measured = measured.height;
   height.deviation = std::hypot(noise, ruler);

@@ -33,7 +33,7 @@ TrainingData evidence_for(const std::vector<Law>& laws, int simulations = 40, do
   evidence.points = screening_points(2, simulations, 1);
   for (UnitPoint& point : evidence.points) point[1] *= most_of_second;
   for (const Law& law : laws) {
-    ReadingEvidence reading;
+    ReadingTrainingData reading;
     reading.name = law.name;
     reading.measured = law.measured;
     reading.deviation = law.deviation;
@@ -246,7 +246,7 @@ TEST_CASE("the same evidence gives the same inference") {
 TEST_CASE("a simulation that ended early says that it read less, not that it read its bound") {
   const TrainingData whole = evidence_for({first_alone});
   TrainingData cut = whole;
-  ReadingEvidence& height = cut.readings[0];
+  ReadingTrainingData& height = cut.readings[0];
   constexpr double cutoff = 38;
   for (double& value : height.simulated) {
     height.is_bound.push_back(value <= cutoff);

@@ -223,7 +223,7 @@ TEST_CASE("a search that ends candidates early, killed and resumed, brings the s
   CHECK(undisturbed.ended > 4);
   CHECK_FALSE(first.best.censored);
   CHECK_FALSE(first.confirmation.censored);
-  for (const ReadingEvidence& reading : evidence.readings) {
+  for (const ReadingTrainingData& reading : evidence.readings) {
     if (reading.name == "step2.height_mm") CHECK(reading.simulated.array().isNaN().any());
     if (reading.name != "step1.height_mm") continue;
     const double lowest = cutoff_of(undisturbed.study, 0)->lowest;
