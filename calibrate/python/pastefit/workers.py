@@ -28,7 +28,8 @@ class Workers:
 
     executor: whatever has `submit` and gives futures (concurrent.futures, mpi4py.futures, Dask's client). A process pool
     breaks as a whole when a process dies, and every call in it with it; then the pool is made anew, and each of these
-    calls is repeated in a process of its own, so that only the one that kills its process is found guilty.
+    calls is repeated in a process of its own, so that only the one that kills its process is found guilty. A scheduler
+    of Dask repeats a call whose worker died by itself, as often as its `allowed-failures` say.
     """
 
     def __init__(self, executor: Any) -> None:
@@ -38,6 +39,8 @@ class Workers:
     @property
     def count(self) -> int:
         """Calls that are worth having under way."""
+        if callable(getattr(self._given, "ncores", None)):  # a client of Dask
+            return max(1, sum(self._given.ncores().values()))
         return getattr(self._given, "_max_workers", None) or processors()
 
     def call(self, function: Callable[..., Any], *arguments: Any, goes_on: Callable[[], bool] = _always) -> Any:
@@ -50,6 +53,10 @@ class Workers:
             return _wait(_submit(executor, function, *arguments), goes_on)
         except futures.BrokenExecutor:
             self._renew(executor)
+        except Exception as error:
+            if type(error).__name__ != "KilledWorker":  # of Dask, which need not be there
+                raise
+            raise WorkerDied(f"Each worker of Dask that simulated it died: {error}") from error
         for _ in range(MOST_DEATHS - 1):
             alone = _alike(self._given, 1)
             try:

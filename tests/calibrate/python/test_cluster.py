@@ -4,8 +4,10 @@ import importlib.util
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import unittest
 
 from studies import PROGRAM, Desk, coarse_study, main
@@ -42,6 +44,27 @@ class Cluster(Desk):
         with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
             made, out = self.calibrated("dask", sys.executable, options=("--dask", cluster.scheduler_address))
         self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual((out / "card.json").read_bytes(), self.card_of_the_program())
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "there is no Dask")
+    def test_workers_of_dask_that_are_killed_cost_their_simulations_only(self):
+        from dask.distributed import LocalCluster
+        killed = []
+        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+            def kill_now_and_then(ended):
+                while len(killed) < 3 and not ended.wait(1):
+                    worker = cluster.workers[len(killed) % 2]
+                    if worker.pid:
+                        os.kill(worker.pid, signal.SIGKILL)
+                        killed.append(worker.pid)
+            ended = threading.Event()
+            killer = threading.Thread(target=kill_now_and_then, args=(ended,))
+            killer.start()
+            made, out = self.calibrated("killed", sys.executable, options=("--dask", cluster.scheduler_address))
+            ended.set()
+            killer.join()
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertTrue(killed)
         self.assertEqual((out / "card.json").read_bytes(), self.card_of_the_program())
 
     def test_a_study_that_cannot_be_used_ends_with_status_2_and_its_faults(self):

@@ -49,6 +49,21 @@ class Executors(Desk):
         with futures.ProcessPoolExecutor(1, context, die_at_first, (str(self.folder / "mark"),)) as pool:
             self.assertEqual(self.card_with(study, pool, "broken"), self.card_of_the_program(study))
 
+    def test_a_simulation_that_dask_gives_up_is_a_failure_with_its_reason(self):
+        class KilledWorker(Exception):
+            """As Dask names it."""
+        class Dask:
+            def ncores(self):
+                return {"a": 1, "b": 2}
+            def submit(self, function, *arguments):
+                future = futures.Future()
+                future.set_exception(KilledWorker("simulate"))
+                return future
+        result = pf.calibrate(self.study_file(), executor=Dask())
+        self.assertFalse(result.confirmed)
+        self.assertEqual(set(result.evaluations["failure"]), {"engine_failed"})
+        self.assertIn("Each worker of Dask that simulated it died", result.evaluations["message"][0])
+
     def test_an_error_of_the_executor_is_raised(self):
         class Broken:
             def submit(self, function, *arguments):
