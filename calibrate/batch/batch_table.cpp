@@ -75,7 +75,7 @@ void add(BatchRow& row, const Card& card) {
 
 /// The text as one cell.
 std::string quoted(const std::string& text) {
-  const std::string line = one_line(text);
+  std::string line = one_line(text);
   if (line.find_first_of(",\"") == std::string::npos) return line;
   std::string out = "\"";
   for (const char letter : line) out += letter == '"' ? std::string("\"\"") : std::string(1, letter);
