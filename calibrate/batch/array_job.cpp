@@ -49,7 +49,7 @@ exit $status
 
 std::string array_job_script(const ArrayJob& job) {
   const std::string last = std::to_string(job.studies.size() - 1);
-  return heading_of_job(job, "Calibrates one study an element.", "pastefit") + "#SBATCH --array=0-" + last +
+  return heading_of_job(job, "Calibrates one study per element.", "pastefit") + "#SBATCH --array=0-" + last +
          "\n#SBATCH --cpus-per-task=" + std::to_string(job.workers) + "\n#SBATCH --requeue --signal=B:USR1@120\n" +
          output_line(job, "slurm-%a.txt") + studies_of(job) + kElement + shell_word(job.program.string()) +
          " batch \"${studies[SLURM_ARRAY_TASK_ID]}\" --out " + shell_word(job.out.string()) +

@@ -11,7 +11,7 @@ struct ArrayJob {
   std::filesystem::path program;     ///< pastefit, absolute
   std::filesystem::path directory;   ///< in which the jobs run, absolute: names of files are relative to it
   std::filesystem::path out;         ///< folder of the results
-  std::vector<std::string> studies;  ///< files, one an element
+  std::vector<std::string> studies;  ///< files, one per element
   int workers = 1;                   ///< cores of an element
 };
 

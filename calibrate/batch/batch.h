@@ -23,7 +23,7 @@ struct BatchStudy {
 /// `pastefit new` writes it.
 std::string batch_name(const std::filesystem::path& file);
 
-/// Reads the studies of a batch whose results go into `out`, one folder a study.
+/// Reads the studies of a batch whose results go into `out`, one folder per study.
 /// Errors: every fault of all files at once; two studies of one name.
 Result<std::vector<BatchStudy>> read_batch(const std::vector<std::string>& files, const std::filesystem::path& out);
 

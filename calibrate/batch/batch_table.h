@@ -51,8 +51,8 @@ int rank_of(const BatchRow& row);
 /// The rows that a person has to look at come first: by verdict, then by the largest error.
 std::vector<BatchRow> worst_first(std::vector<BatchRow> rows);
 
-/// The table as comma-separated values, a row a study in the order given. A column that some study has and another has
-/// not is empty there.
+/// The table as comma-separated values, one row per study in the order given. A column that some study has and another
+/// has not is empty there.
 std::string batch_csv(const std::vector<BatchRow>& rows);
 
 /// The names that occur in some list of the rows, each once, in the order in which they appear first.

@@ -40,6 +40,13 @@ Store store_in(const Folder& folder, const Study& study) {
   return Store::open(folder.path() / "store.sqlite", {program_identity(), inputs_of(study)}).value();
 }
 
+Study study_without_stated_conditions() {
+  Study study = coarse_study();
+  study.tests.at(0).lab.stated.clear();
+  study.search.budget_simulations = 40;
+  return study;
+}
+
 }  // namespace
 
 TEST_CASE("one call makes a card, and the same card again from its store without a simulation") {
@@ -79,9 +86,7 @@ TEST_CASE("an examination goes on until its simulations are spent, or all that i
 
 TEST_CASE("a card says what a condition that nobody states moves, and keeps to the budget and to its bytes") {
   const Folder folder;
-  Study study = coarse_study();
-  study.tests.at(0).lab.stated.clear();
-  study.search.budget_simulations = 40;
+  const Study study = study_without_stated_conditions();
   auto store = store_in(folder, study);
   Engine standing;  // so few grains shear off as they like
   standing.run = [](const Test& test, const RunOptions& options) {
@@ -111,9 +116,7 @@ TEST_CASE("a card says what a condition that nobody states moves, and keeps to t
 
 TEST_CASE("a calibration that is stopped while conditions are simulated says nothing of them") {
   const Folder folder;
-  Study study = coarse_study();
-  study.tests.at(0).lab.stated.clear();
-  study.search.budget_simulations = 40;
+  const Study study = study_without_stated_conditions();
   auto store = store_in(folder, study);
   std::atomic<bool> stop = false;
   Engine stopping;

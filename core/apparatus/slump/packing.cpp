@@ -128,7 +128,7 @@ std::vector<double> rest_measure_of_fill(const Particles& grains) {
 }
 
 /// Small grains at random places grow to their size where they are, until they fill mould and hopper loosely. They lie
-/// in no layers, as grains do that are let down from a lattice.
+/// in no layers, as grains do that are let down from a lattice. Their mass is that of the grown grain all the time.
 std::optional<Failure> grow(const SlumpTest& test, World& world, Runner& runner) {
   const double step = (1 - kStartSize) * test.grains.radius_m / kGrowthSpeed / kGrowthSteps;
   world.drag = kGravity / kGrowthSpeed;
