@@ -35,8 +35,8 @@ PairPastefit::PairPastefit(LAMMPS_NS::LAMMPS* lammps) : Pair(lammps) {
 PairPastefit::~PairPastefit() {
   if (memory_ && modify->find_fix(kMemoryId) >= 0) modify->delete_fix(kMemoryId);
   if (!allocated) return;
-  history->destroy(setflag);
-  history->destroy(cutsq);
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
 }
 
 void PairPastefit::settings(int words, char** word) {
@@ -50,8 +50,8 @@ void PairPastefit::coeff(int words, char** word) {
     error->all(FLERR, std::string("pair style pastefit has one law for all grains: pair_coeff * *"));
   const int types = atom->ntypes + 1;
   if (!allocated) {
-    history->create(setflag, types, types, "pair:setflag");
-    history->create(cutsq, types, types, "pair:cutsq");
+    memory->create(setflag, types, types, "pair:setflag");
+    memory->create(cutsq, types, types, "pair:cutsq");
     allocated = 1;
   }
   for (int i = 1; i < types; ++i)
