@@ -8,10 +8,10 @@
 
 namespace pastefit {
 
-StatusLine::StatusLine() : StatusLine(Pace{}) {}
+StatusLine::StatusLine() : StatusLine(Schedule{}) {}
 
-StatusLine::StatusLine(const Pace& pace)
-    : pace_(pace), terminal_(pastefit::is_terminal()), next_(start_ + pace.first) {}
+StatusLine::StatusLine(const Schedule& schedule)
+    : schedule_(schedule), terminal_(pastefit::is_terminal()), next_(start_ + schedule.first) {}
 
 double StatusLine::gone_s() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
@@ -23,7 +23,7 @@ bool StatusLine::is_due() const {
 
 void StatusLine::show(const std::string& line) {
   if (is_quiet()) return;
-  next_ = Clock::now() + (terminal_ ? pace_.on_terminal : pace_.elsewhere);
+  next_ = Clock::now() + (terminal_ ? schedule_.on_terminal : schedule_.elsewhere);
   shown_ = true;
   if (terminal_)
     std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());

@@ -11,12 +11,12 @@ class StatusLine {
  public:
   using Clock = std::chrono::steady_clock;
   /// When a line is due: after the start, after another one on a terminal, after another one elsewhere.
-  struct Pace {
+  struct Schedule {
     Clock::duration first = std::chrono::seconds(2);
     Clock::duration on_terminal = std::chrono::milliseconds(500), elsewhere = std::chrono::seconds(10);
   };
   StatusLine();
-  explicit StatusLine(const Pace& pace);
+  explicit StatusLine(const Schedule& schedule);
 
   bool is_terminal() const { return terminal_; }
   double gone_s() const;
@@ -26,7 +26,7 @@ class StatusLine {
   void keep();   ///< leaves it as it is, and goes on below
 
  private:
-  const Pace pace_;
+  const Schedule schedule_;
   const bool terminal_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_;

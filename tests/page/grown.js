@@ -12,13 +12,13 @@ import { readFileSync, readdirSync } from "node:fs";
 export async function grow(page, least) {
   return page.evaluate((count) => {
     /** @typedef {import("../../calibrate/report/page/source/film.js").Film} Film */
-    /** @typedef {import("../../calibrate/report/page/source/film.js").Reel} Reel */
+    /** @typedef {import("../../calibrate/report/page/source/film.js").RecordingPart} RecordingPart */
     const place = /** @type {HTMLElement} */ (document.getElementsByClassName("player")[0]);
     const { player } = place;
     const Player = /** @type {new (film: Film, place: HTMLElement) => unknown} */ (player.constructor);
-    /** @type {(reel: Reel, quantum: number) => Reel} */
-    const eightfold = (reel, quantum) => {
-      const parted = Math.min(reel.count, Math.max(0, Math.ceil((count - reel.count) / 7)));
+    /** @type {(part: RecordingPart, quantum: number) => RecordingPart} */
+    const eightfold = (part, quantum) => {
+      const parted = Math.min(part.count, Math.max(0, Math.ceil((count - part.count) / 7)));
       /** @type {<List extends Float32Array | Uint16Array | Uint8Array>(list: List, of?: Of) => List} */
       const parts = (list, of = (value) => value) => {
         const out = new /** @type {any} */ (list.constructor)(list.length + 7 * parted);
@@ -29,11 +29,11 @@ export async function grow(page, least) {
       /** @typedef {(value: number, i: number, k: number) => number} Of */
       /** @type {(axis: number) => Of} */
       const moved = (axis) => (at, i, k) =>
-        Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * reel.radii[i]) / quantum);
+        Math.max(0, at + (((k >> axis) & 1 ? 0.5 : -0.5) * part.radii[i]) / quantum);
       return {
-        count: reel.count + 7 * parted,
-        radii: parts(reel.radii, (radius) => radius / 2),
-        frames: reel.frames.map((frame) => ({
+        count: part.count + 7 * parted,
+        radii: parts(part.radii, (radius) => radius / 2),
+        frames: part.frames.map((frame) => ({
           ...frame,
           places: frame.places.map((list, axis) => parts(list, moved(axis))),
           speeds: parts(frame.speeds),
@@ -43,9 +43,9 @@ export async function grow(page, least) {
       };
     };
     const film = Object.assign(Object.create(Object.getPrototypeOf(player.film)), player.film);
-    const counts = () => film.reels.map((/** @type {Reel} */ reel) => reel.count);
+    const counts = () => film.parts.map((/** @type {RecordingPart} */ part) => part.count);
     while (Math.min(...counts()) < count)
-      film.reels = film.reels.map((/** @type {Reel} */ reel) => eightfold(reel, film.quantum));
+      film.parts = film.parts.map((/** @type {RecordingPart} */ part) => eightfold(part, film.quantum));
     film.most = Math.max(...counts());
     place.replaceChildren();
     new Player(film, place);

@@ -57,45 +57,45 @@ const coded = (some) => deflateSync(Uint8Array.from(some)).toString("base64");
 const read = () => Film.read(index, coded(bytes));
 
 test("a film has the places that its bytes say, each frame as a difference from the one before", async () => {
-  const { reels } = await read();
+  const { parts } = await read();
   assert.deepEqual(
-    reels[0].frames.map(({ places }) => places.map(([one]) => one)),
+    parts[0].frames.map(({ places }) => places.map(([one]) => one)),
     [
       [5, 6, 1000],
       [5, 6, 2],
     ],
   );
   assert.deepEqual(
-    reels[1].frames.map(({ places }) => [...places[2]]),
+    parts[1].frames.map(({ places }) => [...places[2]]),
     [
       [0, 50],
       [10, 49],
       [10, 49],
     ],
   );
-  assert.deepEqual([...reels[1].frames[2].places[0]], [100, 300]);
+  assert.deepEqual([...parts[1].frames[2].places[0]], [100, 300]);
 });
 
 test("speeds, contacts and pulls are differences modulo 256", async () => {
-  const { reels } = await read();
-  const [first, second] = reels[0].frames;
+  const { parts } = await read();
+  const [first, second] = parts[0].frames;
   assert.deepEqual([first.speeds[0], second.speeds[0]], [10, 0]);
   assert.deepEqual([first.touching[0], second.touching[0]], [0, 3]);
-  const test1 = reels[1].frames;
+  const test1 = parts[1].frames;
   assert.deepEqual([...test1[1].speeds], [0, 0]);
   assert.deepEqual([...test1[2].touching], [1, 5]);
   assert.deepEqual([...test1[1].pulls], [0, 0]);
 });
 
 test("radii are in quanta, of 16 bits", async () => {
-  const { reels } = await read();
-  assert.deepEqual([...reels[1].radii], [Math.fround(0.012), Math.fround(0.3)]);
+  const { parts } = await read();
+  assert.deepEqual([...parts[1].radii], [Math.fround(0.012), Math.fround(0.3)]);
 });
 
 test("walls that are left out stand as in the frame before", async () => {
-  const { reels } = await read();
+  const { parts } = await read();
   assert.deepEqual(
-    reels[1].frames.map(({ walls }) => walls),
+    parts[1].frames.map(({ walls }) => walls),
     [[floor(0)], [floor(0)], [floor(-1)]],
   );
 });
@@ -126,17 +126,17 @@ test("phases stand in their order, each from its first frame to its last", async
   assert.equal(film.firstOfTest()?.time, 1);
 });
 
-test("a time lies between two frames of one reel", async () => {
+test("a time lies between two frames of one part", async () => {
   const film = await read();
-  const { reel, one, other, share } = film.at(2.5);
-  assert.equal(reel, film.reels[1]);
+  const { part, one, other, share } = film.at(2.5);
+  assert.equal(part, film.parts[1]);
   assert.deepEqual([one.time, other.time, share], [2, 4, 0.25]);
 });
 
-test("where one reel ends and the next begins, the next is shown", async () => {
+test("where one part ends and the next begins, the next is shown", async () => {
   const film = await read();
-  assert.equal(film.at(1).reel, film.reels[1]);
-  assert.equal(film.at(0.999).reel, film.reels[0]);
+  assert.equal(film.at(1).part, film.parts[1]);
+  assert.equal(film.at(0.999).part, film.parts[0]);
 });
 
 test("a time before the film is its first frame, one behind it its last", async () => {

@@ -123,10 +123,10 @@
  * @property {number} quantum_m
  * @property {[number, number, number]} low_m
  * @property {number} most_pull_n
- * @property {ReelIndex[]} reels
+ * @property {PartIndex[]} reels
  */
 
-/** @typedef {{grains: number, frames: {time_s: number, phase: string, walls?: Wall[]}[]}} ReelIndex */
+/** @typedef {{grains: number, frames: {time_s: number, phase: string, walls?: Wall[]}[]}} PartIndex */
 /** @typedef {Plane | Plate | Shell | Ribs} Wall */
 /** @typedef {[number, number, number]} Vector */
 /** @typedef {{shape: "plane", name: string, point_m: Vector, normal: Vector}} Plane */

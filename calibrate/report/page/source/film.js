@@ -2,7 +2,7 @@
 // calibrate/report/recording_code.h.
 
 /** @typedef {import("./content.js").FilmIndex} FilmIndex */
-/** @typedef {import("./content.js").ReelIndex} ReelIndex */
+/** @typedef {import("./content.js").PartIndex} PartIndex */
 /** @typedef {import("./content.js").Wall} Wall */
 
 /**
@@ -16,7 +16,7 @@
  * @property {Uint8Array} pulls share of the largest one, times 255
  */
 
-/** @typedef {{count: number, radii: Float32Array, frames: Frame[]}} Reel frames of the same grains */
+/** @typedef {{count: number, radii: Float32Array, frames: Frame[]}} RecordingPart frames of the same grains */
 
 const slowest = -4; // decimal logarithm of the slowest speed that is told apart [m/s]
 const perDecade = 51;
@@ -73,11 +73,11 @@ class Columns {
 
 /**
  * @param {Columns} columns
- * @param {ReelIndex} index
+ * @param {PartIndex} index
  * @param {number} quantum
- * @returns {Reel}
+ * @returns {RecordingPart}
  */
-function reelOf(columns, index, quantum) {
+function partOf(columns, index, quantum) {
   const count = index.grains;
   const radii = Float32Array.from(columns.words(count), (steps) => steps * quantum);
   /** @type {Frame[]} */
@@ -100,7 +100,7 @@ function reelOf(columns, index, quantum) {
   return { count, radii, frames };
 }
 
-/** A film ready to be shown. Time runs through all reels. */
+/** A film ready to be shown. Time runs through all parts. */
 export class Film {
   /**
    * @param {FilmIndex} index
@@ -108,23 +108,23 @@ export class Film {
    */
   static async read(index, text) {
     const columns = new Columns(await inflated(text));
-    const reels = index.reels.map((reel) => reelOf(columns, reel, index.quantum_m));
+    const parts = index.reels.map((part) => partOf(columns, part, index.quantum_m));
     if (columns.place < columns.bytes.length) throw new Error("the film goes on behind its last frame");
-    return new Film(index, reels);
+    return new Film(index, parts);
   }
 
   /**
    * @param {Pick<FilmIndex, "quantum_m" | "low_m" | "most_pull_n">} index
-   * @param {Reel[]} reels
+   * @param {RecordingPart[]} parts
    */
-  constructor(index, reels) {
+  constructor(index, parts) {
     this.quantum = index.quantum_m;
     this.low = index.low_m;
     this.mostPull = index.most_pull_n;
-    this.reels = reels;
-    this.begin = reels[0].frames[0].time;
+    this.parts = parts;
+    this.begin = parts[0].frames[0].time;
     this.end = this.frames().at(-1)?.time ?? this.begin;
-    this.most = Math.max(...reels.map((reel) => reel.count));
+    this.most = Math.max(...parts.map((part) => part.count));
   }
 
   /** Phases in their order. */
@@ -140,7 +140,7 @@ export class Film {
   }
 
   frames() {
-    return this.reels.flatMap((reel) => reel.frames);
+    return this.parts.flatMap((part) => part.frames);
   }
 
   /** The frame with which the test begins: the first one after the filling. */
@@ -177,18 +177,18 @@ export class Film {
   }
 
   /**
-   * The two frames of one reel around a time, and how far it is from the first to the second.
+   * The two frames of one part around a time, and how far it is from the first to the second.
    * @param {number} time
    */
   at(time) {
-    const reel = this.reels.findLast(({ frames }) => frames[0].time <= time) ?? this.reels[0];
-    const frames = reel.frames;
+    const part = this.parts.findLast(({ frames }) => frames[0].time <= time) ?? this.parts[0];
+    const frames = part.frames;
     let next = frames.findIndex((frame) => frame.time > time);
     if (next < 0) next = frames.length;
     const one = frames[Math.max(next - 1, 0)];
     const other = frames[Math.min(next, frames.length - 1)];
     const gap = other.time - one.time;
-    return { reel, one, other, share: gap > 0 ? Math.min(Math.max((time - one.time) / gap, 0), 1) : 0 };
+    return { part, one, other, share: gap > 0 ? Math.min(Math.max((time - one.time) / gap, 0), 1) : 0 };
   }
 
   /** The largest of heights [m], neighbours and pulls [N] in the film, for scales of colour. */

@@ -120,25 +120,25 @@ export class Grains {
    * @param {string} by "height", "speed", "coordination" or "pull"
    */
   show(time, by) {
-    const { reel, one, other, share } = this.film.at(time);
+    const { part, one, other, share } = this.film.at(time);
     const { low, quantum } = this.film;
     const { position, radius, value } = this.points.geometry.attributes;
     const [places, radii, values] = [position.array, radius.array, value.array];
     for (let axis = 0; axis < 3; ++axis) {
       const from = one.places[axis];
       const to = other.places[axis];
-      for (let i = 0; i < reel.count; ++i)
+      for (let i = 0; i < part.count; ++i)
         places[3 * i + axis] = low[axis] + quantum * (from[i] + share * (to[i] - from[i]));
     }
-    radii.set(reel.radii);
+    radii.set(part.radii);
     const { height: top, touching: most } = this.extremes;
-    for (let i = 0; i < reel.count; ++i) {
+    for (let i = 0; i < part.count; ++i) {
       if (by === "speed") values[i] = (one.speeds[i] + share * (other.speeds[i] - one.speeds[i])) / 255;
       else if (by === "coordination") values[i] = one.touching[i] / most;
       else if (by === "pull") values[i] = (one.pulls[i] + share * (other.pulls[i] - one.pulls[i])) / 255;
       else values[i] = places[3 * i + 2] / top;
     }
-    this.count = reel.count;
+    this.count = part.count;
     for (const attribute of [position, radius, value]) attribute.needsUpdate = true;
     return one;
   }
