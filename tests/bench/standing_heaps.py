@@ -2,7 +2,7 @@
 """Calibrations of concretes, and what becomes of their materials on packings that no search has seen.
 
 usage: standing_heaps.py PROGRAM TABLE.csv [--mixes 79,57] [--seeds 1,2] [--grains mono|spread] [--shape free|fixed]
-                         [--shift] [--core-budget 400]
+                         [--shift] [--core-budget 400] [--keep DIR]
        standing_heaps.py --report TABLE.csv
 
 The study of mix 79 (data/studies) with the readings of other mixes. Grains: 8 mm, or evenly from 6 to 10 mm. Shape: all eight
@@ -16,6 +16,7 @@ import json
 import math
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -28,8 +29,8 @@ MIXES = {"79": (137.5, 310), "57": (80, 400), "50": (85, 420), "29": (140, 260),
 FREE = {"rupture_force_ratio": {"free": [0, 0.5]}, "curvature": {"free": [-0.5, 1]}, "formation_ratio": {"free": [0, 1]}}
 GRAINS = {"mono": {"distribution": "mono", "radius_mm": 8},
           "spread": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10}}
-COLUMNS = ["mix", "seed", "grains", "shape", "shift", "status", "simulations", "core_s", "miss", "rejected", "heaps", "height",
-           "height_deviation", "spread", "friction", "rolling_friction"]
+COLUMNS = ["mix", "seed", "grains", "shape", "shift", "status", "simulations", "core_s", "coarse", "confirmed_on", "miss", "rejected",
+           "heaps", "height", "height_deviation", "spread", "spread_deviation", "friction", "rolling_friction"]
 SHEARED_MM = 40  # 0.4 of the mould's base radius
 
 
@@ -84,16 +85,20 @@ def run(program, mix, seed, options):
         if done.returncode == 2 or not (folder / "out/card.json").exists():
             sys.exit(done.stderr)
         card = json.loads((folder / "out/card.json").read_text())
+        if options.keep:
+            shutil.copy(folder / "out/evaluations.sqlite", options.keep / f"{mix}-{seed}.sqlite")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         heaps = foreign_heaps(program, study, card, range(201, 217))
     standing = [heap for heap in heaps if heap["step1.lateral_shift_mm"] <= SHEARED_MM] or heaps
     parameters = card["material"]["parameters"]
     height, deviation = mean_and_deviation([heap["step1.height_mm"] for heap in standing])
+    spread, spread_deviation = mean_and_deviation([heap["step1.spread_mm"] for heap in standing])
     core_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return [mix, seed, options.grains, options.shape, int(options.shift), card["search"]["status"],
             card["search"].get("evaluations", card["search"].get("simulations")), round(core_s),
+            card["search"].get("coarse_simulations", 0), len(card["confirmation"]["packings"]),
             round(card["confirmation"]["misfit"], 2), sum(h["step1.lateral_shift_mm"] > SHEARED_MM for h in heaps), len(heaps),
-            round(height, 1), round(deviation, 1), round(mean_and_deviation([h["step1.spread_mm"] for h in standing])[0], 1),
+            round(height, 1), round(deviation, 1), round(spread, 1), round(spread_deviation, 1),
             round(parameters["friction"], 3), round(parameters["rolling_friction"], 3)]
 
 
@@ -132,6 +137,7 @@ if __name__ == "__main__":
     parser.add_argument("--shift", action="store_true")
     parser.add_argument("--rejected-share", type=float)
     parser.add_argument("--core-budget", type=float, default=400)
+    parser.add_argument("--keep", type=Path, metavar="DIR", help="where to put each search's evaluations")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()
     report(chosen.table) if chosen.report else measure(chosen)
