@@ -25,7 +25,8 @@ SLUMP_FILES = {
     "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
     "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/lammps_tables.cpp", "exports/liggghts.cpp", "exports/mercurydpm.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",
-    "python/tasks.cpp", "study/parameters.cpp", "study/slump_sheet.cpp", "study/slump_sheet.h", "cli/new_command.cpp",
+    "python/tasks.cpp", "study/parameters.cpp", "study/slump_lab_template.cpp", "study/slump_lab_template.h",
+    "study/slump_sheet.cpp", "study/slump_sheet.h", "cli/new_command.cpp", "cli/template_command.cpp",
 }
 
 

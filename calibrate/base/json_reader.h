@@ -84,6 +84,9 @@ class ObjectReader {
   /// Null and an absent optional key empty the target.
   bool nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need);
   bool integer(std::string_view key, int& target, int smallest, int largest, Need need);
+  bool integer(std::string_view key, int& target, int smallest, int largest, Default<int>) {
+    return integer(key, target, smallest, largest, Need::optional);
+  }
   bool integer(std::string_view key, std::uint64_t& target, Need need);
   bool text(std::string_view key, std::string& target, Need need);
   bool flag(std::string_view key, bool& target, Need need);

@@ -23,6 +23,9 @@ class ObjectWriter {
     object_[key] = value ? nlohmann::json(*value) : nlohmann::json();
   }
   void integer(const char* key, std::uint64_t value, Need) { object_[key] = value; }
+  void integer(const char* key, int value, int, int, Default<int> by_default) {
+    if (value != by_default.value) object_[key] = value;
+  }
   void pairs(const char* key, const std::vector<std::array<double, 2>>& value, const Range&, const Range&, Need,
              std::size_t) {
     if (!value.empty()) object_[key] = value;

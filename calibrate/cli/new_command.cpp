@@ -51,10 +51,11 @@ Faults faults_of_text(const Result<std::vector<double>>& read) {
 }
 
 /// Asks for each reading by its short name; an empty answer leaves it out.
-bool ask_readings(Sheet& sheet, bool plate) {
+bool ask_readings(Sheet& sheet, const std::optional<DropPlate>& plate) {
   for (const ShortReading& one : short_readings()) {
-    const bool after_drop = one.key.starts_with("step2.");
-    if (after_drop != plate && (after_drop || one.name == "mass")) continue;
+    const bool after_drop = one.key.starts_with("step2."), after_all = one.key.starts_with("after_drops.");
+    const bool once = plate && plate->drops == 1, often = plate && plate->drops > 1;
+    if ((after_drop && !once) || (after_all && !often)) continue;
     if (one.name == "shift" || one.name == "mass" || one.name == "slump2") continue;
     const bool height = one.name == "height" && !sheet.readings.empty();  // a slump is one
     if (height) continue;
@@ -82,14 +83,14 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     const auto read = apparatus_of(text, folder);
     return read.ok() ? Faults{} : read.faults();
   };
-  if (!ask(sheet.mould, "mould: abrams, abrams-en, en12350-5, haegermann, mini-cone, or base/top/height in mm",
+  if (!ask(sheet.mould, "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, or base/top/height in mm",
            "abrams", mould_faults) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
            [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))
     return false;
   const auto test = apparatus_of(sheet.mould, folder);
   if (sheet.readings.empty() && test.ok())
-    if (!ask_readings(sheet, std::get<SlumpTest>(test.value()).drop.has_value())) return false;
+    if (!ask_readings(sheet, std::get<SlumpTest>(test.value()).drop)) return false;
   return ask(sheet.target, "program that the material is for: " + names_of_targets(), "lammps", [](const auto& text) {
     return laws_for(text) ? Faults{} : Faults{{"", "is no such program", "one of " + names_of_targets()}};
   });

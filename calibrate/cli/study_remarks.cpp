@@ -7,6 +7,7 @@
 #include "calibrate/cli/understood.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/search/record.h"
+#include "calibrate/study/coarseness.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
@@ -43,6 +44,7 @@ std::string notes_on_readings(const Study& study) {
     for (const std::string& note : check_readings(test.lab.test, test.lab.measurements).notes)
       out += test.lab_file + ": " + note + ".\n";
   }
+  for (const std::string& note : notes_on_tolerances(study)) out += "Warning: " + note + ".\n";
   return out;
 }
 

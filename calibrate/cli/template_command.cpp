@@ -1,11 +1,13 @@
 #include <cstdio>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/laboratory/test.h"
+#include "calibrate/study/slump_lab_template.h"
 #include "calibrate/study/target_laws.h"
 
 namespace pastefit {
@@ -13,7 +15,7 @@ namespace pastefit {
 namespace {
 
 struct TemplateOptions {
-  std::string name, target;
+  std::string name, target, mould;
 };
 
 int print_template(const TemplateOptions& options, const std::string& names) {
@@ -29,6 +31,13 @@ int print_template(const TemplateOptions& options, const std::string& names) {
                       "one of " + names_of_targets()}});
     text = with_laws(*text, *laws);
   }
+  if (!options.mould.empty()) {
+    if (options.name != "lab")
+      return report({{"--mould", "goes with the first laboratory file only", "template lab --mould ..."}});
+    auto of_preset = slump_lab_template(options.mould, ".");
+    if (!of_preset.ok()) return report(of_preset.faults());
+    text = std::move(of_preset).value();
+  }
   print("%s", text->c_str());
   return kDone;
 }
@@ -42,6 +51,10 @@ Command add_template(CLI::App& verb) {
   verb.add_option("NAME", options->name, "which one: " + names)->required();
   verb.add_option("--for", options->target, "with the laws that this program runs exactly: " + names_of_targets())
       ->type_name("PROGRAM");
+  verb.add_option("--mould", options->mould,
+                  "of the laboratory file: a preset, whose table, grains and customary readings it then has (abrams, "
+                  "mini-cone, haegermann-table, ...)")
+      ->type_name("PRESET");
   return [options, names] { return print_template(*options, names); };
 }
 

@@ -130,7 +130,7 @@ std::string small_slump(const SlumpTest& test, const Measurement& height) {
 
 ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> measurements) {
   ReadingCheck check;
-  for (const std::string step : {"step1.", "step2."}) {
+  for (const std::string step : {"step1.", "step2.", "after_drops."}) {
     const Measurement* height =
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
     const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
@@ -141,7 +141,7 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
     if (share_of_cone_width(test, heap) < pancake - sure * deviation_of_share(test, heap))
       check.faults.push_back(missing_volume(test, heap));
     else
-      check.notes.push_back((step == "step2." ? "after the drop, " : "") + in_words(test, heap));
+      check.notes.push_back((step == "step1." ? "" : step == "step2." ? "after the drop, " : "after all drops, ") + in_words(test, heap));
   }
   return check;
 }

@@ -20,14 +20,21 @@ namespace {
 constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
 constexpr std::array<Named<HeightReading>, 2> height_readings{
     {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
+constexpr std::array<Named<TableMotion>, 2> table_motions{
+    {{"hinged", TableMotion::hinged}, {"vertical", TableMotion::vertical}}};
 constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
 
 template <class Fields, class Test>
 void describe_slump(Fields& fields, Test& test) {
   fields.object("mould", required, [&](auto& mould) { describe_dimensions(mould, test.mould, mould_dimensions); });
   describe_dimensions(fields, test, slump_dimensions);
-  fields.nullable_object("drop", test.drop, required,
-                         [](auto& drop, auto& plate) { describe_dimensions(drop, plate, plate_dimensions); });
+  fields.nullable_object("drop", test.drop, required, [](auto& drop, auto& plate) {
+    const DropPlate usual;
+    describe_dimensions(drop, plate, plate_dimensions);
+    drop.choice("motion", plate.motion, table_motions, Default{usual.motion});
+    drop.integer("drops", plate.drops, 1, kMostDrops, Default{usual.drops});
+    drop.number("period_s", plate.period_s, any_number, Default{usual.period_s});
+  });
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
     describe_dimensions(reading, test.reading, reading_dimensions);
@@ -68,7 +75,13 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
   read_dimensions(apparatus, test, slump_dimensions, need);
   const Need plate_need = test.drop ? Need::optional : Need::required;
   apparatus.nullable_object("drop_plate", test.drop, Need::optional, [&](ObjectReader& plate, DropPlate& drop) {
+    plate.choice("motion", drop.motion, table_motions, Need::optional);
+    if (drop.motion == TableMotion::vertical)
+      plate.refuse("lift_duration_s", "is of a hinged plate: a cam raises a table so slowly that it takes no simulated time",
+                   "leave it out");
     read_dimensions(plate, drop, plate_dimensions, plate_need);
+    plate.integer("drops", drop.drops, 1, kMostDrops, Need::optional);
+    read_dimensions(plate, drop, rhythm_dimensions, Need::optional);
   });
   apparatus.object("reading", need, [&](ObjectReader& reading) {
     reading.choice("height", test.reading.height, height_readings, need);
@@ -95,13 +108,16 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
   std::vector<FilePlace> places{{"mould_wall", "parameters: mould_wall"}, {"table_wall", "parameters: table_wall"}};
   add_places(places, mould_dimensions, "mould", "apparatus.mould");
   add_places(places, slump_dimensions);
+  add_places(places, rhythm_dimensions, "drop", "apparatus.drop_plate");
   add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
   add_places(places, reading_dimensions, "reading", "apparatus.reading");
   return places;
 }
 
 double moved_time_s(const SlumpTest& test) {
-  return test.mould.height_m / test.lift_velocity_m_s;
+  const double lift_s = test.mould.height_m / test.lift_velocity_m_s;
+  if (!test.drop) return lift_s;
+  return lift_s + (test.drop->drops - 1) * moving_time_s(*test.drop);
 }
 
 nlohmann::json to_json(const SlumpTest& test) {
@@ -135,14 +151,17 @@ std::size_t series_at(const SlumpTest&, const Snapshot& snapshot) {
 }
 
 std::optional<Outline> heap_at(const SlumpTest& test, const Snapshot& snapshot) {
-  if (snapshot.drop > 0 || !snapshot.phase.starts_with("step")) return std::nullopt;
+  const bool stands = snapshot.phase.starts_with("step") || snapshot.phase.find("drops.") != snapshot.phase.npos;
+  if (snapshot.drop > 0 || !stands) return std::nullopt;
   return outline(on_table(snapshot.world->particles), test.grains.radius_m);
 }
 
 std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& snapshot) {
-  const bool first = snapshot.phase == "step1.rest";
-  if (snapshot.drop > 0 || (!first && snapshot.phase != "step2.rest")) return std::nullopt;
-  return NamedOutline{first ? "step1" : "step2", outline(on_table(snapshot.world->particles), test.grains.radius_m)};
+  constexpr std::string_view rest = ".rest";
+  for (const std::string_view stage : {"step1", "step2", "after_drops"})
+    if (snapshot.drop == 0 && snapshot.phase.starts_with(stage) && snapshot.phase.substr(stage.size()) == rest)
+      return NamedOutline{stage, outline(on_table(snapshot.world->particles), test.grains.radius_m)};
+  return std::nullopt;
 }
 
 double default_tolerance(const SlumpTest& test, const Measurement& measured) {
@@ -176,9 +195,15 @@ nlohmann::ordered_json conditions_of(const SlumpTest& test) {
 }
 
 std::string conditions_in_words(const SlumpTest& test) {
+  std::string drops;
+  if (test.drop && (test.drop->drops > 1 || test.drop->motion == TableMotion::vertical))
+    drops = format("  table                    dropped %d times by %g mm, %s, one drop in %g s\n", test.drop->drops,
+                   mm * test.drop->lift_height_m,
+                   test.drop->motion == TableMotion::vertical ? "upright" : "about its hinge", test.drop->period_s);
   return format("  mould                    base %g mm, top %g mm, height %g mm, lifted at %g mm/s\n",
                 diameter_mm * test.mould.base_radius_m, diameter_mm * test.mould.top_radius_m, mm * test.mould.height_m,
                 mm * test.lift_velocity_m_s) +
+         drops +
          format("  pressure                 up to %s Pa, the weight of the full mould\n",
                 plain(largest_pressure_pa(test)).c_str());
 }

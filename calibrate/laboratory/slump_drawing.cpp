@@ -35,7 +35,8 @@ class HeapDrawing {
   }
 
   Drawing drawn() {
-    drawing_.name = "Heap after step " + step_.substr(4) + ", seen from the side";
+    const std::string after = step_ == "after_drops" ? "all drops" : "step " + step_.substr(4);
+    drawing_.name = "Heap after " + after + ", seen from the side";
     drawing_.x = "from the middle of the table [mm]";
     drawing_.y = "height [mm]";
     drawing_.to_scale = true;
@@ -83,6 +84,7 @@ class HeapDrawing {
   }
 
   void draw_measured_outline() {
+    if (step_ == "after_drops") return;
     const auto& points = step_ == "step1" ? test_.reading.outline_step1 : test_.reading.outline_step2;
     DrawnLine line{"laboratory, outline", DrawnBy::laboratory, {}};
     for (const auto& [x, z] : points) line.points.push_back({mm * x, mm * z});
@@ -175,6 +177,10 @@ std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun>
                                  std::span<const Measurement> measured) {
   std::vector<Drawing> out{HeapDrawing(test, "step1", runs, measured).drawn()};
   if (test.drop) out.push_back(HeapDrawing(test, "step2", runs, measured).drawn());
+  if (test.drop && test.drop->drops > 1) {
+    out.push_back(HeapDrawing(test, "after_drops", runs, measured).drawn());
+    out.push_back(drawing_of_curves("Spread over the drops of the table", "drops", "spread [mm]", runs));
+  }
   return out;
 }
 

@@ -11,14 +11,16 @@ constexpr std::string_view slump_lab =
 
   %provenance%
 
-  // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann, mini-cone.
+  // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann-table and astm-c1437 (dropped 15 and 25 times),
+  // haegermann (no strokes), mini-cone. One of them with what belongs to it: pastefit template lab --mould NAME.
   // Give only what differs from the preset; without a preset give everything but the drop plate. With another mould
   // change the speed, the grains and the deviations below, too, and the study's tolerances: these are a tall cone's.
   "apparatus": {
     "preset": "abrams",
     // "mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300},
     // "table_length_mm": 900,
-    // "drop_plate": {"length_mm": 700, "mass_kg": 16, "lift_height_mm": 40, "lift_duration_s": 0.5},
+    // "drop_plate": {"length_mm": 700, "mass_kg": 16, "lift_height_mm": 40, "lift_duration_s": 0.5, "drops": 1},
+    // A table that falls upright: "motion": "vertical"; several drops: "drops": 15, "period_s": 1 from one to the next.
     // "reading": {"height": "axis", "probe_diameter_mm": 40},  // or "highest": the highest point of the heap
     "lift_velocity_mm_s": 100
   },
@@ -41,6 +43,7 @@ constexpr std::string_view slump_lab =
   // Step 1, mould lifted: step1.height_mm or step1.slump_mm, step1.height_max_mm, step1.spread_mm. Forms of these by
   // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.
   // Step 2, plate dropped: the same with step2 but the shift, and step2.plateau_sag_mm, step2.plateau_width_mm.
+  // After all drops, if there are several: after_drops.spread_mm, after_drops.height_mm.
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {

@@ -1,6 +1,7 @@
 #include "calibrate/study/apparatus.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -19,6 +20,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr Range grain_length{0, 500, true};
+constexpr std::array not_simulated{"readings", "caution"};  // keys of apparatus files
 
 std::optional<Apparatus> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {
   Faults& faults = apparatus.faults();
@@ -45,7 +47,48 @@ std::optional<Apparatus> read_preset(const std::string& name, const fs::path& fo
   return std::nullopt;
 }
 
+/// "readings": by the keys of laboratory files.
+void read_customary(ObjectReader& document, Apparatus& apparatus) {
+  document.object("readings", Need::optional, [&](ObjectReader& readings) {
+    for (const ReadingKind& kind : reading_kinds(apparatus.test)) {
+      if (kind.key.empty() || kind.from_outline) continue;
+      if (kind.lack) {
+        readings.refuse(kind.key, std::string(kind.lack->what), std::string(kind.lack->remedy));
+        continue;
+      }
+      CustomaryReading one{std::string(kind.key)};
+      const auto read = [&](ObjectReader& reading) {
+        reading.number("value", one.value, {kind.possible.smallest, kind.possible.largest}, Need::required);
+        reading.number("standard_deviation", one.standard_deviation, {1e-6, 10000}, Need::required);
+      };
+      if (readings.object(kind.key, Need::optional, read)) apparatus.readings.push_back(std::move(one));
+    }
+  });
+}
+
+std::size_t readings_taken(const Test& test) {
+  const auto kinds = reading_kinds(test);
+  return static_cast<std::size_t>(std::ranges::count_if(kinds, [](const ReadingKind& kind) { return !kind.lack; }));
+}
+
 }  // namespace
+
+std::string caution_of(const Apparatus& preset, const Test& test) {
+  return readings_taken(test) > readings_taken(preset.test) ? "" : preset.caution;
+}
+
+Result<Apparatus> find_preset(const std::string& name, const fs::path& folder) {
+  Faults faults;
+  const json named{{"preset", name}};
+  std::optional<Apparatus> found;
+  {
+    ObjectReader reader(named, "apparatus", faults);
+    reader.known("preset");
+    found = read_preset(name, folder, reader);
+  }
+  if (!found) return faults;
+  return std::move(*found);
+}
 
 std::string note_on_preset(const Apparatus& preset) {
   std::vector<fs::path> shipped = apparatus_folders({});
@@ -155,12 +198,19 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     read_apparatus(reader, apparatus.test, std::nullopt);
     read_material(reader, apparatus.test);
     read_grains(reader, apparatus.test, Need::required);
+    reader.text("caution", apparatus.caution, Need::optional);
+    if (faults.size() == before)
+      read_customary(reader, apparatus);
+    else
+      reader.known("readings");
     apparatus.test = with_default_contact(apparatus.test);
     if (faults.size() == before)
       for (Fault& fault : validate_in_file_words(apparatus.test)) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) return faults;
-  apparatus.content = document.dump();
+  json simulated = document;
+  for (const char* key : not_simulated) simulated.erase(key);
+  apparatus.content = simulated.dump();
   return apparatus;
 }
 

@@ -10,14 +10,24 @@
 
 namespace pastefit {
 
-/// An apparatus file of data/apparatus: an apparatus with a default material and default grains; a laboratory file
-/// without readings.
+/// A reading that is customary with an apparatus, its usual value and the standard deviation of one, in its unit.
+struct CustomaryReading {
+  std::string key;  ///< in laboratory files
+  double value = 0, standard_deviation = 0;
+};
+
+/// An apparatus file of data/apparatus: an apparatus with a default material, default grains and the readings that are
+/// customary with it; a laboratory file without what was measured.
 struct Apparatus {
   std::string title;
   Provenance provenance;
-  Test test;                   ///< contact parameters have their default values
-  std::filesystem::path file;  ///< empty if it was read from no file
-  std::string content;         ///< of the file, without comments and white space; part of the hash of whoever uses it
+  Test test;                               ///< contact parameters have their default values
+  std::vector<CustomaryReading> readings;  ///< empty if the file names none
+  std::string caution;                     ///< what everybody who uses it must know: a sentence without a full stop
+  std::filesystem::path file;              ///< empty if it was read from no file
+  /// Of the file, without comments, white space and what no simulation depends on: readings and caution. Part of the
+  /// hash of whoever uses it.
+  std::string content;
 };
 
 /// An apparatus file's content as a `Apparatus`. Errors: every fault of the content, each with its place.
@@ -29,6 +39,12 @@ Result<Apparatus> read_apparatus_file(const std::filesystem::path& file);
 /// What a person should know of a preset that lies beside the file which names it: "the preset abrams is
 /// /mine/apparatus/abrams.json, not the shipped one"; empty for one that is shipped.
 std::string note_on_preset(const Apparatus& preset);
+
+/// The preset's caution, unless the test takes readings that the preset's own apparatus does not.
+std::string caution_of(const Apparatus& preset, const Test& test);
+
+/// The preset of this name, as a file in `folder` would name it. Error: there is none, or it is faulty.
+Result<Apparatus> find_preset(const std::string& name, const std::filesystem::path& folder);
 
 /// The folders in which presets are looked for, in order: `../apparatus` seen from `folder`, where the naming file
 /// lies; `apparatus` in each folder of data (`data_folders`).

@@ -7,6 +7,7 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
+#include "calibrate/study/coarseness.h"
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/questions.h"
@@ -143,6 +144,9 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
   }
   if (!faults.empty()) return faults;
   if (preset) lab.note = note_on_preset(*preset);
+  if (preset)
+    if (std::string caution = caution_of(*preset, lab.test); !caution.empty()) lab.notes.push_back(std::move(caution));
+  if (std::string few = note_on_grain_count(lab.test); !few.empty()) lab.notes.push_back(std::move(few));
   const std::string apparatus = preset ? preset->content : "";
   lab.content = nlohmann::json{{"laboratory", document}, {"preset", apparatus}}.dump();
   lab.hash = content_hash(document.dump() + apparatus);

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<ShortReading, 9> shorts{{
+constexpr std::array<ShortReading, 11> shorts{{
     {"slump", "step1.slump_mm", "what is missing to the mould's height"},
     {"height", "step1.height_mm", "the height that is left"},
     {"spread", "step1.spread_mm", "width of the heap"},
@@ -29,6 +29,8 @@ constexpr std::array<ShortReading, 9> shorts{{
     {"slump2", "step2.slump_mm", "after the plate's drop"},
     {"spread2", "step2.spread_mm", "after the plate's drop"},
     {"sag", "step2.plateau_sag_mm", "how much lower the top lies on the free side"},
+    {"flow", "after_drops.spread_mm", "width after all drops of the table"},
+    {"height-after", "after_drops.height_mm", "after all drops of the table"},
     {"mass", "fill.mass_kg", "of the full mould's content"},
 }};
 
@@ -137,14 +139,15 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
   return out;
 }
 
-/// A height and a spread tell strength and friction apart; one of them alone tells the strength.
+/// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one of them alone tells the strength.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
       if (key.find(part) != std::string::npos) return true;
     return false;
   };
-  const bool both = is_there("spread") && (is_there("slump") || is_there("height"));
+  const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
+                                           (is_there("step1.spread") && is_there("after_drops.spread")));
   const bool bridge = laws.attraction != "none";
   const auto free = [](double lower, double upper) { return ordered_json{{"free", {lower, upper}}}; };
   const auto fixed = [](double value) { return ordered_json{{"value", value}}; };

@@ -66,6 +66,9 @@ class Runner {
   /// To be called after walls, laws or grains were changed from outside.
   void changed() { stepper_.forget_lists(); }
 
+  /// The same after grains and walls were lifted, so slowly that nothing else changed, by this work on the grains [J].
+  void lifted(double work_j) { stepper_.lifted(work_j); }
+
   const RunSummary& summary();
   const EnergyBalance& energy_balance() const { return stepper_.energy_balance(); }
   /// The run goes on from where another one ended, whose energy balance this is.

@@ -32,6 +32,9 @@ class Stepper {
   /// Takes the last wall away, and with it what its contacts and bridges hold: the work of whoever removes it.
   void take_away_last_wall();
 
+  /// To be called after grains and walls were lifted from outside, with the work that was done on the grains [J].
+  void lifted(double work_j);
+
   /// Whether the next step will fail for what this one did.
   bool has_failed() const { return runaway_ >= 0; }
   double time_step() const { return dt_; }

@@ -135,6 +135,12 @@ double Stepper::held_by(std::size_t w) {
   return total(energy, EnergySums::stored);
 }
 
+void Stepper::lifted(double work_j) {
+  energy_balance_.work_of_walls += work_j;
+  energy_balance_.effort_of_walls += std::fabs(work_j);
+  forget_lists();
+}
+
 void Stepper::take_away_last_wall() {
   if (options_.energy_balance) {
     const double held = held_by(world_.walls.size() - 1);

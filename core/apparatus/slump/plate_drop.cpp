@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/apparatus/rotor.h"
 #include "core/apparatus/slump/slump_world.h"
@@ -12,71 +16,140 @@ namespace pastefit {
 
 namespace {
 
-constexpr int kSides = 2;         // of the heap, opposite ones, the hinge is on in turn
 constexpr double kDropCap = 2.0;  // [s] for the plate to reach its stop
 
-/// One fall of the plate under a heap.
+/// The phases of one drop.
+struct DropPhases {
+  std::string_view raise, fall, rest;
+};
+constexpr DropPhases kFirst{"step2.raise", "step2.drop", "step2.rest"};
+constexpr DropPhases kNext{"drops.raise", "drops.fall", "drops.rest"};
+constexpr DropPhases kLast{"drops.raise", "drops.fall", "after_drops.rest"};
+
+/// A plate under a heap, raised and dropped.
 class Drop {
  public:
   Drop(const SlumpTest& test, World world, const EnergyBalance& before, const RunOptions& options)
       : test_(test),
+        options_(options),
         world_(std::move(world)),
-        runner_(world_, options, rest_measure_of_heap),
+        runner_(world_, options_, rest_measure_of_heap),
         table_(world_.walls[kTable]) {
     runner_.follow(before);
     runner_.remember([] { return true; }, stopped_);
   }
 
+  /// The first drop, from rest to rest.
   std::optional<Failure> run() {
-    if (auto problem = turn_plate_up()) return problem;
-    if (auto problem = let_plate_fall()) return problem;
-    if (auto problem = rest("step2.rest")) return problem;
-    return runner_.show("step2.rest");
+    if (auto problem = raise(kFirst)) return problem;
+    if (is_hinged())
+      if (auto problem = rest("step2.raised")) return problem;
+    if (auto problem = let_fall(kFirst)) return problem;
+    if (auto problem = rest(kFirst.rest)) return problem;
+    return runner_.show(kFirst.rest);
+  }
+
+  /// The drops after it, in the rhythm of the test; `after_each(number)` after each of them, counted from 2.
+  std::optional<Failure> go_on(const std::function<void(int)>& after_each) {
+    for (int number = 2; number <= plate().drops; ++number) {
+      const bool last = number == plate().drops;
+      const DropPhases& phases = last ? kLast : kNext;
+      if (auto problem = raise(phases)) return problem;
+      if (auto problem = let_fall(phases)) return problem;
+      if (auto problem = last ? rest(phases.rest) : rest_between(phases.rest)) return problem;
+      after_each(number);
+    }
+    return runner_.show(kLast.rest);
   }
 
   const Particles& grains() const { return world_.particles; }
   const RunSummary& summary() { return runner_.summary(); }
 
  private:
+  const DropPlate& plate() const { return *test_.drop; }
+  bool is_hinged() const { return plate().motion == TableMotion::hinged; }
+
   std::optional<Failure> rest(std::string_view phase) { return runner_.settle({phase}, kRestCap); }
 
+  /// Nobody reads a heap between two drops: it is calm for a moment, or the next drop comes.
+  std::optional<Failure> rest_between(std::string_view phase) {
+    if (options_.fixed_wait_s) return rest(phase);
+    const RestCriterion to_be_read = options_.rest;
+    options_.rest.windows = 1;
+    auto problem = runner_.run_until_rest({phase}, plate().period_s - moving_time_s(plate()),
+                                          [](const World&) { return true; });
+    options_.rest = to_be_read;
+    return problem;
+  }
+
+  std::optional<Failure> raise(const DropPhases& phases) {
+    if (is_hinged()) return turn_up(phases);
+    set_up();
+    return {};
+  }
+
   /// Turns the plate up about its hinge with a smooth start and stop.
-  std::optional<Failure> turn_plate_up() {
-    const DropPlate& plate = *test_.drop;
-    const double angle = std::asin(plate.lift_height_m / plate.length_m);
-    const double start = world_.time, duration = plate.lift_duration_s;
+  std::optional<Failure> turn_up(const DropPhases& phases) {
+    const double angle = std::asin(plate().lift_height_m / plate().length_m);
+    const double start = world_.time, duration = plate().lift_duration_s;
     const auto turn = [&](World& world, double dt) {
       const double before = turned_share((world.time - start) / duration);
       const double after = turned_share((world.time + dt - start) / duration);
       // Positive about y lowers the free edge.
       table_.angular_velocity = {0, -angle * (after - before) / dt, 0};
     };
-    table_.pivot = {-0.5 * plate.length_m, 0, 0};
-    if (auto problem = runner_.run({"step2.raise", turn}, duration)) return problem;
+    table_.pivot = {-0.5 * plate().length_m, 0, 0};
+    if (auto problem = runner_.run({phases.raise, turn}, duration)) return problem;
     table_.angular_velocity = {};
-    return rest("step2.raised");
+    return {};
   }
 
-  /// Lets the plate go: a rigid rotor under its own weight and the grains on it, stopped dead when it is level.
-  std::optional<Failure> let_plate_fall() {
-    const DropPlate& plate = *test_.drop;
-    const Rotor rotor{plate.mass_kg, plate.mass_kg * plate.length_m * plate.length_m / 3};
+  /// A cam raises the table upright, and so slowly that the heap on it does not notice: both are set up at once. What
+  /// has left the table stays below.
+  void set_up() {
+    double work = 0;
+    Particles& grains = world_.particles;
+    for (std::int32_t i = 0; i < grains.count(); ++i) {
+      if (grains.motion[i].position.z < 0) continue;
+      grains.motion[i].position.z += plate().lift_height_m;
+      work += grains.mass(i) * world_.gravity * plate().lift_height_m;
+    }
+    std::get<Shell>(table_.shape).base.z += plate().lift_height_m;
+    runner_.lifted(work);
+  }
+
+  /// Lets the plate go: a rigid body under its own weight and the grains on it, stopped dead on its seat.
+  std::optional<Failure> let_fall(const DropPhases& phases) {
+    stopped_ = false;
+    const Rotor rotor{plate().mass_kg, plate().mass_kg * plate().length_m * plate().length_m / 3};
     const auto fall = [&](World& world, double dt) {
-      if (turn_freely(rotor, table_, world.gravity, dt, dt)) stopped_ = true;
+      if (is_hinged() ? turn_freely(rotor, table_, world.gravity, dt, dt).has_value() : sink_freely(world.gravity, dt))
+        stopped_ = true;
     };
-    if (auto problem = runner_.run({"step2.drop", fall, [&](const World&) { return stopped_; }}, kDropCap))
+    if (auto problem = runner_.run({phases.fall, fall, [&](const World&) { return stopped_; }}, kDropCap))
       return problem;
-    table_.angular_velocity = {};
-    table_.shape = level_table(test_);
+    table_.angular_velocity = table_.velocity = {};
+    table_.shape = table_on_seat(test_);
     if (stopped_) return {};
     return Failure{FailureReason::never_settled,
-                   "step2.drop",
+                   std::string(phases.fall),
                    world_.step,
                    world_.time,
                    -1,
                    0,
                    kDropCap,
                    "the plate did not fall to its stop; check its mass and lift height"};
+  }
+
+  /// One step of a table that falls upright, M dv/dt = F_grains - M g; true when it has arrived on its seat, at the end
+  /// of the step.
+  bool sink_freely(double gravity, double dt) {
+    const double above = std::get<Shell>(table_.shape).base.z;
+    double& speed = table_.velocity.z;
+    speed += dt * (table_.force.z / plate().mass_kg - gravity);
+    if (above + speed * dt > 0) return false;
+    speed = -above / dt;
+    return true;
   }
 
   /// Share of the angle turned through at share s of the time: smooth start and stop.
@@ -86,21 +159,43 @@ class Drop {
   }
 
   const SlumpTest& test_;
+  RunOptions options_;
   World world_;
   Runner runner_;
   Wall& table_;
   bool stopped_ = false;  ///< the plate has fallen
 };
 
+/// The run of one side after that of others.
+void add_up(RunSummary& sum, const RunSummary& run, double since_s, bool first) {
+  sum.steps += run.steps;
+  sum.particle_steps += run.particle_steps;
+  sum.simulated_s += run.simulated_s - since_s;
+  sum.advised_step_s = first ? run.advised_step_s : std::min(sum.advised_step_s, run.advised_step_s);
+  if (run.energy_error && std::fabs(*run.energy_error) >= std::fabs(sum.energy_error.value_or(0)))
+    sum.energy_error = run.energy_error;
+  sum.settled = sum.settled && run.settled;
+}
+
+/// All drops after the first one, and what is read of them.
+std::optional<Failure> drop_again(Drop& drop, const Ruler& ruler, Outcome& outcome) {
+  outcome.curve = Curve{"spread_over_drops", "drops", "spread_mm", {{1, 1e3 * ruler.spread_m(drop.grains())}}};
+  return drop.go_on([&](int number) {
+    outcome.curve->points.push_back({static_cast<double>(number), 1e3 * ruler.spread_m(drop.grains())});
+  });
+}
+
 }  // namespace
 
 Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& ruler, const EnergyBalance& before,
                    const RunOptions& options) {
-  Outcome mean;
-  mean.run.settled = true;
+  Outcome outcome;
+  outcome.run.settled = true;
   World world = rested;
   std::vector<Observables> of_sides;
-  for (int side = 0; side < kSides; ++side) {
+  Observables after_drops;
+  const int sides = test.drop->motion == TableMotion::hinged ? 2 : 1;  // opposite ones, the hinge is on in turn
+  for (int side = 0; side < sides; ++side) {
     RunOptions of_side = options;
     if (options.watch)
       of_side.watch = [&](Snapshot snapshot) {
@@ -108,21 +203,19 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
         return options.watch(snapshot);
       };
     Drop drop(test, world, before, of_side);
-    mean.failure = drop.run();
-    const RunSummary& run = drop.summary();
-    mean.run.steps += run.steps;
-    mean.run.particle_steps += run.particle_steps;
-    mean.run.simulated_s += run.simulated_s - rested.time;
-    mean.run.advised_step_s = side == 0 ? run.advised_step_s : std::min(mean.run.advised_step_s, run.advised_step_s);
-    if (run.energy_error && std::fabs(*run.energy_error) >= std::fabs(mean.run.energy_error.value_or(0)))
-      mean.run.energy_error = run.energy_error;
-    mean.run.settled = mean.run.settled && run.settled;
-    if (mean.failure) return mean;
-    ruler.read(drop.grains(), "step2", of_sides.emplace_back());
+    outcome.failure = drop.run();
+    if (!outcome.failure) ruler.read(drop.grains(), "step2", of_sides.emplace_back());
+    if (!outcome.failure && side == 0 && test.drop->drops > 1) {
+      outcome.failure = drop_again(drop, ruler, outcome);
+      if (!outcome.failure) ruler.read_after_drops(drop.grains(), after_drops);
+    }
+    add_up(outcome.run, drop.summary(), rested.time, side == 0);
+    if (outcome.failure) return outcome;
     turn_half_round(world);
   }
-  mean.observables = mean_of(of_sides);
-  return mean;
+  outcome.observables = mean_of(of_sides);
+  for (const Observable& reading : after_drops.all()) outcome.observables.set(reading.name, reading.value);
+  return outcome;
 }
 
 }  // namespace pastefit

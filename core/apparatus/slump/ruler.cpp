@@ -27,19 +27,46 @@ Disc Ruler::top(const Particles& grains) const {
   return disc;
 }
 
+Ruler::Heights Ruler::heights(const Particles& grains) const {
+  const double rim = test_.mould.height_m;
+  Heights heights{.probe = top(grains)};
+  heights.surface = std::min(mean_height(grains, test_.grains.radius_m, heights.probe) + roughness_m_, rim);
+  heights.highest = std::clamp(highest_point(grains), heights.surface, rim);
+  return heights;
+}
+
+/// As the laboratory reads it.
+double Ruler::read_height(const Heights& heights) const {
+  return test_.reading.height == HeightReading::axis ? heights.surface : heights.highest;
+}
+
+/// A table that is covered to its corners is read as long as it is.
+double Ruler::widest_m() const {
+  return std::max(test_.table_length_m, 2 * test_.mould.base_radius_m);
+}
+
+double Ruler::spread_m(const Particles& all) const {
+  return std::min(widths(on_table(all), test_.grains.radius_m).mean, widest_m());
+}
+
+void Ruler::read_after_drops(const Particles& all, Observables& readings) const {
+  const Particles grains = on_table(all);
+  readings.set("after_drops.spilled_share", 1 - static_cast<double>(grains.count()) / all.count());
+  if (grains.count() == 0) return;
+  readings.set("after_drops.height_mm", 1e3 * read_height(heights(grains)));
+  readings.set("after_drops.spread_mm", 1e3 * spread_m(all));
+}
+
 void Ruler::read(const Particles& all, std::string_view step, Observables& readings) const {
   const Particles grains = on_table(all);
   const double radius = test_.grains.radius_m, rim = test_.mould.height_m;
   const auto set = [&](const char* name, double value) { readings.set(std::string(step) + name, value); };
   set(".spilled_share", 1 - static_cast<double>(grains.count()) / all.count());
   if (grains.count() == 0) return;
-  const Disc probe = top(grains);
-  const double surface = std::min(mean_height(grains, radius, probe) + roughness_m_, rim);
-  const double highest = std::clamp(highest_point(grains), surface, rim);
-  const double height = test_.reading.height == HeightReading::axis ? surface : highest;
+  const auto [probe, surface, highest] = heights(grains);
+  const double height = read_height({probe, surface, highest});
   const Widths spread = widths(grains, radius);
-  // A table that is covered to its corners is read as long as it is.
-  const double table = std::max(test_.table_length_m, 2 * test_.mould.base_radius_m);
+  const double table = widest_m();
   set(".height_mm", 1e3 * height);
   set(".slump_mm", 1e3 * (rim - height));
   set(".height_axis_mm", 1e3 * surface);
@@ -54,7 +81,8 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   if (!measured.empty()) set(".profile_mm", 1e3 * rms_difference(side, measured));
   if (!dropped) return;
   const double window = test_.reading.sag_window_m;
-  set(".plateau_sag_mm", -1e3 * window * slope_along_x(grains, radius, {0, 0, window}));
+  if (test_.drop->motion == TableMotion::hinged)
+    set(".plateau_sag_mm", -1e3 * window * slope_along_x(grains, radius, {0, 0, window}));
   set(".plateau_width_mm", 1e3 * plateau_width(side));
 }
 

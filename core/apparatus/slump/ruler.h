@@ -23,11 +23,24 @@ class Ruler {
   /// Sets the readings of this step, "step1" or "step2". What a heap does not have is absent: no width of nothing.
   void read(const Particles& grains, std::string_view step, Observables& readings) const;
 
+  /// Sets "after_drops.height_mm", "after_drops.spread_mm" and the share that was spilled.
+  void read_after_drops(const Particles& grains, Observables& readings) const;
+
+  /// Width of the heap, the mean over all directions [m]; at most that of the table.
+  double spread_m(const Particles& grains) const;
+
   /// No reading of a height is above this and the highest point of any grain [m].
   double above_highest_m() const { return roughness_m_; }
 
  private:
+  struct Heights {
+    Disc probe;  ///< where the surface is read
+    double surface = 0, highest = 0;
+  };
   Disc top(const Particles& grains) const;
+  Heights heights(const Particles& grains) const;
+  double read_height(const Heights& heights) const;
+  double widest_m() const;
 
   const SlumpTest& test_;
   double roughness_m_;

@@ -20,6 +20,11 @@ constexpr double published_mould_mm = 300, published_height_mm = 7.5, published_
 constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2",
                         "leave it out, or describe the plate in apparatus.drop_plate"};
 
+constexpr Lack no_sides{"the table falls upright, so that its heap has no free side",
+                        "leave it out, or say that the plate is \"hinged\" in apparatus.drop_plate.motion"};
+constexpr Lack one_drop{"the plate is dropped once, so that there is only step 2",
+                        "name it step2, or give the number of drops in apparatus.drop_plate.drops"};
+
 /// What the sizes of mould and table allow for.
 struct SlumpRanges {
   explicit SlumpRanges(const SlumpTest& test)
@@ -66,7 +71,8 @@ std::vector<ReadingKind> step1_kinds(const SlumpRanges& ranges) {
                 .stage = kStep1, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
     ReadingKind{.name = "step1.spread_mm", .key = "step1.spread_mm", .measure = "step1.spread_mm", .stage = kStep1,
                 .possible = ranges.spread, .worst_miss = ranges.mould_mm,
-                .ceilings = {{{"step2.spread_mm", not_drawn}}}, .advised = true, .checked = true,
+                .ceilings = {{{"step2.spread_mm", not_drawn}, {"after_drops.spread_mm", not_drawn}}}, .advised = true,
+                .checked = true,
                 .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step1.spread_orthogonal_mm", .key = "step1.spread_orthogonal_mm",
                 .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = ranges.spread,
@@ -97,7 +103,8 @@ std::vector<ReadingKind> step2_kinds(const SlumpRanges& ranges) {
     ReadingKind{.name = "step2.lateral_shift_mm", .key = "", .measure = "", .stage = kStep2,
                 .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
     ReadingKind{.name = "step2.spread_mm", .key = "step2.spread_mm", .measure = "step2.spread_mm", .stage = kStep2,
-                .possible = ranges.spread, .worst_miss = ranges.mould_mm, .advised = true, .checked = true,
+                .possible = ranges.spread, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"after_drops.spread_mm", not_drawn}}}, .advised = true, .checked = true,
                 .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step2.spread_orthogonal_mm", .key = "step2.spread_orthogonal_mm",
                 .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = ranges.spread,
@@ -112,6 +119,20 @@ std::vector<ReadingKind> step2_kinds(const SlumpRanges& ranges) {
                 .stage = kStep2, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .advised = true,
                 .checked = true}};
 }
+
+std::vector<ReadingKind> after_drops_kinds(const SlumpRanges& ranges) {
+  return {
+    ReadingKind{.name = "after_drops.spilled_share", .key = "", .measure = "", .stage = kAfterDrops,
+                .possible = ranges.share},
+    ReadingKind{.name = "after_drops.height_mm", .key = "after_drops.height_mm", .measure = "after_drops.height_mm",
+                .stage = kAfterDrops, .possible = ranges.height, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step2.height_mm", not_raised}, {"step1.height_mm", not_raised}}}, .advised = true,
+                .checked = true, .repeatability = published, .published_deviation = ranges.deviation_of_height},
+    ReadingKind{.name = "after_drops.spread_mm", .key = "after_drops.spread_mm", .measure = "after_drops.spread_mm",
+                .stage = kAfterDrops, .possible = ranges.spread, .worst_miss = ranges.mould_mm, .advised = true,
+                .checked = true, .repeatability = published_spread,
+                .published_deviation = ranges.deviation_of_spread}};
+}
 // clang-format on
 
 }  // namespace
@@ -121,7 +142,13 @@ std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
   std::vector<ReadingKind> kinds = fill_kinds(ranges);
   for (const ReadingKind& kind : step1_kinds(ranges)) kinds.push_back(kind);
   for (ReadingKind& kind : step2_kinds(ranges)) {
+    const bool has_sides = test.drop && test.drop->motion == TableMotion::hinged;
+    if (kind.name == "step2.plateau_sag_mm" && !has_sides) kind.lack = no_sides;
     if (!test.drop) kind.lack = no_plate;
+    kinds.push_back(kind);
+  }
+  for (ReadingKind& kind : after_drops_kinds(ranges)) {
+    if (!test.drop || test.drop->drops == 1) kind.lack = test.drop ? one_drop : no_plate;
     kinds.push_back(kind);
   }
   return kinds;

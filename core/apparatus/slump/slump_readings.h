@@ -9,7 +9,7 @@
 namespace pastefit {
 
 /// The stages of a slump test.
-inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2;
+inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2, kAfterDrops = 3;
 
 /// Every reading of slump tests, in the order in which a simulation gives them; those that this one lacks say so.
 std::vector<ReadingKind> reading_kinds(const SlumpTest& test);

@@ -142,10 +142,15 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
     ended_early = lift.is_unwanted(outcome.observables);
   }
   if (test.drop && !outcome.failure && !ended_early) {
-    const Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options);
+    Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options);
     outcome.failure = drops.failure;
     outcome.run = together(outcome.run, drops.run);
     for (const Observable& reading : drops.observables.all()) outcome.observables.set(reading.name, reading.value);
+    if (drops.curve) {
+      drops.curve->points.insert(drops.curve->points.begin(),
+                                 {0, outcome.observables.find("step1.spread_mm").value_or(0)});
+      outcome.curve = std::move(drops.curve);
+    }
   }
   outcome.run.ended_early = ended_early;
   if (options.fixed_wait_s) outcome.run.settled = false;  // nobody looked

@@ -1,9 +1,11 @@
 #include "core/apparatus/slump/slump_test.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/apparatus/field_checker.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
@@ -19,6 +21,37 @@ double wider_radius_m(const Mould& mould) {
 double narrower_radius_m(const Mould& mould) {
   return std::min(mould.base_radius_m, mould.top_radius_m);
 }
+
+double fall_time_s(const DropPlate& plate) {
+  const double way = plate.motion == TableMotion::hinged
+                         ? plate.length_m * std::asin(plate.lift_height_m / plate.length_m) / 1.5
+                         : plate.lift_height_m;
+  return std::sqrt(2 * way / kGravity);
+}
+
+double moving_time_s(const DropPlate& plate) {
+  return (plate.motion == TableMotion::hinged ? plate.lift_duration_s : 0) + fall_time_s(plate);
+}
+
+namespace {
+
+void check_plate(FieldChecker& check, const SlumpTest& test) {
+  const DropPlate& plate = *test.drop;
+  check_dimensions(check, plate, plate_dimensions, "drop.");
+  check_dimensions(check, plate, rhythm_dimensions, "drop.");
+  check.range("drop.length_m", plate.length_m, 2 * wider_radius_m(test.mould), 10, "m");
+  check.range("drop.lift_height_m", plate.lift_height_m, 1e-4, 0.99 * plate.length_m, "m");
+  check.range("drop.drops", plate.drops, 1, kMostDrops, "");
+  if (plate.drops == 1) return;
+  const double moving_ms = std::ceil(1e3 * moving_time_s(plate));
+  check.require(!(plate.period_s < 1e-3 * moving_ms), "drop.period_s",
+                "is " + FieldChecker::text(plate.period_s) + " s, but the plate moves for " +
+                    FieldChecker::text(1e-3 * moving_ms) + " s in every drop",
+                "give at least " + FieldChecker::text(1e-3 * moving_ms) + " s" +
+                    (plate.motion == TableMotion::hinged ? ", or a shorter lift_duration_s" : ""));
+}
+
+}  // namespace
 
 Faults validate(const SlumpTest& test) {
   FieldChecker check;
@@ -36,10 +69,9 @@ Faults validate(const SlumpTest& test) {
   check.range("table_length_m", test.table_length_m, 2 * wider_radius_m(mould), 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * wider_radius_m(mould), "m");
   if (test.drop) {
-    check_dimensions(check, *test.drop, plate_dimensions, "drop.");
-    check.range("reading.sag_window_m", test.reading.sag_window_m, 4 * radius, test.table_length_m, "m");
-    check.range("drop.length_m", test.drop->length_m, 2 * wider_radius_m(mould), 10, "m");
-    check.range("drop.lift_height_m", test.drop->lift_height_m, 1e-4, 0.99 * test.drop->length_m, "m");
+    check_plate(check, test);
+    if (test.drop->motion == TableMotion::hinged)
+      check.range("reading.sag_window_m", test.reading.sag_window_m, 4 * radius, test.table_length_m, "m");
   }
   check_wall(check, test.mould_wall, "mould_wall");
   check_wall(check, test.table_wall, "table_wall");

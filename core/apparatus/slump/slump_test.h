@@ -27,14 +27,25 @@ double narrower_radius_m(const Mould& mould);
 /// Inner volume of the mould [m^3]: pi h (r_b^2 + r_b r_t + r_t^2)/3.
 double volume_m3(const Mould& mould);
 
-/// The hinged plate of the flow table on which the mould stands, centred under it.
-/// The plate is square; its hinge is the edge at x = -length/2, its free edge the one at x = +length/2.
-struct DropPlate {
-  double length_m = 0.700;
-  double mass_kg = 16.0;
-  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop
-  double lift_duration_s = 0.5;  ///< time the plate takes to turn up to the stop
+/// How the table under a heap is dropped.
+enum class TableMotion {
+  hinged,   ///< a square plate turns up about an edge and falls back (EN 12350-5)
+  vertical  ///< a round table is raised by a cam and falls upright, as a jolting table does (EN 1015-3, ASTM C230)
 };
+
+/// The plate of the flow table on which the mould stands, centred under it. Its seat stops it dead, as one of infinite
+/// mass would: the standards mount their tables on blocks of a hundred kilograms or more.
+/// Hinged: the hinge is the edge at x = -length/2, the free edge the one at x = +length/2.
+struct DropPlate {
+  double length_m = 0.700;  ///< side of the square plate, diameter of the round one
+  double mass_kg = 16.0;
+  double lift_height_m = 0.040;  ///< rise of the free edge at the upper stop; of the whole table
+  double lift_duration_s = 0.5;  ///< time the hinged plate takes to turn up to the stop; a cam's lift takes none
+  double period_s = 2.0;         ///< from one drop to the next, where there are several
+  TableMotion motion = TableMotion::hinged;
+  int drops = 1;
+};
+inline constexpr int kMostDrops = 100;
 
 /// Which point of the heap the laboratory calls its height.
 enum class HeightReading {
@@ -54,7 +65,8 @@ struct Reading {
 
 /// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
 /// apparatus. The density of a grain follows from the packing.
-/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): turn the plate up, let it fall once.
+/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate, let it fall once; and so on,
+/// as often as it says.
 struct SlumpTest : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
@@ -65,6 +77,14 @@ struct SlumpTest : Specimen {
   WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
   WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
 };
+
+/// Of the empty plate from its upper stop to the lower one [s]; a heap on it changes it by little.
+/// Vertical: sqrt(2 h/g). Hinged, as a rod about its end: sqrt(2 L asin(h/L)/(1.5 g)).
+/// Requirement: a lift height of at most the length.
+double fall_time_s(const DropPlate& plate);
+
+/// In which one drop moves the plate, up and down [s].
+double moving_time_s(const DropPlate& plate);
 
 inline constexpr std::array<Dimension<Mould>, 3> mould_dimensions{{
     {"base_radius_m", &Mould::base_radius_m, 1e-3, 2, "inner, below"},
@@ -77,10 +97,13 @@ inline constexpr std::array<Dimension<SlumpTest>, 2> slump_dimensions{{
      false, true},
 }};
 inline constexpr std::array<Dimension<DropPlate>, 4> plate_dimensions{{
-    {"length_m", &DropPlate::length_m, 2e-3, 10, "side of the square plate"},
+    {"length_m", &DropPlate::length_m, 2e-3, 10, "side of the square plate, diameter of the round one"},
     {"mass_kg", &DropPlate::mass_kg, 0.1, 1000, "of the plate alone"},
-    {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1, "of its free edge, before it drops"},
-    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is lifted; default 0.5", true},
+    {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1, "of its free edge, or of the whole table, before it drops"},
+    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is turned up about its hinge; default 0.5", true},
+}};
+inline constexpr std::array<Dimension<DropPlate>, 1> rhythm_dimensions{{
+    {"period_s", &DropPlate::period_s, 0.02, 60, "from one drop to the next, of several; default 2", true},
 }};
 inline constexpr std::array<Dimension<Reading>, 2> reading_dimensions{{
     {"probe_diameter_m", &Reading::probe_diameter_m, 1e-6, 4, "of the disc over which a height at the axis is taken",

@@ -8,7 +8,9 @@ constexpr double kGroundDepth = 0.1;  // [m] below the table
 
 }  // namespace
 
-Plate level_table(const SlumpTest& test) {
+Shape table_on_seat(const SlumpTest& test) {
+  // A shell without height from the edge to the axis.
+  if (test.drop && test.drop->motion == TableMotion::vertical) return Shell{{}, 0.5 * test.drop->length_m, 0, 0};
   Plate plate;
   plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
   return plate;
@@ -26,7 +28,7 @@ World world_in_mould(const SlumpTest& test, const Packing& packing) {
     world.walls.push_back(wall);
   };
   const Mould& mould = test.mould;
-  add("table", level_table(test), test.table_wall);
+  add("table", table_on_seat(test), test.table_wall);
   add("ground", Plane{{0, 0, -kGroundDepth}}, test.table_wall);
   world.walls[kGround].pair.rolling_friction = 1;
   add("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test.mould_wall);

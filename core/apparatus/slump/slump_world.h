@@ -10,8 +10,8 @@ inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;
 
 inline constexpr double kRestCap = 4;  ///< [s] simulated time a heap is allowed for coming to rest
 
-/// The table, or the plate that can be dropped, when it is level.
-Plate level_table(const SlumpTest& test);
+/// The table, or the plate that can be dropped, on its seat: a square, or a disc where it falls upright.
+Shape table_on_seat(const SlumpTest& test);
 
 /// A packing in its mould on the table, under the laws of `test`. Grains that flow over the table's edge land on the
 /// ground below it.

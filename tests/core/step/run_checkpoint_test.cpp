@@ -103,6 +103,14 @@ TEST_CASE("a slump test with its drops that is killed again and again, and goes 
   check_resumed(slump(), 35, 2);
 }
 
+TEST_CASE("a jolting table that is killed again and again, and goes on, has the bits of one that was not") {
+  SlumpTest test = slump();
+  test.drop->motion = TableMotion::vertical;
+  test.drop->lift_height_m = 0.01;
+  test.drop->drops = 4;
+  check_resumed(test, 35, 2);
+}
+
 TEST_CASE("a run with fixed waits that is killed again and again, and goes on, has the bits of one that was not") {
   RunOptions options;
   options.fixed_wait_s = 0.2;

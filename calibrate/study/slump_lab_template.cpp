@@ -1,0 +1,134 @@
+#include "calibrate/study/slump_lab_template.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/rounded.h"
+#include "calibrate/base/units.h"
+#include "calibrate/study/apparatus.h"
+
+namespace pastefit {
+namespace {
+
+/// A file's lines, of which those that begin with a key can be replaced.
+class TemplateLines {
+ public:
+  explicit TemplateLines(const std::string& text) {
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines_.push_back(line);
+  }
+
+  /// Replaces the `count` lines from the one that begins so, blanks aside. Their blanks are kept; none of `instead`: the
+  /// lines go.
+  void replace(std::string_view beginning, const std::vector<std::string>& instead, std::size_t count = 1) {
+    const auto found = std::ranges::find_if(lines_, [&](const std::string& line) {
+      const auto first = std::min(line.find_first_not_of(' '), line.size());
+      return std::string_view(line).substr(first).starts_with(beginning);
+    });
+    if (found == lines_.end()) return;
+    const std::string blanks(found->find_first_not_of(' '), ' ');
+    const auto last = found + static_cast<std::ptrdiff_t>(std::min<std::size_t>(count, lines_.end() - found));
+    const auto at = lines_.erase(found, last);
+    std::vector<std::string> indented;
+    for (const std::string& line : instead) indented.push_back(blanks + line);
+    lines_.insert(at, indented.begin(), indented.end());
+  }
+
+  std::string text() const {
+    std::string out;
+    for (const std::string& line : lines_) out += line + "\n";
+    return out;
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+std::string number(double value) {
+  return nlohmann::json(rounded(value, 6)).dump();
+}
+
+std::string reading_line(const CustomaryReading& one, bool last) {
+  return "\"" + one.key + "\": {\"value\": " + number(one.value) + ", \"standard_deviation\": " +
+         number(one.standard_deviation) + "}" + (last ? "" : ",");
+}
+
+/// What a slump test reads anyhow: half of the height is left, of a heap between a paraboloid and a cone.
+std::vector<CustomaryReading> usual_readings(const SlumpTest& test) {
+  constexpr double left = 0.5, cones = 0.85;
+  const double height_m = left * test.mould.height_m;
+  const double cone_m = 2 * std::sqrt(3 * volume_m3(test.mould) / (std::numbers::pi * height_m));
+  std::vector<CustomaryReading> out{{"step1.height_mm", mm * height_m}, {"step1.spread_mm", mm * cones * cone_m}};
+  const auto kinds = reading_kinds(test);
+  for (CustomaryReading& one : out) {
+    one.value = rounded(one.value, 2);
+    for (const ReadingKind& kind : kinds)
+      if (kind.key == one.key) one.standard_deviation = rounded(kind.published_deviation, 2);
+  }
+  return out;
+}
+
+std::string plate_line(const SlumpTest& test) {
+  if (!test.drop) return "// \"drop_plate\": null,  // nothing drops this table";
+  const DropPlate& plate = *test.drop;
+  std::string line = "// \"drop_plate\": {\"length_mm\": " + number(mm * plate.length_m) + ", \"mass_kg\": " +
+                     number(plate.mass_kg) + ", \"lift_height_mm\": " + number(mm * plate.lift_height_m);
+  return line + ", \"drops\": " + std::to_string(plate.drops) + ", \"period_s\": " + number(plate.period_s) + "},";
+}
+
+std::string grains_line(const GrainSizes& grains) {
+  const bool mono = grains.distribution == SizeDistribution::mono;
+  // A quarter to either side: equal spheres lie in layers and shear off along them.
+  const double smallest = mono ? 0.75 * grains.radius_m : grains.smallest_m;
+  const double largest = mono ? 1.25 * grains.radius_m : grains.largest_m;
+  return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + number(mm * smallest) +
+         ", \"largest_mm\": " + number(mm * largest) + "},";
+}
+
+void fill_in(TemplateLines& lines, const std::string& name, const Apparatus& preset) {
+  const SlumpTest& test = std::get<SlumpTest>(preset.test);
+  lines.replace("// Give only what differs", {"// " + preset.title + ". The preset brings its table, speed and grains;",
+                                              "// give what differs from it. Deviations are of one reading."}, 3);
+  std::vector<std::string> named{"\"preset\": \"" + name + "\","};
+  if (!preset.caution.empty()) named.insert(named.begin(), "// NOTE: " + preset.caution + ".");
+  lines.replace("\"preset\":", named);
+  lines.replace("// \"mould\":",
+                {"// \"mould\": {\"base_diameter_mm\": " + number(2 * mm * test.mould.base_radius_m) +
+                 ", \"top_diameter_mm\": " + number(2 * mm * test.mould.top_radius_m) +
+                 ", \"height_mm\": " + number(mm * test.mould.height_m) + "},"});
+  lines.replace("// \"table_length_mm\":", {"// \"table_length_mm\": " + number(mm * test.table_length_m) + ","});
+  lines.replace("// \"drop_plate\":", {plate_line(test)});
+  const bool axis = test.reading.height == HeightReading::axis;
+  lines.replace("// \"reading\":",
+                {"// \"reading\": {\"height\": \"" + std::string(axis ? "axis" : "highest") +
+                 "\", \"probe_diameter_mm\": " + number(mm * test.reading.probe_diameter_m) +
+                 "},  // axis: at the middle of the top; highest: the highest point of the heap"});
+  lines.replace("\"lift_velocity_mm_s\":", {"\"lift_velocity_mm_s\": " + number(mm * test.lift_velocity_m_s)});
+  lines.replace("\"material\":", {"\"material\": {\"bulk_density_kg_m3\": " + number(test.bulk_density_kg_m3) + "},"});
+  lines.replace("// Equal spheres,", {}, 2);  // examples for a tall cone
+  lines.replace("\"grains\":", {grains_line(test.grains)});
+  const auto readings = preset.readings.empty() ? usual_readings(test) : preset.readings;
+  std::vector<std::string> measured;
+  for (const CustomaryReading& one : readings) measured.push_back(reading_line(one, &one == &readings.back()));
+  lines.replace("\"step1.slump_mm\":", measured, 2);
+}
+
+}  // namespace
+
+Result<std::string> slump_lab_template(const std::string& name, const std::filesystem::path& folder) {
+  const Result<Apparatus> preset = find_preset(name, folder);
+  if (!preset.ok()) return preset.faults();
+  if (!std::holds_alternative<SlumpTest>(preset.value().test))
+    return Fault{"apparatus.preset", in_quotes(name) + " is an apparatus for another test", "name one with a mould"};
+  TemplateLines lines(template_text("lab").value());
+  fill_in(lines, name, preset.value());
+  return lines.text();
+}
+
+}  // namespace pastefit
