@@ -245,9 +245,10 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
   }
   if (format == "pastefit-rig-1") {
     const auto apparatus = read_with(document, settings, file, faults, apparatus_from_json);
-    if (apparatus.ok())
-      return FoundScene{with_parameters(apparatus.value().test, default_values(), settings, faults), {}};
-    return std::nullopt;
+    if (!apparatus.ok()) return std::nullopt;
+    FoundScene found{with_parameters(apparatus.value().test, default_values(), settings, faults), {}};
+    if (!apparatus.value().caution.empty()) found.notes.push_back(apparatus.value().caution);
+    return found;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),
                     "\"pastefit-study-1\", a card (\"pastefit-card-5\"), \"pastefit-lab-1\", "

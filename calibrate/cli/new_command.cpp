@@ -83,7 +83,9 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     const auto read = apparatus_of(text, folder);
     return read.ok() ? Faults{} : read.faults();
   };
-  if (!ask(sheet.mould, "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, or base/top/height in mm",
+  if (!ask(sheet.mould,
+           "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, or "
+           "base/top/height in mm",
            "abrams", mould_faults) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
            [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))

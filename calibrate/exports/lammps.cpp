@@ -89,6 +89,14 @@ Result<Export> export_lammps(const ExportScene& scene) {
       "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
       "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
       "them.");
+  if (const SlumpTest* test = scene.slump(); test && test->drop) {
+    if (test->drop->motion == TableMotion::vertical)
+      out.notes.push_back("The deck runs step 1, on a square table. A table that falls upright is not part of it.");
+    else if (test->drop->drops > 1)
+      out.notes.push_back(
+          format("The deck drops the plate once: the heap of step 2. The card's test goes on to %d drops.",
+                 test->drop->drops));
+  }
   out.instructions = kBuild;
   out.files = lammps_deck(scene, laws, out.notes, scene.packing.radii);
   for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});

@@ -118,7 +118,7 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
   out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  const bool falls = test.drop && laws.hinge;
+  const bool falls = test.drop && test.drop->motion == TableMotion::hinged && laws.hinge;
   if (falls) out += "variable     tilt equal 0\n";
   out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out", -half, half, -half, half,
                 -0.5 * kGroundDepth);

@@ -217,7 +217,9 @@ std::vector<std::string> table_losses(const ExportScene& scene, double weight) {
                "%.2f %%.",
                scene.sizes.radii_m.size(), 100 * scene.sizes.largest_change));
   if (scene.slump() && scene.slump()->drop)
-    notes.push_back("The deck runs step 1. The drop of the plate, step 2, needs --to lammps.");
+    notes.push_back(scene.slump()->drop->motion == TableMotion::hinged
+                        ? "The deck runs step 1. The drop of the plate, step 2, needs --to lammps."
+                        : "The deck runs step 1, on a square table. A table that falls upright is not part of it.");
   return notes;
 }
 

@@ -141,7 +141,10 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
     if (share_of_cone_width(test, heap) < pancake - sure * deviation_of_share(test, heap))
       check.faults.push_back(missing_volume(test, heap));
     else
-      check.notes.push_back((step == "step1." ? "" : step == "step2." ? "after the drop, " : "after all drops, ") + in_words(test, heap));
+      check.notes.push_back((step == "step1."   ? ""
+                             : step == "step2." ? "after the drop, "
+                                                : "after all drops, ") +
+                            in_words(test, heap));
   }
   return check;
 }

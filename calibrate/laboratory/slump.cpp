@@ -77,7 +77,8 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
   apparatus.nullable_object("drop_plate", test.drop, Need::optional, [&](ObjectReader& plate, DropPlate& drop) {
     plate.choice("motion", drop.motion, table_motions, Need::optional);
     if (drop.motion == TableMotion::vertical)
-      plate.refuse("lift_duration_s", "is of a hinged plate: a cam raises a table so slowly that it takes no simulated time",
+      plate.refuse("lift_duration_s",
+                   "is of a hinged plate: a cam raises a table so slowly that it takes no simulated time",
                    "leave it out");
     read_dimensions(plate, drop, plate_dimensions, plate_need);
     plate.integer("drops", drop.drops, 1, kMostDrops, Need::optional);

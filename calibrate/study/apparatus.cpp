@@ -67,8 +67,8 @@ void read_customary(ObjectReader& document, Apparatus& apparatus) {
 }
 
 std::size_t readings_taken(const Test& test) {
-  const auto kinds = reading_kinds(test);
-  return static_cast<std::size_t>(std::ranges::count_if(kinds, [](const ReadingKind& kind) { return !kind.lack; }));
+  const auto own_kinds = reading_kinds(test);
+  return static_cast<std::size_t>(std::ranges::count_if(own_kinds, [](const ReadingKind& kind) { return !kind.lack; }));
 }
 
 }  // namespace

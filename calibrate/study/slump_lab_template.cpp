@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
+#include "calibrate/base/wrapped_text.h"
 #include "calibrate/study/apparatus.h"
 
 namespace pastefit {
@@ -24,8 +25,8 @@ class TemplateLines {
     for (std::string line; std::getline(stream, line);) lines_.push_back(line);
   }
 
-  /// Replaces the `count` lines from the one that begins so, blanks aside. Their blanks are kept; none of `instead`: the
-  /// lines go.
+  /// Replaces the `count` lines from the one that begins so, blanks aside. Their blanks are kept; none of `instead`:
+  /// the lines go.
   void replace(std::string_view beginning, const std::vector<std::string>& instead, std::size_t count = 1) {
     const auto found = std::ranges::find_if(lines_, [&](const std::string& line) {
       const auto first = std::min(line.find_first_not_of(' '), line.size());
@@ -50,13 +51,13 @@ class TemplateLines {
   std::vector<std::string> lines_;
 };
 
-std::string number(double value) {
-  return nlohmann::json(rounded(value, 6)).dump();
+std::string number_text(double value) {
+  return format("%.6g", value);
 }
 
 std::string reading_line(const CustomaryReading& one, bool last) {
-  return "\"" + one.key + "\": {\"value\": " + number(one.value) + ", \"standard_deviation\": " +
-         number(one.standard_deviation) + "}" + (last ? "" : ",");
+  return "\"" + one.key + "\": {\"value\": " + number_text(one.value) +
+         ", \"standard_deviation\": " + number_text(one.standard_deviation) + "}" + (last ? "" : ",");
 }
 
 /// What a slump test reads anyhow: half of the height is left, of a heap between a paraboloid and a cone.
@@ -65,10 +66,10 @@ std::vector<CustomaryReading> usual_readings(const SlumpTest& test) {
   const double height_m = left * test.mould.height_m;
   const double cone_m = 2 * std::sqrt(3 * volume_m3(test.mould) / (std::numbers::pi * height_m));
   std::vector<CustomaryReading> out{{"step1.height_mm", mm * height_m}, {"step1.spread_mm", mm * cones * cone_m}};
-  const auto kinds = reading_kinds(test);
+  const auto own_kinds = reading_kinds(test);
   for (CustomaryReading& one : out) {
     one.value = rounded(one.value, 2);
-    for (const ReadingKind& kind : kinds)
+    for (const ReadingKind& kind : own_kinds)
       if (kind.key == one.key) one.standard_deviation = rounded(kind.published_deviation, 2);
   }
   return out;
@@ -77,9 +78,11 @@ std::vector<CustomaryReading> usual_readings(const SlumpTest& test) {
 std::string plate_line(const SlumpTest& test) {
   if (!test.drop) return "// \"drop_plate\": null,  // nothing drops this table";
   const DropPlate& plate = *test.drop;
-  std::string line = "// \"drop_plate\": {\"length_mm\": " + number(mm * plate.length_m) + ", \"mass_kg\": " +
-                     number(plate.mass_kg) + ", \"lift_height_mm\": " + number(mm * plate.lift_height_m);
-  return line + ", \"drops\": " + std::to_string(plate.drops) + ", \"period_s\": " + number(plate.period_s) + "},";
+  std::string line = "// \"drop_plate\": {";
+  if (plate.motion == TableMotion::vertical) line += "\"motion\": \"vertical\", ";
+  line += "\"length_mm\": " + number_text(mm * plate.length_m) + ", \"mass_kg\": " + number_text(plate.mass_kg) +
+          ", \"lift_height_mm\": " + number_text(mm * plate.lift_height_m);
+  return line + ", \"drops\": " + std::to_string(plate.drops) + ", \"period_s\": " + number_text(plate.period_s) + "},";
 }
 
 std::string grains_line(const GrainSizes& grains) {
@@ -87,30 +90,35 @@ std::string grains_line(const GrainSizes& grains) {
   // A quarter to either side: equal spheres lie in layers and shear off along them.
   const double smallest = mono ? 0.75 * grains.radius_m : grains.smallest_m;
   const double largest = mono ? 1.25 * grains.radius_m : grains.largest_m;
-  return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + number(mm * smallest) +
-         ", \"largest_mm\": " + number(mm * largest) + "},";
+  return "\"grains\": {\"distribution\": \"uniform\", \"smallest_mm\": " + number_text(mm * smallest) +
+         ", \"largest_mm\": " + number_text(mm * largest) + "},";
 }
 
 void fill_in(TemplateLines& lines, const std::string& name, const Apparatus& preset) {
   const SlumpTest& test = std::get<SlumpTest>(preset.test);
-  lines.replace("// Give only what differs", {"// " + preset.title + ". The preset brings its table, speed and grains;",
-                                              "// give what differs from it. Deviations are of one reading."}, 3);
-  std::vector<std::string> named{"\"preset\": \"" + name + "\","};
-  if (!preset.caution.empty()) named.insert(named.begin(), "// NOTE: " + preset.caution + ".");
-  lines.replace("\"preset\":", named);
+  constexpr std::size_t width = 116;
+  std::vector<std::string> told;
+  const auto tell = [&](const std::string& sentence) {
+    std::istringstream lines_of_it(wrapped(sentence, width));
+    for (std::string line; std::getline(lines_of_it, line);) told.push_back("// " + line);
+  };
+  tell(preset.title + ". The preset brings its table, speed and grains: give what differs from it.");
+  if (!preset.caution.empty()) tell("Note: " + preset.caution + ".");
+  lines.replace("// Give only what differs", told, 2);
+  lines.replace("\"preset\":", {"\"preset\": \"" + name + "\","});
   lines.replace("// \"mould\":",
-                {"// \"mould\": {\"base_diameter_mm\": " + number(2 * mm * test.mould.base_radius_m) +
-                 ", \"top_diameter_mm\": " + number(2 * mm * test.mould.top_radius_m) +
-                 ", \"height_mm\": " + number(mm * test.mould.height_m) + "},"});
-  lines.replace("// \"table_length_mm\":", {"// \"table_length_mm\": " + number(mm * test.table_length_m) + ","});
+                {"// \"mould\": {\"base_diameter_mm\": " + number_text(2 * mm * test.mould.base_radius_m) +
+                 ", \"top_diameter_mm\": " + number_text(2 * mm * test.mould.top_radius_m) +
+                 ", \"height_mm\": " + number_text(mm * test.mould.height_m) + "},"});
+  lines.replace("// \"table_length_mm\":", {"// \"table_length_mm\": " + number_text(mm * test.table_length_m) + ","});
   lines.replace("// \"drop_plate\":", {plate_line(test)});
   const bool axis = test.reading.height == HeightReading::axis;
-  lines.replace("// \"reading\":",
-                {"// \"reading\": {\"height\": \"" + std::string(axis ? "axis" : "highest") +
-                 "\", \"probe_diameter_mm\": " + number(mm * test.reading.probe_diameter_m) +
-                 "},  // axis: at the middle of the top; highest: the highest point of the heap"});
-  lines.replace("\"lift_velocity_mm_s\":", {"\"lift_velocity_mm_s\": " + number(mm * test.lift_velocity_m_s)});
-  lines.replace("\"material\":", {"\"material\": {\"bulk_density_kg_m3\": " + number(test.bulk_density_kg_m3) + "},"});
+  lines.replace("// \"reading\":", {"// \"reading\": {\"height\": \"" + std::string(axis ? "axis" : "highest") +
+                                    "\", \"probe_diameter_mm\": " + number_text(mm * test.reading.probe_diameter_m) +
+                                    "},  // axis, or highest: the highest point of the heap"});
+  lines.replace("\"lift_velocity_mm_s\":", {"\"lift_velocity_mm_s\": " + number_text(mm * test.lift_velocity_m_s)});
+  lines.replace("\"material\":",
+                {"\"material\": {\"bulk_density_kg_m3\": " + number_text(test.bulk_density_kg_m3) + "},"});
   lines.replace("// Equal spheres,", {}, 2);  // examples for a tall cone
   lines.replace("\"grains\":", {grains_line(test.grains)});
   const auto readings = preset.readings.empty() ? usual_readings(test) : preset.readings;

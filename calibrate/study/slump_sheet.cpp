@@ -139,7 +139,8 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
   return out;
 }
 
-/// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one of them alone tells the strength.
+/// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
+/// of them alone tells the strength.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())

@@ -71,13 +71,13 @@ class Drop {
 
   std::optional<Failure> rest(std::string_view phase) { return runner_.settle({phase}, kRestCap); }
 
-  /// Nobody reads a heap between two drops: it is calm for a moment, or the next drop comes.
+  /// Nobody reads a heap between two drops: it is calm for one short window, or the next drop comes.
   std::optional<Failure> rest_between(std::string_view phase) {
     if (options_.fixed_wait_s) return rest(phase);
     const RestCriterion to_be_read = options_.rest;
-    options_.rest.windows = 1;
-    auto problem = runner_.run_until_rest({phase}, plate().period_s - moving_time_s(plate()),
-                                          [](const World&) { return true; });
+    options_.rest = {0.5 * to_be_read.window_s, 1, to_be_read.speed_over_fall, 0.5 * to_be_read.change_over_radius};
+    auto problem =
+        runner_.run_until_rest({phase}, plate().period_s - moving_time_s(plate()), [](const World&) { return true; });
     options_.rest = to_be_read;
     return problem;
   }

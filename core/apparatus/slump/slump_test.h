@@ -65,8 +65,8 @@ struct Reading {
 
 /// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
 /// apparatus. The density of a grain follows from the packing.
-/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate, let it fall once; and so on,
-/// as often as it says.
+/// Step 1: fill, strike off, lift the mould. Step 2 (only if `drop` is set): raise the plate, let it fall once; and so
+/// on, as often as it says.
 struct SlumpTest : Specimen {
   Mould mould;
   double lift_velocity_m_s = 0.1;
@@ -100,7 +100,8 @@ inline constexpr std::array<Dimension<DropPlate>, 4> plate_dimensions{{
     {"length_m", &DropPlate::length_m, 2e-3, 10, "side of the square plate, diameter of the round one"},
     {"mass_kg", &DropPlate::mass_kg, 0.1, 1000, "of the plate alone"},
     {"lift_height_m", &DropPlate::lift_height_m, 1e-4, 1, "of its free edge, or of the whole table, before it drops"},
-    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is turned up about its hinge; default 0.5", true},
+    {"lift_duration_s", &DropPlate::lift_duration_s, 0.01, 60, "in which it is turned up about its hinge; default 0.5",
+     true},
 }};
 inline constexpr std::array<Dimension<DropPlate>, 1> rhythm_dimensions{{
     {"period_s", &DropPlate::period_s, 0.02, 60, "from one drop to the next, of several; default 2", true},

@@ -64,16 +64,19 @@ TEST_CASE("the jolting tables have the drops and the rhythm of their standards")
 TEST_CASE("readings after drops need a table, and one that drops more than once; each fault names the remedy") {
   json document = lab_on("haegermann");
   document["measurements"]["after_drops.spread_mm"] = {{"value", 160}, {"standard_deviation", 5}};
-  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"), "no drop plate"));
+  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"),
+                   "no drop plate"));
   document = lab_on("en12350-5");
   document["measurements"] = {{"after_drops.spread_mm", {{"value", 400}, {"standard_deviation", 15}}}};
-  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"), "dropped once"));
+  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"),
+                   "dropped once"));
   document["apparatus"]["drop_plate"] = {{"drops", 15}};
   CHECK(faults_in(document).empty());
   document["apparatus"]["drop_plate"]["drops"] = 101;
   CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.drops"), "101"));
   document["apparatus"]["drop_plate"] = {{"drops", 15}, {"period_s", 0.4}};
-  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.period_s"), "moves for 0.574"));
+  CHECK(
+      test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.period_s"), "moves for 0.574"));
   document = lab_on("haegermann");
   document["apparatus"]["drop_plate"] = {{"drops", 15}};
   CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.length_mm"), "missing"));
@@ -91,8 +94,8 @@ TEST_CASE("a heap is not narrower after the drops than before them") {
 TEST_CASE("a preset's caution is a note of every laboratory file that names it, until a table is added") {
   json document = lab_on("haegermann");
   CHECK(holds(lab_from_json(document, ".").value().notes, "no strokes"));
-  document["apparatus"]["drop_plate"] = {{"length_mm", 300}, {"mass_kg", 4}, {"lift_height_mm", 10},
-                                         {"motion", "vertical"}, {"drops", 15}};
+  document["apparatus"]["drop_plate"] = {
+      {"length_mm", 300}, {"mass_kg", 4}, {"lift_height_mm", 10}, {"motion", "vertical"}, {"drops", 15}};
   REQUIRE(faults_in(document).empty());
   CHECK_FALSE(holds(lab_from_json(document, ".").value().notes, "no strokes"));
   CHECK_FALSE(holds(lab_from_json(lab_on("haegermann-table"), ".").value().notes, "no strokes"));
@@ -120,8 +123,8 @@ TEST_CASE("a faulty customary reading of a preset is a fault of its place") {
 }
 
 TEST_CASE("the template of every preset is a laboratory file on its table, with its grains and customary readings") {
-  for (const char* preset : {"abrams", "abrams-en", "en12350-5", "haegermann", "haegermann-table", "astm-c1437",
-                             "mini-cone"}) {
+  for (const char* preset :
+       {"abrams", "abrams-en", "en12350-5", "haegermann", "haegermann-table", "astm-c1437", "mini-cone"}) {
     INFO(preset);
     const Result<std::string> text = slump_lab_template(preset, ".");
     REQUIRE(text.ok());

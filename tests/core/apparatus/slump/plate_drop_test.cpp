@@ -93,8 +93,9 @@ TEST_CASE("the energy of twelve drops is accounted for to the second order of th
   }
 }
 
-TEST_CASE("a table that falls upright reaches its seat after sqrt(2 h/g), whatever its mass") {
-  for (const double mass_kg : {2.0, 16.0, 200.0}) {
+TEST_CASE(
+    "a heavy table that falls upright reaches its seat after sqrt(2 h/g), a light one sooner, pressed by its heap") {
+  const auto fall_s = [](double mass_kg) {
     SlumpTest test = dropped(TableMotion::vertical, 1);
     test.drop->mass_kg = mass_kg;
     std::map<std::string, double> begun;
@@ -105,10 +106,13 @@ TEST_CASE("a table that falls upright reaches its seat after sqrt(2 h/g), whatev
       return true;
     };
     outcome_of(test, options);
-    INFO(mass_kg << " kg");
-    // What the heap's overlaps push when they are relieved is a small share of its weight times their depth.
-    CHECK(begun.at("step2.rest") - begun.at("step2.drop") == Approx(std::sqrt(2 * 0.0127 / kGravity)).epsilon(0.02));
-  }
+    return begun.at("step2.rest") - begun.at("step2.drop");
+  };
+  // The heap of 9.7 kg presses until its overlaps are relieved.
+  const double free_fall = std::sqrt(2 * 0.0127 / kGravity), light = fall_s(2), heavy = fall_s(500);
+  CHECK(heavy == Approx(free_fall).epsilon(0.01));
+  CHECK(light < heavy);
+  CHECK(light > 0.7 * free_fall);
 }
 
 TEST_CASE("an empty plate falls as long as it is said to") {
@@ -132,7 +136,8 @@ TEST_CASE("between two drops a heap is simulated no longer than the rhythm of th
     const double slow = each(10), quick = each(moving + 0.05);
     INFO(slow << " s and " << quick << " s a drop");
     CHECK(slow < moving + 0.6);
-    CHECK(quick < moving + 0.05 + 0.04);  // the last one comes to rest
+    // Each wait may be a window of 25 ms longer, and the last heap comes to rest.
+    CHECK(quick < moving + 0.05 + 0.025 + 0.05);
     CHECK(quick < slow);
   }
 }
