@@ -60,6 +60,29 @@ class New(Desk):
         self.assertEqual(sorted(lab["measurements"]), ["step1.height_mm", "step2.height_mm",
                                                        "step2.plateau_sag_mm"])
 
+    def test_a_jolting_table_has_a_flow_after_its_drops(self):
+        lab, study, said = self.files("--mould", "haegermann-table", "--density", "2100", "--spread", "112", "--flow", "163, 167")
+        self.assertEqual(lab["measurements"]["after_drops.spread_mm"], {"repeats": [163, 167], "standard_deviation": 5.4})
+        self.assertEqual(len(study["parameters"]["friction"]["free"]), 2)  # two spreads tell it from the strength
+        self.assertIn("dropped 15 times by 10 mm, upright", said)
+        refused = run("new", self.folder / "other", "--mould", "haegermann", "--density", "2100", "--flow", "163")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no drop plate", refused.stderr)
+
+    def test_the_template_of_a_preset_runs_and_says_what_it_lacks(self):
+        for preset, words in (("haegermann-table", "15 strokes"), ("haegermann", "has no strokes"), ("mini-cone", "Kantro")):
+            with self.subTest(preset):
+                made = run("template", "lab", "--mould", preset)
+                self.assertEqual(made.returncode, 0, made.stderr)
+                self.assertIn(words, made.stdout)
+                lab = self.folder / "lab.json"
+                lab.write_text(made.stdout)
+                ran = run("simulate", lab)
+                self.assertEqual(ran.returncode, 0, ran.stderr)
+                self.assertEqual("has no strokes" in ran.stderr, preset == "haegermann")
+        self.assertEqual(run("template", "lab", "--mould", "haegerman").returncode, 2)
+        self.assertIn("--mould", run("template", "study", "--mould", "abrams").stderr)
+
     def test_the_target_has_its_own_law(self):
         laws = {"lammps": ("hertz", "polynomial", "strength_pa"), "liggghts": ("sjkr", "none", "cohesion_energy_density_pa"),
                 "yade": ("hertz", "polynomial", "strength_pa"), "edem": ("jkr", "none", "adhesion_pa")}
