@@ -167,7 +167,7 @@ class Drop {
 };
 
 /// The run of one side after that of others.
-void add_up(RunSummary& sum, const RunSummary& run, double since_s, bool first) {
+void add_side(RunSummary& sum, const RunSummary& run, double since_s, bool first) {
   sum.steps += run.steps;
   sum.particle_steps += run.particle_steps;
   sum.simulated_s += run.simulated_s - since_s;
@@ -209,7 +209,7 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
       outcome.failure = drop_again(drop, ruler, outcome);
       if (!outcome.failure) ruler.read_after_drops(drop.grains(), after_drops);
     }
-    add_up(outcome.run, drop.summary(), rested.time, side == 0);
+    add_side(outcome.run, drop.summary(), rested.time, side == 0);
     if (outcome.failure) return outcome;
     turn_half_round(world);
   }

@@ -139,7 +139,7 @@ TEST_CASE("the template of every preset is a laboratory file on its table, with 
     CHECK(test.drop.has_value() == wanted.drop.has_value());
     CHECK(test.grains.radius_m == Approx(wanted.grains.radius_m));
     REQUIRE(lab.value().measurements.size() == own.readings.size());
-    CHECK((text.value().find("no strokes") != std::string::npos) == (preset == std::string("haegermann")));
+    CHECK((text.value().find("has no strokes") != std::string::npos) == (preset == std::string("haegermann")));
   }
   CHECK_FALSE(slump_lab_template("no-such-mould", ".").ok());
 }
@@ -153,7 +153,8 @@ TEST_CASE("grains too few and tolerances too wide are warnings that name both, a
   // A Hägermann cone with the grains and the deviation of a tall cone.
   json coarse = lab_on("haegermann");
   coarse["grains"] = {{"distribution", "mono"}, {"radius_mm", 8}};
-  coarse["measurements"] = {{"step1.spread_mm", {{"value", 130}, {"standard_deviation", 25}}}};
+  coarse["measurements"] = {{"step1.spread_mm", {{"value", 130}, {"standard_deviation", 25}}},
+                            {"step1.height_mm", {{"value", 38}, {"standard_deviation", 1.5}}}};
   desk.folder().write("lab.json", coarse.dump());
   const Study study = desk.read(test::Desk::study()).value();
   CHECK(holds(study.tests[0].lab.notes, "fewer than 500"));
