@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -353,7 +354,7 @@ TEST_CASE("the hash follows content and preset, not comments and white space") {
 
 TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
   SlumpTest test;
-  test.drop.emplace();
+  test.drop.emplace().drops = 2;
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
   const auto kinds = reading_kinds(test);
@@ -363,7 +364,8 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
     CHECK(kind.key.empty() == kind.measure.empty());
     if (!kind.key.empty()) CHECK(std::find(names.begin(), names.end(), kind.measure) != names.end());
     for (const Ceiling& ceiling : kind.ceilings) CHECK((ceiling.name.empty() || find_kind(kinds, ceiling.name)));
-    CHECK(kind.name.starts_with(kind.stage == kFill ? "fill." : kind.stage == kStep1 ? "step1." : "step2."));
+    constexpr std::array stages{"fill.", "step1.", "step2.", "after_drops."};
+    CHECK(kind.name.starts_with(stages[kind.stage]));
   }
 }
 
