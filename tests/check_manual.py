@@ -37,7 +37,7 @@ def cut_short(command):
 def shrink(study):
     """Changes a study and its laboratory file so that a calibration takes seconds."""
     def change(path, edit):
-        document = json.loads(re.sub(r"^ *//.*$", "", path.read_text(), flags=re.M))
+        document = json.loads(re.sub(r"(^|\s)//.*$", "", path.read_text(), flags=re.M))
         edit(document)
         path.write_text(json.dumps(document))
 
