@@ -77,6 +77,8 @@ TEST_CASE("readings after drops need a table, and one that drops more than once;
   document["apparatus"]["drop_plate"] = {{"drops", 15}, {"period_s", 0.4}};
   CHECK(
       test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.period_s"), "moves for 0.574"));
+  document["apparatus"]["drop_plate"] = {{"length_mm", 100}};
+  CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.length_mm"), "100 mm"));
   document = lab_on("haegermann");
   document["apparatus"]["drop_plate"] = {{"drops", 15}};
   CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "apparatus.drop_plate.length_mm"), "missing"));
