@@ -112,6 +112,11 @@ class ObjectReader {
   /// As `object`, into `target`; null empties it, and an absent optional key leaves it as it is.
   template <class T, class Body>
   bool nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body);
+  /// As `nullable_object` of an optional key.
+  template <class T, class Body>
+  bool optional_object(std::string_view key, std::optional<T>& target, Body body) {
+    return nullable_object(key, target, Need::optional, body);
+  }
   /// Names a key that is sensible elsewhere but not here: a fault with this remedy if it is present.
   void refuse(std::string_view key, std::string what, std::string remedy);
 

@@ -51,6 +51,11 @@ class ObjectWriter {
     ObjectWriter writer(object_[key]);
     body(writer, *value);
   }
+  /// Left out where there is none.
+  template <class T, class Body>
+  void optional_object(const char* key, const std::optional<T>& value, Body body) {
+    if (value) nullable_object(key, value, Need::optional, body);
+  }
 
  private:
   nlohmann::json& object_;

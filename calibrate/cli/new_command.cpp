@@ -50,20 +50,29 @@ Faults faults_of_text(const Result<std::vector<double>>& read) {
   return read.ok() ? Faults{} : read.faults();
 }
 
+/// For people.
+std::string unit_of(const ShortReading& reading) {
+  return reading.name == "mass" ? "kg" : reading.name == "angle" ? "degrees" : "mm";
+}
+
 /// Asks for each reading by its short name; an empty answer leaves it out.
-bool ask_readings(Sheet& sheet, const std::optional<DropPlate>& plate) {
+bool ask_readings(Sheet& sheet, const SlumpTest& test) {
+  const std::optional<DropPlate>& plate = test.drop;
   for (const ShortReading& one : short_readings()) {
     const bool after_drop = one.key.starts_with("step2."), after_all = one.key.starts_with("after_drops.");
     const bool once = plate && plate->drops == 1, often = plate && plate->drops > 1;
     if ((after_drop && !once) || (after_all && !often)) continue;
     if (one.name == "shift" || one.name == "mass" || one.name == "slump2") continue;
+    if (one.name == "angle" && !test.reading.flank) continue;
     const bool height = one.name == "height" && !sheet.readings.empty();  // a slump is one
     if (height) continue;
-    const auto answer = answer_to(std::string(one.name) + ", " + std::string(one.meaning) +
-                                      " (mm; repeats as \"180, 175, 190\"; empty: not measured)",
-                                  "", [&](const std::string& text) {
-                                    return text.empty() ? Faults{} : faults_of_text(written_readings("", text, "mm"));
-                                  });
+    const auto answer = answer_to(
+        std::string(one.name) + ", " + std::string(one.meaning) + " (" + unit_of(one) +
+            "; repeats as \"180, 175, 190\"; empty: not measured)",
+        "", [&](const std::string& text) {
+          return text.empty() ? Faults{}
+                              : faults_of_text(written_readings("", text, one.name == "angle" ? "deg" : "mm"));
+        });
     if (!answer) return false;
     if (!answer->empty()) sheet.readings.emplace_back(one.name, *answer);
   }
@@ -84,15 +93,15 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     return read.ok() ? Faults{} : read.faults();
   };
   if (!ask(sheet.mould,
-           "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, or "
-           "base/top/height in mm",
+           "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, lifted-cylinder, "
+           "or base/top/height in mm",
            "abrams", mould_faults) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
            [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))
     return false;
   const auto test = apparatus_of(sheet.mould, folder);
   if (sheet.readings.empty() && test.ok())
-    if (!ask_readings(sheet, std::get<SlumpTest>(test.value()).drop)) return false;
+    if (!ask_readings(sheet, std::get<SlumpTest>(test.value()))) return false;
   return ask(sheet.target, "program that the material is for: " + names_of_targets(), "lammps", [](const auto& text) {
     return laws_for(text) ? Faults{} : Faults{{"", "is no such program", "one of " + names_of_targets()}};
   });
@@ -189,9 +198,9 @@ Command add_new(CLI::App& verb) {
   options->by_name.reserve(short_readings().size());
   for (const ShortReading& one : short_readings()) {
     options->by_name.emplace_back(one.name, "");
-    verb.add_option("--" + std::string(one.name), options->by_name.back().second,
-                    std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " +
-                        (one.name == "mass" ? "kg" : "mm") + " or with their unit")
+    verb.add_option(
+            "--" + std::string(one.name), options->by_name.back().second,
+            std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " + unit_of(one) + " or with their unit")
         ->type_name("VALUES");
   }
   verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")

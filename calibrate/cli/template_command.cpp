@@ -18,13 +18,22 @@ struct TemplateOptions {
   std::string name, target, mould;
 };
 
+/// The starting files of a mould for dry materials, or the laboratory file with what belongs to a mould.
+Result<std::string> template_of_mould(const TemplateOptions& options) {
+  if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
+  if (options.name != "lab")
+    return Faults{{"--mould " + printable(options.mould), "has no " + printable(options.name) + " of its own",
+                   "template lab --mould ..., or --mould lifted-cylinder with lab or study"}};
+  return slump_lab_template(options.mould, ".");
+}
+
 int print_template(const TemplateOptions& options, const std::string& names) {
   auto text = template_text(options.name);
   if (!text)
     return report({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
   if (!options.target.empty()) {
     const auto laws = laws_for(options.target);
-    if (options.name != "study")
+    if (options.name != "study" || !options.mould.empty())
       return report({{"--for", "goes with the first study only", "template study --for ..."}});
     if (!laws)
       return report({{"--for " + printable(options.target), "is no program that pastefit knows the laws of",
@@ -32,11 +41,9 @@ int print_template(const TemplateOptions& options, const std::string& names) {
     text = with_laws(*text, *laws);
   }
   if (!options.mould.empty()) {
-    if (options.name != "lab")
-      return report({{"--mould", "goes with the first laboratory file only", "template lab --mould ..."}});
-    auto of_preset = slump_lab_template(options.mould, ".");
-    if (!of_preset.ok()) return report(of_preset.faults());
-    text = std::move(of_preset).value();
+    auto of_mould = template_of_mould(options);
+    if (!of_mould.ok()) return report(of_mould.faults());
+    text = std::move(of_mould).value();
   }
   print("%s", text->c_str());
   return kDone;
@@ -53,7 +60,7 @@ Command add_template(CLI::App& verb) {
       ->type_name("PROGRAM");
   verb.add_option("--mould", options->mould,
                   "of the laboratory file: a preset, whose table, grains and customary readings it then has (abrams, "
-                  "mini-cone, haegermann-table, ...)")
+                  "mini-cone, haegermann-table, ...); lifted-cylinder has a study, too")
       ->type_name("PRESET");
   return [options, names] { return print_template(*options, names); };
 }

@@ -58,6 +58,10 @@ inline double moved_time_s(const Specimen&) {
 /// A laboratory's outline; called for readings that come from one only (`ReadingKind::from_outline`).
 inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
 
+/// The laboratory took a reading of this kind; called for those that are taken on request
+/// (`ReadingKind::on_request`).
+inline void ask_for(Specimen&, const ReadingKind&) {}
+
 /// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known.
 inline std::optional<double> grain_density_of(const Specimen&, const Observables&) {
   return std::nullopt;

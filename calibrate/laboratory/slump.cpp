@@ -38,6 +38,8 @@ void describe_slump(Fields& fields, Test& test) {
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
     describe_dimensions(reading, test.reading, reading_dimensions);
+    reading.optional_object("flank", test.reading.flank,
+                            [](auto& flank, auto& shares) { describe_dimensions(flank, shares, flank_dimensions); });
     reading.pairs("outline_step1_m", test.reading.outline_step1, any_number, any_number, Need::optional, 0);
     reading.pairs("outline_step2_m", test.reading.outline_step2, any_number, any_number, Need::optional, 0);
   });
@@ -87,6 +89,9 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
   apparatus.object("reading", need, [&](ObjectReader& reading) {
     reading.choice("height", test.reading.height, height_readings, need);
     read_dimensions(reading, test.reading, reading_dimensions, need);
+    reading.nullable_object("flank", test.reading.flank, Need::optional, [&](ObjectReader& flank, Flank& shares) {
+      read_dimensions(flank, shares, flank_dimensions, need);
+    });
   });
 }
 
@@ -105,6 +110,10 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
   (kind.stage == kStep2 ? test.reading.outline_step2 : test.reading.outline_step1) = std::move(points);
 }
 
+void ask_for(SlumpTest& test, const ReadingKind& kind) {
+  if (kind.name == "step1.angle_of_repose_deg" && !test.reading.flank) test.reading.flank.emplace();
+}
+
 std::vector<FilePlace> places_in_files(const SlumpTest&) {
   std::vector<FilePlace> places{{"mould_wall", "parameters: mould_wall"}, {"table_wall", "parameters: table_wall"}};
   add_places(places, mould_dimensions, "mould", "apparatus.mould");
@@ -113,6 +122,7 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
   places.pop_back();  // the plate itself stands behind all of its dimensions
   add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
   add_places(places, reading_dimensions, "reading", "apparatus.reading");
+  add_places(places, flank_dimensions, "reading.flank", "apparatus.reading.flank");
   return places;
 }
 
@@ -182,6 +192,11 @@ std::string unseen_by(const SlumpTest&, std::span<const std::string_view> readin
   for (const std::string_view parameter : parameters)
     if (parameter.ends_with("friction")) names += (names.empty() ? "" : ", ") + std::string(parameter);
   if (names.empty()) return {};
+  if (std::ranges::any_of(readings, [](std::string_view name) { return name == "step1.angle_of_repose_deg"; }))
+    return names.find(',') == names.npos ? ""
+                                         : "Free with an angle of repose and no width: " + names +
+                                               ".\nMany pairs of sliding and rolling friction give one angle: fix one "
+                                               "of them, or measure the spread.";
   return "Free without a reading of the spread: " + names +
          ".\nThe height alone does not tell friction from strength: fix it, e.g.\n"
          "\"friction\": {\"value\": 0.15}, or measure the spread.";

@@ -40,6 +40,10 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need);
 /// The outline of a heap seen from the side, which a reading of this kind is the distance from.
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
 
+/// Has the test take a reading of this kind, which the laboratory took (`ReadingKind::on_request`), where its apparatus
+/// does not say how: as by default.
+void ask_for(SlumpTest& test, const ReadingKind& kind);
+
 /// The apparatus' places in `validate`'s words and in those of laboratory and apparatus files.
 std::vector<FilePlace> places_in_files(const SlumpTest&);
 
@@ -54,6 +58,9 @@ SlumpTest default_test(const SlumpTest&);
 void read_test(ObjectReader& reader, SlumpTest& test);
 
 Templates templates_of(const SlumpTest& test);
+
+/// Starting files for a mould whose tests are of other materials than pastes: the lifted cylinder. Nothing for others.
+std::optional<Templates> templates_of_mould(std::string_view preset);
 
 /// Of the grains, such that the mould holds the bulk density.
 std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means);

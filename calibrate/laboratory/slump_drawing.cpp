@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "calibrate/base/format.h"
@@ -46,6 +48,7 @@ class HeapDrawing {
     draw_heights();
     draw_widths();
     draw_top();
+    draw_flanks();
     return drawing_;
   }
 
@@ -137,6 +140,47 @@ class HeapDrawing {
         add("plateau_width_mm", by, {-width / 2, z}, {width / 2, z}, {-width / 2, level}, {width / 2, level}, width,
             deviation);
       });
+  }
+
+  /// Two straight lines at the angle of repose, over the part of the flank on which it is read: through its middle on
+  /// the mean of the heaps, or, before one was simulated, about the cone that holds what the mould holds.
+  void draw_flanks() {
+    const auto& flank = test_.reading.flank;
+    if (!flank || !measurement("angle_of_repose_deg")) return;
+    each_value("angle_of_repose_deg", [&](DrawnBy by, double angle, double deviation) {
+      const double slope = std::tan(angle / degrees);
+      if (!(slope > 0) || angle >= 90) return;
+      const double cone = std::cbrt(3e9 * volume_m3(test_.mould) * slope * slope / std::numbers::pi);
+      const double top = mean_of_runs("height_mm").value_or(cone),
+                   middle = (flank->lower_share + flank->upper_share) / 2;
+      const double at = radius_of_runs(middle * top).value_or((1 - middle) * top / slope);
+      const double half = (flank->upper_share - flank->lower_share) / 2 * top;
+      const std::string name = by == DrawnBy::laboratory
+                                   ? format("laboratory, angle of repose %.1f +- %.1f degrees", angle, deviation)
+                                   : format("simulated, angle of repose %.1f degrees", angle);
+      for (const double side : {-1.0, 1.0})
+        drawing_.lines.push_back(
+            {name,
+             by,
+             {{side * (at + half / slope), middle * top - half}, {side * (at - half / slope), middle * top + half}}});
+    });
+  }
+
+  /// Half the width of the mean outline of the accepted heaps at this height [mm].
+  std::optional<double> radius_of_runs(double height) const {
+    const auto mean_at = [&](double x) {
+      double sum = 0, count = 0;
+      for (const Seen& seen : outlines_)
+        if (seen.accepted) {
+          sum += mm * seen.outline->at(x / mm);
+          ++count;
+        }
+      return count > 0 ? sum / count : 0;
+    };
+    double left = 0, right = 0;
+    while (left < half_width_ && mean_at(-left) >= height) left += kStep;
+    while (right < half_width_ && mean_at(right) >= height) right += kStep;
+    return left > 0 && right > 0 ? std::optional((left + right) / 2) : std::nullopt;
   }
 
   const Measurement* measurement(const std::string& name) const {

@@ -12,7 +12,7 @@ constexpr std::string_view slump_lab =
   %provenance%
 
   // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann-table and astm-c1437 (dropped 15 and 25 times),
-  // haegermann (no strokes), mini-cone. One of them with what belongs to it: pastefit template lab --mould NAME.
+  // haegermann (no strokes), mini-cone, lifted-cylinder. One of them with what belongs to it: pastefit template lab --mould NAME.
   // Give only what differs from the preset; without a preset give everything but the drop plate. With another mould
   // change the speed, the grains and the deviations below, too, and the study's tolerances: these are a tall cone's.
   "apparatus": {
@@ -44,6 +44,7 @@ constexpr std::string_view slump_lab =
   // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.
   // Step 2, plate dropped: the same with step2 but the shift, and step2.plateau_sag_mm, step2.plateau_width_mm.
   // After all drops, if there are several: after_drops.spread_mm, after_drops.height_mm.
+  // Of a dry material: step1.angle_of_repose_deg (pastefit template lab --mould lifted-cylinder).
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}
   "measurements": {

@@ -106,6 +106,10 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test) {
   std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
 }
 
+void ask_for(Test& test, const ReadingKind& kind) {
+  std::visit([&](auto& one) { ask_for(one, kind); }, test);
+}
+
 std::optional<double> grain_density_of(const Test& test, const Observables& means) {
   return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
 }
@@ -261,6 +265,12 @@ std::optional<std::string> template_text(std::string_view wanted) {
   for (const auto& [name, text] : all_templates())
     if (name == wanted) return with_provenance(std::string(text));
   return std::nullopt;
+}
+
+std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset) {
+  const auto templates = templates_of_mould(preset);
+  if (!templates || (name != "lab" && name != "study")) return std::nullopt;
+  return with_provenance(std::string(name == "lab" ? templates->lab : templates->study));
 }
 
 std::vector<ReadingKind> all_reading_kinds() {

@@ -42,6 +42,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
   {read_apparatus(reader, test, Need::required)};
   {read_outline(reader, reading, test)};
+  {ask_for(test, reading)};
   { places_in_files(given) } -> std::same_as<std::vector<FilePlace>>;
   { to_json(given) } -> std::same_as<nlohmann::json>;
   { default_test(given) } -> std::same_as<T>;
@@ -78,6 +79,7 @@ Outcome simulate(const Test& test, const RunOptions& options = {});
 std::vector<ReadingKind> reading_kinds(const Test& test);
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
+void ask_for(Test& test, const ReadingKind& kind);
 std::optional<double> grain_density_of(const Test& test, const Observables& means);
 std::string_view why_of_that_size(const Test& test);
 std::span<const std::string_view> series_of(const Test& test);
@@ -120,6 +122,10 @@ std::vector<std::string> template_names();
 
 /// A commented starting file, fit to be read as it is. Nothing if there is none of that name.
 std::optional<std::string> template_text(std::string_view name);
+
+/// "lab" or "study" for an apparatus preset that has starting files of its own (`templates_of_mould`); nothing for
+/// others.
+std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset);
 
 /// The readings of all kinds of tests, with the default values.
 std::vector<ReadingKind> all_reading_kinds();

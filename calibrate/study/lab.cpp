@@ -1,5 +1,6 @@
 #include "calibrate/study/lab.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -52,6 +53,19 @@ Faults with_defaults_named(Faults faults, const nlohmann::json& document, bool p
     fault.remedy += "; add the key";
   }
   return faults;
+}
+
+/// Of conditions that a reading depends on and the file leaves to its preset.
+std::vector<std::string> notes_on_conditions(const Lab& lab) {
+  std::vector<std::string> notes;
+  const auto kinds = reading_kinds(lab.test);
+  for (const Measurement& one : lab.measurements) {
+    const ReadingKind* kind = find_kind(kinds, one.observable);
+    if (!kind || kind->depends_on.empty() || std::ranges::count(lab.stated, kind->depends_on) > 0) continue;
+    notes.push_back(one.observable + " depends on " + std::string(kind->depends_on) +
+                    ", which the file does not state; the preset's is assumed");
+  }
+  return notes;
 }
 
 /// "repeats": how many heaps were made, and how many of them sheared off.
@@ -140,6 +154,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
       for (Fault& fault : check.faults) faults.push_back(std::move(fault));
     }
     lab.notes = questions.notes();
+    for (std::string& note : notes_on_conditions(lab)) lab.notes.push_back(std::move(note));
     if (lab.repeats.sheared > 0) lab.notes.push_back(sheared_in_words(lab.repeats));
   }
   if (!faults.empty()) return faults;

@@ -180,6 +180,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Q
         one.number("standard_deviation", measurement.standard_deviation, deviations, Need::required);
       };
       if (!reader.object(kind.key, Need::optional, read, form_of(kind, reader.content(kind.key)))) continue;
+      if (kind.on_request) ask_for(test, kind);
       if (!measurements.empty() && measurements.back().observable == kind.measure)
         reader.fault(kind.key, std::string(kind.measure) + " and this are one reading", "give one of them");
       if (kind.less_than) measurement.value = *kind.less_than - measurement.value;

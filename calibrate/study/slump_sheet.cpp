@@ -20,11 +20,12 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<ShortReading, 11> shorts{{
+constexpr std::array<ShortReading, 12> shorts{{
     {"slump", "step1.slump_mm", "what is missing to the mould's height"},
     {"height", "step1.height_mm", "the height that is left"},
     {"spread", "step1.spread_mm", "width of the heap"},
     {"shift", "step1.lateral_shift_mm", "of the middle of the top"},
+    {"angle", "step1.angle_of_repose_deg", "of repose, of a dry material"},
     {"height2", "step2.height_mm", "after the plate's drop"},
     {"slump2", "step2.slump_mm", "after the plate's drop"},
     {"spread2", "step2.spread_mm", "after the plate's drop"},
@@ -95,10 +96,12 @@ ordered_json grains_json(const Test& test, bool preset) {
           {"largest_mm", rounded(1.25 * radius_mm, 3)}};
 }
 
-/// The deviation of one reading: as published for this mould, else the share that is published for a height.
+/// The deviation of one reading: as published for this mould, else the share that is published for a height. Of an
+/// angle of repose nothing is published; 1.5 degrees is what calibrations of wheat assume (data/lab/wheat-repose.json).
 double deviation_of(const ReadingKind& kind, const Test& test, double value) {
-  constexpr double share_of_mass = 0.01, share_of_height = 0.025;
+  constexpr double share_of_mass = 0.01, share_of_height = 0.025, of_angle_deg = 1.5;
   if (kind.published_deviation > 0) return rounded(kind.published_deviation, 2);
+  if (kind.key.ends_with("_deg")) return of_angle_deg;
   if (kind.key == "fill.mass_kg") return rounded(share_of_mass * value, 2);
   return rounded(share_of_height * 1e3 * slump_of(test).mould.height_m, 2);
 }
@@ -139,9 +142,32 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
   return out;
 }
 
+/// An angle of repose is measured of dry materials.
+bool is_dry(const ordered_json& measurements) {
+  return measurements.contains("step1.angle_of_repose_deg");
+}
+
+/// As in the template of the lifted cylinder.
+ordered_json dry_parameters() {
+  return {{"friction", {{"free", {0.2, 0.8}}}},
+          {"rolling_friction", {{"free", {0.02, 0.5}}}},
+          {"table_friction", {{"value", 0.5}}},
+          {"table_rolling_friction", {{"value", 0.1}}},
+          {"mould_friction", {{"value", 0.4}}}};
+}
+
+/// Laws of grains that nothing attracts, with the rolling model of the target.
+ordered_json dry_contact(const TargetLaws& laws) {
+  return {{"normal", "hertz"},
+          {"attraction", "none"},
+          {"rolling_model", laws.rolling_model},
+          {"friction_basis", "elastic"}};
+}
+
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
 /// of them alone tells the strength.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
+  if (is_dry(measurements)) return dry_parameters();
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
       if (key.find(part) != std::string::npos) return true;
@@ -256,7 +282,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   const ordered_json study{{"format", "pastefit-study-1"},
                            {"title", sheet.title},
                            {"lab", "lab.json"},
-                           {"contact", contact_of(*laws)},
+                           {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(*laws)},
                            {"parameters", parameters_for(*laws, measurements)},
                            {"search",
                             {{"screening", 16},

@@ -43,8 +43,11 @@ struct ReadingKind {
   bool checked = false;                     ///< by `check`; not if it is another form of one, or a count
   bool ends_early = false;                  ///< a candidate far off here is not simulated to its end
   bool from_outline = false;                ///< only where the laboratory gives an outline
-  std::string_view repeatability{};         ///< published of the deviation; empty: nothing is
-  double published_deviation = 0;           ///< that deviation for this apparatus, in the reading's unit; 0: none is
+  bool on_request = false;                  ///< only where the apparatus asks for it, or the laboratory took it
+  /// Place in files of the condition that it depends on so much that a laboratory has to state it; empty: on none.
+  std::string_view depends_on{};
+  std::string_view repeatability{};  ///< published of the deviation; empty: nothing is
+  double published_deviation = 0;    ///< that deviation for this apparatus, in the reading's unit; 0: none is
 };
 
 /// The row with this name of the simulation's reading; nothing if there is none.

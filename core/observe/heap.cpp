@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "core/observe/closing.h"
@@ -134,6 +135,103 @@ double slope_along_x(const Particles& particles, double mean_radius, const Disc&
     variance += x * x;
   });
   return variance > 0 ? covariance / variance : 0;
+}
+
+namespace {
+
+/// A heap as it is met on rays from the vertical through its middle.
+class RayedHeap {
+ public:
+  RayedHeap(const Particles& particles, double mean_radius)
+      : middle_(middle_of(particles)),
+        half_width_(reach_of_most(particles, middle_) + 2 * kClosingBall * mean_radius),
+        field_(particles, mean_radius, half_width_, middle_.x, middle_.y) {}
+
+  const Vec3& middle() const { return middle_; }
+
+  /// How far the surface reaches at this height or above, mean over all directions; nothing if in one nowhere.
+  std::optional<double> radius_at(double height) const {
+    double sum = 0, cosine = 1, sine = 0;
+    for (int d = 0; d < 2 * kDirections; ++d) {
+      double r = half_width_;
+      while (r > 0 && surface(r * cosine, r * sine) < height) r -= field_.spacing();
+      if (r <= 0) return std::nullopt;
+      const double here = surface(r * cosine, r * sine);
+      const double beyond = surface((r + field_.spacing()) * cosine, (r + field_.spacing()) * sine);
+      sum += r + (here > beyond ? field_.spacing() * std::clamp((here - height) / (here - beyond), 0.0, 1.0) : 0.0);
+      const double turned = cosine * kCosine - sine * kSine;
+      sine = sine * kCosine + cosine * kSine;
+      cosine = turned;
+    }
+    return sum / (2 * kDirections);
+  }
+
+ private:
+  static Vec3 middle_of(const Particles& particles) {
+    Vec3 middle{};
+    double volume = 0;
+    for (const Motion& grain : particles.motion) {
+      const double share = grain.radius * grain.radius * grain.radius;
+      middle.x += share * grain.position.x;
+      middle.y += share * grain.position.y;
+      volume += share;
+    }
+    return volume > 0 ? Vec3{middle.x / volume, middle.y / volume, 0} : Vec3{};
+  }
+
+  /// Distance within which nearly all grains lie: single ones roll far.
+  static double reach_of_most(const Particles& particles, const Vec3& middle) {
+    constexpr double kMost = 0.98;
+    std::vector<double> distances;
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Vec3& p = particles.motion[i].position;
+      distances.push_back(std::sqrt((p.x - middle.x) * (p.x - middle.x) + (p.y - middle.y) * (p.y - middle.y)));
+    }
+    if (distances.empty()) return 0;
+    const auto most =
+        distances.begin() + static_cast<std::ptrdiff_t>(kMost * static_cast<double>(distances.size() - 1));
+    std::ranges::nth_element(distances, most);
+    return std::min(*most, 5.0);
+  }
+
+  /// Linear between the points of the field.
+  double surface(double x, double y) const {
+    const int half = field_.points() / 2, last = field_.points() - 2;
+    const auto place = [&](double c) { return std::clamp(c / field_.spacing() + half, 0.0, last + 1.0); };
+    const double px = place(x), py = place(y);
+    const int ix = std::min(static_cast<int>(px), last), iy = std::min(static_cast<int>(py), last);
+    const double sx = px - ix, sy = py - iy;
+    return (1 - sy) * ((1 - sx) * field_.at(ix, iy) + sx * field_.at(ix + 1, iy)) +
+           sy * ((1 - sx) * field_.at(ix, iy + 1) + sx * field_.at(ix + 1, iy + 1));
+  }
+
+  Vec3 middle_;
+  double half_width_;
+  HeightField field_;
+};
+
+}  // namespace
+
+std::optional<double> flank_angle(const Particles& particles, double mean_radius, double lower, double upper) {
+  constexpr int kFewestLevels = 4;
+  constexpr double kTip = 5;  // [mean radii] diameter of the disc on which the height is read
+  if (particles.count() == 0) return std::nullopt;
+  const RayedHeap heap(particles, mean_radius);
+  const double height = mean_height(particles, mean_radius, {heap.middle().x, heap.middle().y, kTip * mean_radius});
+  const int levels = 1 + static_cast<int>((upper - lower) * height / (0.5 * mean_radius));
+  if (levels < kFewestLevels) return std::nullopt;
+  double z_sum = 0, r_sum = 0, zz_sum = 0, zr_sum = 0;
+  for (int k = 0; k < levels; ++k) {
+    const double z = height * (lower + (upper - lower) * k / (levels - 1));
+    const auto r = heap.radius_at(z);
+    if (!r) return std::nullopt;
+    z_sum += z;
+    r_sum += *r;
+    zz_sum += z * z;
+    zr_sum += z * *r;
+  }
+  const double inwards = (z_sum * r_sum / levels - zr_sum) / (zz_sum - z_sum * z_sum / levels);
+  return std::atan2(1.0, std::max(inwards, 0.0));
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/world/particles.h"
@@ -49,6 +50,15 @@ double mean_height(const Particles& particles, double mean_radius, const Disc& d
 
 /// Slope along x of the plane fitted to the closed surface over a disc; positive where it rises with x.
 double slope_along_x(const Particles& particles, double mean_radius, const Disc& disc);
+
+/// Angle of repose of a heap on the table [rad]: that of the straight line through its flank between these shares of
+/// its height. Nothing if the heap is too low or too small to have such a flank.
+///
+/// About the vertical through the grains' centre of mass, the heap's radius at a height z is the mean over 48
+/// directions of how far the closed surface reaches at z or above; its height is the mean of the closed surface over a
+/// disc of five mean radii about that axis. The line is the least squares fit of the radius over levels half a mean
+/// radius apart. Requirement: 0 <= lower < upper <= 1.
+std::optional<double> flank_angle(const Particles& particles, double mean_radius, double lower, double upper);
 
 /// Widths in plan of the heap, the connected body that has at least half of the grains [m]; those that lie apart from
 /// it by more than one mean radius do not belong to it. Where no body has so many the grains have scattered, and all of

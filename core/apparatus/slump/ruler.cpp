@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace pastefit {
@@ -75,6 +76,9 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".spread_mm", 1e3 * std::min(spread.mean, table));
   set(".spread_orthogonal_mm", 1e3 * std::min(spread.orthogonal, table));
   const bool dropped = step == "step2";
+  if (const auto& flank = test_.reading.flank; flank && !dropped)
+    if (const auto angle = flank_angle(grains, radius, flank->lower_share, flank->upper_share))
+      set(".angle_of_repose_deg", 180 / std::numbers::pi * *angle);
   const auto& measured = dropped ? test_.reading.outline_step2 : test_.reading.outline_step1;
   if (!dropped && measured.empty()) return;
   const Outline side = outline(grains, radius);

@@ -79,7 +79,10 @@ std::vector<ReadingKind> step1_kinds(const SlumpRanges& ranges) {
                 .worst_miss = ranges.mould_mm, .repeatability = published_spread,
                 .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
-                .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true}};
+                .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true},
+    ReadingKind{.name = "step1.angle_of_repose_deg", .key = "step1.angle_of_repose_deg",
+                .measure = "step1.angle_of_repose_deg", .stage = kStep1, .possible = {0, 90}, .worst_miss = 90,
+                .on_request = true, .depends_on = "apparatus.lift_velocity_mm_s"}};
 }
 
 std::vector<ReadingKind> step2_kinds(const SlumpRanges& ranges) {
@@ -137,10 +140,17 @@ std::vector<ReadingKind> after_drops_kinds(const SlumpRanges& ranges) {
 
 }  // namespace
 
+bool is_asked_for(const SlumpTest& test, std::string_view reading) {
+  return reading == "step1.angle_of_repose_deg" && test.reading.flank.has_value();
+}
+
 std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
   const SlumpRanges ranges(test);
   std::vector<ReadingKind> kinds = fill_kinds(ranges);
-  for (const ReadingKind& kind : step1_kinds(ranges)) kinds.push_back(kind);
+  for (ReadingKind& kind : step1_kinds(ranges)) {
+    if (kind.on_request) kind.advised = kind.checked = is_asked_for(test, kind.name);
+    kinds.push_back(kind);
+  }
   for (ReadingKind& kind : step2_kinds(ranges)) {
     const bool has_sides = test.drop && test.drop->motion == TableMotion::hinged;
     if (kind.name == "step2.plateau_sag_mm" && !has_sides) kind.lack = no_sides;
@@ -158,7 +168,8 @@ std::vector<std::string> observable_names(const SlumpTest& test) {
   std::vector<std::string> names;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto& outline = kind.stage == kStep1 ? test.reading.outline_step1 : test.reading.outline_step2;
-    if (!kind.lack && !(kind.from_outline && outline.empty())) names.emplace_back(kind.name);
+    const bool absent = (kind.from_outline && outline.empty()) || (kind.on_request && !is_asked_for(test, kind.name));
+    if (!kind.lack && !absent) names.emplace_back(kind.name);
   }
   return names;
 }

@@ -68,6 +68,14 @@ Faults validate(const SlumpTest& test) {
   check_dimensions(check, test, slump_dimensions);
   check.range("table_length_m", test.table_length_m, 2 * wider_radius_m(mould), 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * wider_radius_m(mould), "m");
+  if (const auto& flank = test.reading.flank) {
+    constexpr double kShortest = 0.1;
+    check_dimensions(check, *flank, flank_dimensions, "reading.flank.");
+    check.require(flank->upper_share - flank->lower_share >= kShortest, "reading.flank.upper_share",
+                  "is " + FieldChecker::text(flank->upper_share) + ", less than 0.1 above lower_share, " +
+                      FieldChecker::text(flank->lower_share),
+                  "e.g. lower_share 0.2 and upper_share 0.8");
+  }
   if (test.drop) {
     check_plate(check, test);
     if (test.drop->motion == TableMotion::hinged)

@@ -53,6 +53,12 @@ enum class HeightReading {
   highest  ///< the highest point of the body (EN 12350-2)
 };
 
+/// The part of a heap's flank along which its angle of repose is read, as shares of the heap's height: without the
+/// rounded tip and the grains that have rolled out at the foot.
+struct Flank {
+  double lower_share = 0.2, upper_share = 0.8;
+};
+
 /// How heights are read from the heap.
 struct Reading {
   HeightReading height = HeightReading::axis;
@@ -61,6 +67,7 @@ struct Reading {
   /// Outlines of the heap as seen from the side, along the hinge, by a person with a ruler; x from the middle of the
   /// table towards the free edge. Empty: not measured.
   std::vector<OutlinePoint> outline_step1, outline_step2;
+  std::optional<Flank> flank;  ///< of the angle of repose after step 1; not read without
 };
 
 /// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
@@ -111,6 +118,12 @@ inline constexpr std::array<Dimension<Reading>, 2> reading_dimensions{{
      true},
     {"sag_window_m", &Reading::sag_window_m, 1e-6, 10,
      "width about the axis over which the sag of the plateau is taken", true},
+}};
+inline constexpr std::array<Dimension<Flank>, 2> flank_dimensions{{
+    {"lower_share", &Flank::lower_share, 0, 0.9, "of the heap's height, from which the flank is read; default 0.2",
+     true},
+    {"upper_share", &Flank::upper_share, 0.1, 1, "of the heap's height, up to which the flank is read; default 0.8",
+     true},
 }};
 
 /// Every fault that keeps this test from being simulated (dimensions, ranges, admissible bridge, mould of a few

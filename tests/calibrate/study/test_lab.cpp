@@ -355,6 +355,7 @@ TEST_CASE("the hash follows content and preset, not comments and white space") {
 TEST_CASE("every measurement has its counterpart among the readings of the simulation") {
   SlumpTest test;
   test.drop.emplace().drops = 2;
+  test.reading.flank.emplace();
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
   const auto kinds = reading_kinds(test);
@@ -367,6 +368,38 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
     constexpr std::array stages{"fill.", "step1.", "step2.", "after_drops."};
     CHECK(kind.name.starts_with(stages[kind.stage]));
   }
+}
+
+TEST_CASE("a laboratory that measured an angle of repose has it simulated, as its apparatus says or as by default") {
+  json document = lab();
+  const auto flank_of = [](const json& read) {
+    return std::get<SlumpTest>(lab_from_json(read, {}).value().test).reading.flank;
+  };
+  CHECK_FALSE(flank_of(document));
+  document["measurements"]["step1.angle_of_repose_deg"] = {{"value", 27}, {"standard_deviation", 1.5}};
+  REQUIRE(flank_of(document));
+  CHECK(flank_of(document)->lower_share == 0.2);
+  document["apparatus"]["reading"]["flank"] = {{"lower_share", 0.1}, {"upper_share", 0.7}};
+  CHECK(flank_of(document)->upper_share == 0.7);
+  document["apparatus"]["reading"]["flank"] = {{"lower_share", 0.6}, {"upper_share", 0.65}};
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].where == "apparatus.reading.flank.upper_share");
+  document["apparatus"]["reading"].erase("flank");
+  document["measurements"]["step1.angle_of_repose_deg"]["value"] = 91;
+  REQUIRE(faults_of(document).size() == 1);
+  CHECK(faults_of(document)[0].where == "measurements.step1.angle_of_repose_deg.value");
+}
+
+TEST_CASE("an angle of repose without the speed of the lift is noted, because it depends on it") {
+  json document = lab();
+  document["apparatus"] = {{"preset", "lifted-cylinder"}};
+  document["measurements"] = {{"step1.angle_of_repose_deg", {{"value", 27}, {"standard_deviation", 1.5}}}};
+  const auto notes = [&] { return lab_from_json(document, PASTEFIT_SOURCE_DIR "/data/lab").value().notes; };
+  REQUIRE(notes().size() == 1);
+  CHECK(notes()[0].find("apparatus.lift_velocity_mm_s") != std::string::npos);
+  document["apparatus"]["lift_velocity_mm_s"] = 10;
+  CHECK(notes().empty());
 }
 
 TEST_CASE("a height and a width that cannot hold what the mould holds are a fault of the file") {

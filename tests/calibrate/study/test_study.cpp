@@ -57,6 +57,22 @@ TEST_CASE("every kind of test has two templates that are read as they are, of al
   }
 }
 
+TEST_CASE("the templates of the lifted cylinder are read as they are: dry grains, whose frictions are free") {
+  const Desk desk;
+  desk.folder().write("lab.json", template_text_of_mould("lab", "lifted-cylinder").value());
+  const auto study =
+      read_study(desk.folder().write("study.json", template_text_of_mould("study", "lifted-cylinder").value()));
+  INFO((study.ok() ? "" : message_of(study.faults())));
+  REQUIRE(study.ok());
+  std::vector<std::string> free;
+  for (const Parameter& one : study.value().parameters)
+    if (one.free) free.push_back(one.name);
+  CHECK(free == std::vector<std::string>{"friction", "rolling_friction"});
+  CHECK(study.value().tests[0].lab.notes.empty());
+  CHECK_FALSE(template_text_of_mould("lab", "abrams"));
+  CHECK_FALSE(template_text_of_mould("pellet-lab", "lifted-cylinder"));
+}
+
 TEST_CASE("the shipped studies are read: height and spread to fit where a heap can have both, else the height") {
   int studies = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/studies")) {

@@ -66,3 +66,57 @@ TEST_CASE("an empty table reads zero") {
   CHECK(widths(none, 0.004).mean == 0);
   CHECK(outline(none, 0.004).at(0) == 0);
 }
+
+namespace {
+
+/// A layer of grains whose tops lie on a cone of this slope about (x, y), on the table.
+Particles cone_of_grains(double radius, double height, double slope, double x = 0, double y = 0) {
+  std::vector<Vec3> centres;
+  const double foot = height / slope;
+  for (double dx = -foot; dx <= foot; dx += 1.2 * radius)
+    for (double dy = -foot; dy <= foot; dy += 1.2 * radius) {
+      const double z = height - slope * std::hypot(dx, dy) - radius;
+      if (z >= 0) centres.push_back({x + dx, y + dy, z});
+    }
+  return make_particles(centres, std::vector<double>(centres.size(), radius), 2000);
+}
+
+}  // namespace
+
+TEST_CASE("the angle of repose is that of the cone on which the grains lie, wherever it stands") {
+  for (const double angle : {12.0, 20.0, 28.0, 36.0}) {
+    const double slope = std::tan(angle * std::numbers::pi / 180);
+    for (const double x : {0.0, 0.037}) {
+      INFO(angle << " about " << x);
+      const auto read = flank_angle(cone_of_grains(0.002, 0.08, slope, x, -x), 0.002, 0.2, 0.8);
+      REQUIRE(read);
+      CHECK(180 / std::numbers::pi * *read == Approx(angle).margin(0.3));
+    }
+  }
+}
+
+TEST_CASE("the angle of repose is that of the part of the flank that is asked for") {
+  // Below half of its height the heap is steeper: slope 0.6 under a cone of slope 0.3.
+  std::vector<Vec3> centres;
+  for (double x = -0.25; x <= 0.25; x += 0.0024)
+    for (double y = -0.25; y <= 0.25; y += 0.0024) {
+      const double r = std::hypot(x, y), z = std::min(0.08 - 0.3 * r, 0.12 - 0.6 * r) - 0.002;
+      if (z >= 0) centres.push_back({x, y, z});
+    }
+  const Particles heap = make_particles(centres, std::vector<double>(centres.size(), 0.002), 2000);
+  CHECK(std::tan(flank_angle(heap, 0.002, 0.1, 0.4).value()) == Approx(0.6).epsilon(0.05));
+  CHECK(std::tan(flank_angle(heap, 0.002, 0.6, 0.9).value()) == Approx(0.3).epsilon(0.05));
+}
+
+TEST_CASE("grains that have rolled away do not change the angle of repose; a layer of grains has none") {
+  Particles heap = cone_of_grains(0.002, 0.06, 0.5);
+  const double angle = flank_angle(heap, 0.002, 0.2, 0.8).value();
+  std::vector<Vec3> centres;
+  for (const Motion& grain : heap.motion) centres.push_back(grain.position);
+  for (int k = -8; k <= 8; ++k)
+    if (k != 0) centres.push_back({0.05 * k, 0.4, 0.002});
+  const Particles scattered = make_particles(centres, std::vector<double>(centres.size(), 0.002), 2000);
+  CHECK(flank_angle(scattered, 0.002, 0.2, 0.8).value() == Approx(angle).margin(0.005));
+  CHECK_FALSE(flank_angle(carpet(0.004, 0.1, 0.008, 0), 0.004, 0.2, 0.8));
+  CHECK_FALSE(flank_angle(make_particles({}, {}, 2000), 0.004, 0.2, 0.8));
+}

@@ -1,6 +1,7 @@
 #include "core/apparatus/slump/ruler.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 using namespace pastefit;
@@ -20,4 +21,24 @@ TEST_CASE("a table covered to its corners is read as long as it is, one not cove
   };
   CHECK(spread_mm(0.195) == Approx(400));
   CHECK(spread_mm(0.1) == Approx(1e3 * (8 * 0.1 / std::numbers::pi + 0.01)).epsilon(0.002));
+}
+
+TEST_CASE("the angle of repose is read after step 1, and only where it is asked for") {
+  SlumpTest test;
+  std::vector<Vec3> centres;
+  for (double x = -0.15; x <= 0.1501; x += 0.003)
+    for (double y = -0.15; y <= 0.1501; y += 0.003)
+      if (const double z = 0.06 - 0.4 * std::sqrt(x * x + y * y); z >= 0) centres.push_back({x, y, z});
+  test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = 0.0025;
+  const Particles heap = make_particles(centres, std::vector<double>(centres.size(), 0.0025), 2000);
+  const auto angle = [&](const char* step) {
+    Observables readings;
+    Ruler(test, 0, heap).read(heap, step, readings);
+    return readings.find(std::string(step) + ".angle_of_repose_deg");
+  };
+  CHECK_FALSE(angle("step1"));
+  test.reading.flank.emplace();
+  REQUIRE(angle("step1"));
+  CHECK(*angle("step1") == Approx(180 / std::numbers::pi * std::atan(0.4)).margin(0.5));
+  CHECK_FALSE(angle("step2"));
 }
