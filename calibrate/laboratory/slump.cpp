@@ -38,6 +38,9 @@ void describe_slump(Fields& fields, Test& test) {
   fields.object("reading", required, [&](auto& reading) {
     reading.choice("height", test.reading.height, height_readings, required);
     describe_dimensions(reading, test.reading, reading_dimensions);
+    reading.pairs("spread_curve_s_m", test.reading.spread_curve, any_number, any_number, Need::optional, 0);
+    reading.optional_object("flow", test.reading.flow,
+                            [](auto& flow, auto& timing) { describe_dimensions(flow, timing, flow_dimensions); });
     reading.optional_object("flank", test.reading.flank,
                             [](auto& flank, auto& shares) { describe_dimensions(flank, shares, flank_dimensions); });
     reading.pairs("outline_step1_m", test.reading.outline_step1, any_number, any_number, Need::optional, 0);
@@ -89,13 +92,30 @@ void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
   apparatus.object("reading", need, [&](ObjectReader& reading) {
     reading.choice("height", test.reading.height, height_readings, need);
     read_dimensions(reading, test.reading, reading_dimensions, need);
+    reading.nullable_object("flow", test.reading.flow, Need::optional, [&](ObjectReader& flow, FlowTiming& timing) {
+      read_dimensions(flow, timing, flow_dimensions, need);
+    });
     reading.nullable_object("flank", test.reading.flank, Need::optional, [&](ObjectReader& flank, Flank& shares) {
       read_dimensions(flank, shares, flank_dimensions, need);
     });
   });
 }
 
+namespace {
+
+/// From the beginning of the lift.
+void read_spread_curve(ObjectReader& reader, SlumpTest& test) {
+  constexpr std::size_t fewest = 3;
+  constexpr double longest_s = 600;
+  if (reader.pairs("points", test.reading.spread_curve, {0, longest_s}, {0, mm * test.table_length_m}, Need::required,
+                   fewest))
+    for (auto& [time_s, width] : test.reading.spread_curve) width /= mm;
+}
+
+}  // namespace
+
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test) {
+  if (kind.name == "step1.spread_curve_mm") return read_spread_curve(reader, test);
   constexpr std::size_t fewest = 5;
   const double half_table_mm = 0.5 * mm * test.table_length_m;
   const auto kinds = reading_kinds(test);
@@ -112,6 +132,8 @@ void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test
 
 void ask_for(SlumpTest& test, const ReadingKind& kind) {
   if (kind.name == "step1.angle_of_repose_deg" && !test.reading.flank) test.reading.flank.emplace();
+  const bool time = kind.name == "step1.t500_s" || kind.name == "step1.flow_time_s";
+  if (time && !test.reading.flow) test.reading.flow.emplace();
 }
 
 std::vector<FilePlace> places_in_files(const SlumpTest&) {
@@ -121,8 +143,9 @@ std::vector<FilePlace> places_in_files(const SlumpTest&) {
   add_places(places, rhythm_dimensions, "drop", "apparatus.drop_plate");
   places.pop_back();  // the plate itself stands behind all of its dimensions
   add_places(places, plate_dimensions, "drop", "apparatus.drop_plate");
-  add_places(places, reading_dimensions, "reading", "apparatus.reading");
+  add_places(places, flow_dimensions, "reading.flow", "apparatus.reading.flow");
   add_places(places, flank_dimensions, "reading.flank", "apparatus.reading.flank");
+  add_places(places, reading_dimensions, "reading", "apparatus.reading");
   return places;
 }
 

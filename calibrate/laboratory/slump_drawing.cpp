@@ -5,6 +5,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/granule_test.h"
 #include "calibrate/laboratory/slump.h"
 #include "calibrate/laboratory/test.h"
 
@@ -217,9 +218,35 @@ class HeapDrawing {
 
 }  // namespace
 
+namespace {
+
+/// The spread against time, where it was simulated, over what was measured.
+std::optional<Drawing> drawing_of_flow(const SlumpTest& test, std::span<const SeenRun> runs,
+                                       std::span<const Measurement> measured) {
+  const bool any = std::ranges::any_of(runs, [](const SeenRun& run) { return run.curve.has_value(); });
+  if (!any && test.reading.spread_curve.empty()) return std::nullopt;
+  Drawing drawing = drawing_of_curves("Spread after the lift begins", "time [s]", "spread [mm]", runs);
+  DrawnLine line{"laboratory", DrawnBy::laboratory, {}};
+  for (const auto& [time_s, width_m] : test.reading.spread_curve) line.points.push_back({time_s, mm * width_m});
+  if (const auto* known = find_measurement(measured, "step1.spread_curve_mm"))
+    line.deviation = known->standard_deviation;
+  if (!line.points.empty()) drawing.lines.push_back(std::move(line));
+  const auto* t500 = find_measurement(measured, "step1.t500_s");
+  if (t500 && test.reading.flow) {
+    const double width = mm * test.reading.flow->diameter_m, from = t500->value - t500->standard_deviation;
+    drawing.lines.push_back({"laboratory, time to this width",
+                             DrawnBy::laboratory,
+                             {{std::max(from, 0.0), width}, {t500->value + t500->standard_deviation, width}}});
+  }
+  return drawing;
+}
+
+}  // namespace
+
 std::vector<Drawing> drawings_of(const SlumpTest& test, std::span<const SeenRun> runs,
                                  std::span<const Measurement> measured) {
   std::vector<Drawing> out{HeapDrawing(test, "step1", runs, measured).drawn()};
+  if (const auto flow = drawing_of_flow(test, runs, measured)) out.push_back(*flow);
   if (test.drop) out.push_back(HeapDrawing(test, "step2", runs, measured).drawn());
   if (test.drop && test.drop->drops > 1) {
     out.push_back(HeapDrawing(test, "after_drops", runs, measured).drawn());

@@ -44,6 +44,8 @@ constexpr std::string_view slump_lab =
   // other standards: step1.height_axis_mm, step1.spread_orthogonal_mm. Shift of the top's middle: step1.lateral_shift_mm.
   // Step 2, plate dropped: the same with step2 but the shift, and step2.plateau_sag_mm, step2.plateau_width_mm.
   // After all drops, if there are several: after_drops.spread_mm, after_drops.height_mm.
+  // How it flows, from the beginning of the lift: step1.t500_s, the time to "reading": {"flow": {"diameter_mm": 500}},
+  // step1.flow_time_s until it stops, "step1.spread_curve": {"points": [[0.5, 300], [1, 420], [3, 510]], "standard_deviation": 10}.
   // Of a dry material: step1.angle_of_repose_deg (pastefit template lab --mould lifted-cylinder).
   // The filling: fill.mass_kg. The outline off a photograph from the side, x from the middle of the table:
   // "step1.profile": {"points": [[-150, 4], [-80, 40], [0, 68], [90, 35], [150, 4]], "standard_deviation": 6}

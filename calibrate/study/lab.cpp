@@ -146,6 +146,10 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
         faults.push_back(std::move(fault));
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, questions);
+    // A reading that was taken has the test read it, by default in a way that the apparatus may not admit.
+    if (values_are_good(faults, before))
+      for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
+        faults.push_back(std::move(fault));
     read_repeats(reader, lab, lab.repeats);
     for (const FilePlace& one : places_in_files(lab.test))
       if (one.often_unstated && has_place(document, one.place)) lab.stated.push_back(one.place);

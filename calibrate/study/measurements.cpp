@@ -101,6 +101,7 @@ std::string form_of(const ReadingKind& kind, const nlohmann::json* content) {
     return "write {\"value\": " + text_of(*content) + ", \"standard_deviation\": " + deviation + "}";
   if (content && content->is_array() && !kind.from_outline)
     return "write {\"repeats\": " + cut_short(content->dump()) + "}";
+  if (kind.name == "step1.spread_curve_mm") return R"({"points": [[s, mm], ...], "standard_deviation": 10})";
   return kind.from_outline ? R"({"points": [[x_mm, z_mm], ...], "standard_deviation": 6})"
                            : R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]})";
 }
@@ -144,15 +145,16 @@ bool refuse_strange(ObjectReader& reader, const Test& test, std::span<const Read
   return true;
 }
 
-/// Times are refused with the reason: T500 and the like are of the flow, and the heap is compared at rest.
+/// Times that are not read are refused with those that are.
 bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
   bool any = false;
   for (const std::string& key : reader.keys()) {
     const std::optional<Unit> unit = unit_of_key(key);
     const bool time = (unit && unit->key == "s") || key.find("t500") != std::string::npos || key.ends_with("t50");
     if (!time || std::ranges::count(own, key, &ReadingKind::key) > 0) continue;
-    reader.refuse(key, "is a time: heaps are compared at rest, how fast they flow is not simulated",
-                  "leave it out; the heap's spread and height can be fitted");
+    reader.refuse(key, "is a time that is not read",
+                  "of a slump test step1.t500_s, the time to a spread of apparatus.reading.flow.diameter_mm, and "
+                  "step1.flow_time_s; else leave it out");
     any = true;
   }
   return any;

@@ -170,7 +170,8 @@ class RayedHeap {
   static Vec3 middle_of(const Particles& particles) {
     Vec3 middle{};
     double volume = 0;
-    for (const Motion& grain : particles.motion) {
+    for (std::int32_t i = 0; i < particles.count(); ++i) {
+      const Motion& grain = particles.motion[i];
       const double share = grain.radius * grain.radius * grain.radius;
       middle.x += share * grain.position.x;
       middle.y += share * grain.position.y;

@@ -6,7 +6,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double room = 0.02;  // for the tolerances of an apparatus
+constexpr double kLongestFlow = 600;  // [s] of a test that is simulated
+constexpr double room = 0.02;         // for the tolerances of an apparatus
 
 constexpr std::string_view highest_is_above = "the highest point of a heap is not below its height";
 constexpr std::string_view not_raised = "a drop does not raise a heap";
@@ -80,6 +81,15 @@ std::vector<ReadingKind> step1_kinds(const SlumpRanges& ranges) {
                 .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
                 .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true},
+    ReadingKind{.name = "step1.t500_s", .key = "step1.t500_s", .measure = "step1.t500_s", .stage = kStep1,
+                .possible = {0, kLongestFlow}, .worst_miss = kLongestFlow, .on_request = true,
+                .depends_on = "apparatus.lift_velocity_mm_s"},
+    ReadingKind{.name = "step1.flow_time_s", .key = "step1.flow_time_s", .measure = "step1.flow_time_s",
+                .stage = kStep1, .possible = {0, kLongestFlow}, .worst_miss = kLongestFlow, .on_request = true,
+                .depends_on = "apparatus.lift_velocity_mm_s"},
+    ReadingKind{.name = "step1.spread_curve_mm", .key = "step1.spread_curve", .measure = "step1.spread_curve_mm",
+                .stage = kStep1, .possible = ranges.on_the_table, .worst_miss = ranges.table_mm, .from_outline = true,
+                .depends_on = "apparatus.lift_velocity_mm_s"},
     ReadingKind{.name = "step1.angle_of_repose_deg", .key = "step1.angle_of_repose_deg",
                 .measure = "step1.angle_of_repose_deg", .stage = kStep1, .possible = {0, 90}, .worst_miss = 90,
                 .on_request = true, .depends_on = "apparatus.lift_velocity_mm_s"}};
@@ -141,7 +151,8 @@ std::vector<ReadingKind> after_drops_kinds(const SlumpRanges& ranges) {
 }  // namespace
 
 bool is_asked_for(const SlumpTest& test, std::string_view reading) {
-  return reading == "step1.angle_of_repose_deg" && test.reading.flank.has_value();
+  if (reading == "step1.angle_of_repose_deg") return test.reading.flank.has_value();
+  return (reading == "step1.t500_s" || reading == "step1.flow_time_s") && test.reading.flow.has_value();
 }
 
 std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
@@ -167,7 +178,10 @@ std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
 std::vector<std::string> observable_names(const SlumpTest& test) {
   std::vector<std::string> names;
   for (const ReadingKind& kind : reading_kinds(test)) {
-    const auto& outline = kind.stage == kStep1 ? test.reading.outline_step1 : test.reading.outline_step2;
+    const bool curve = kind.name == "step1.spread_curve_mm";
+    const auto& outline = curve                  ? test.reading.spread_curve
+                          : kind.stage == kStep1 ? test.reading.outline_step1
+                                                 : test.reading.outline_step2;
     const bool absent = (kind.from_outline && outline.empty()) || (kind.on_request && !is_asked_for(test, kind.name));
     if (!kind.lack && !absent) names.emplace_back(kind.name);
   }

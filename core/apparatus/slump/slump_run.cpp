@@ -5,6 +5,7 @@
 #include "core/apparatus/slump/plate_drop.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "core/apparatus/slump/slump_world.h"
+#include "core/apparatus/slump/spread_series.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
 
@@ -26,6 +27,7 @@ class MouldLift {
         world_(world_in_mould(test, filled)),
         runner_(world_, options, rest_measure_of_heap),
         ruler_(test, filled.roughness_m, world_.particles) {
+    if (is_timed(test)) runner_.remember([this] { return spreads_.is_sound(); }, spreads_);
     if (options_.cutoff)
       lost_below_ = 1e-3 * options_.cutoff->lowest - ruler_.above_highest_m() - kRebound * test_.grains.radius_m;
   }
@@ -49,6 +51,7 @@ class MouldLift {
     return height_mm < options_.cutoff->lowest || height_mm > options_.cutoff->highest;
   }
 
+  const SpreadSeries& spreads() const { return spreads_; }
   const World& world() const { return world_; }
   const Ruler& ruler() const { return ruler_; }
   const EnergyBalance& energy_balance() const { return runner_.energy_balance(); }
@@ -67,8 +70,8 @@ class MouldLift {
     const auto untouched = [&](const World&) { return norm(mould.force) == 0; };
     const double own_height = test_.mould.height_m / test_.lift_velocity_m_s;
     auto problem = options_.fixed_wait_s
-                       ? runner_.run({"step1.lift", {}, look_whether_lost()}, own_height)
-                       : runner_.run_until_rest({"step1.lift", {}, clear}, 1.5 * own_height, untouched);
+                       ? runner_.run({"step1.lift", time_flow(), look_whether_lost()}, own_height)
+                       : runner_.run_until_rest({"step1.lift", time_flow(), clear}, 1.5 * own_height, untouched);
     if (problem) return problem;
     const double rim_m = std::get<Shell>(mould.shape).base.z;
     runner_.take_away_last_wall();
@@ -80,18 +83,27 @@ class MouldLift {
   /// out: a free fall would crush it.
   std::optional<Failure> let_down(double height_m) {
     world_.drag = kGravity / test_.lift_velocity_m_s;
-    auto problem = runner_.run({"step1.let_down", {}, look_whether_lost()}, height_m / test_.lift_velocity_m_s);
+    auto problem =
+        runner_.run({"step1.let_down", time_flow(), look_whether_lost()}, height_m / test_.lift_velocity_m_s);
     world_.drag = 0;
     runner_.changed();
     return problem;
   }
 
   /// The heap comes to rest on the table, unless it is lost before.
-  std::optional<Failure> rest_on_table() { return runner_.settle({"step1.rest", {}, look_whether_lost()}, kRestCap); }
+  std::optional<Failure> rest_on_table() {
+    return runner_.settle({"step1.rest", time_flow(), look_whether_lost()}, kRestCap);
+  }
 
   std::function<bool(const World&)> look_whether_lost() const {
     if (!options_.cutoff) return {};
     return [this](const World& world) { return world.step % kStepsPerLook == 0 && lost(); };
+  }
+
+  /// Takes the spread from time to time, where somebody asks for it; changes nothing of the world.
+  std::function<void(World&, double)> time_flow() {
+    if (!is_timed(test_)) return {};
+    return [this](World& world, double) { spreads_.take(world, test_.grains.radius_m); };
   }
 
   const SlumpTest& test_;
@@ -99,8 +111,22 @@ class MouldLift {
   World world_;
   Runner runner_;
   Ruler ruler_;
+  SpreadSeries spreads_;
   double lost_below_ = 0;  ///< highest point [m]
 };
+
+/// The times of the flow, and the spread against time.
+void read_times(const SlumpTest& test, const MouldLift& lift, Outcome& outcome) {
+  const SpreadSeries& spreads = lift.spreads();
+  outcome.curve = spreads.curve();
+  if (const auto& flow = test.reading.flow) {
+    // Without a time the heap has not got so far: its reading is absent.
+    if (const auto time = spreads.time_to(flow->diameter_m)) outcome.observables.set("step1.t500_s", *time);
+    outcome.observables.set("step1.flow_time_s", spreads.time_of_flow());
+  }
+  if (!test.reading.spread_curve.empty())
+    outcome.observables.set("step1.spread_curve_mm", 1e3 * spreads.rms_difference(test.reading.spread_curve));
+}
 
 void add_up(RunSummary& sum, const RunSummary& part) {
   sum.steps += part.steps;
@@ -139,6 +165,7 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
   bool ended_early = lift.lost();
   if (!outcome.failure && !ended_early) {
     lift.ruler().read(lift.world().particles, "step1", outcome.observables);
+    if (is_timed(test)) read_times(test, lift, outcome);
     ended_early = lift.is_unwanted(outcome.observables);
   }
   if (test.drop && !outcome.failure && !ended_early) {

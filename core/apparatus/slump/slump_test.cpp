@@ -68,6 +68,8 @@ Faults validate(const SlumpTest& test) {
   check_dimensions(check, test, slump_dimensions);
   check.range("table_length_m", test.table_length_m, 2 * wider_radius_m(mould), 10, "m");
   check.range("reading.probe_diameter_m", test.reading.probe_diameter_m, radius, 2 * wider_radius_m(mould), "m");
+  if (const auto& flow = test.reading.flow)
+    check.range("reading.flow.diameter_m", flow->diameter_m, 2 * wider_radius_m(mould), test.table_length_m, "m");
   if (const auto& flank = test.reading.flank) {
     constexpr double kShortest = 0.1;
     check_dimensions(check, *flank, flank_dimensions, "reading.flank.");

@@ -59,6 +59,14 @@ struct Flank {
   double lower_share = 0.2, upper_share = 0.8;
 };
 
+/// How the flow is timed: from the moment at which the lift begins.
+struct FlowTiming {
+  double diameter_m = 0.5;  ///< of the circle that T500 is the time to (EN 12350-8: 500 mm)
+};
+
+/// A point of a measured curve of the spread against time: s and m.
+using SpreadPoint = std::array<double, 2>;
+
 /// How heights are read from the heap.
 struct Reading {
   HeightReading height = HeightReading::axis;
@@ -67,7 +75,9 @@ struct Reading {
   /// Outlines of the heap as seen from the side, along the hinge, by a person with a ruler; x from the middle of the
   /// table towards the free edge. Empty: not measured.
   std::vector<OutlinePoint> outline_step1, outline_step2;
-  std::optional<Flank> flank;  ///< of the angle of repose after step 1; not read without
+  std::optional<FlowTiming> flow;         ///< after the lift begins; not timed without
+  std::vector<SpreadPoint> spread_curve;  ///< as measured, from the beginning of the lift; empty: not measured
+  std::optional<Flank> flank;             ///< of the angle of repose after step 1; not read without
 };
 
 /// The slump test as one value: the specimen, whose density is that of the fresh material in the mould, and the
@@ -118,6 +128,10 @@ inline constexpr std::array<Dimension<Reading>, 2> reading_dimensions{{
      true},
     {"sag_window_m", &Reading::sag_window_m, 1e-6, 10,
      "width about the axis over which the sag of the plateau is taken", true},
+}};
+inline constexpr std::array<Dimension<FlowTiming>, 1> flow_dimensions{{
+    {"diameter_m", &FlowTiming::diameter_m, 2e-3, 10, "of the circle that step1.t500_s is the time to; default 500",
+     true},
 }};
 inline constexpr std::array<Dimension<Flank>, 2> flank_dimensions{{
     {"lower_share", &Flank::lower_share, 0, 0.9, "of the heap's height, from which the flank is read; default 0.2",

@@ -83,6 +83,15 @@ class New(Desk):
         self.assertEqual(run("template", "lab", "--mould", "haegerman").returncode, 2)
         self.assertIn("--mould", run("template", "study", "--mould", "abrams").stderr)
 
+    def test_an_angle_of_repose_is_that_of_dry_grains(self):
+        lab, study, said = self.files("--mould", "lifted-cylinder", "--density", "780", "--angle", "26.1, 28, 26.9")
+        self.assertEqual(lab["measurements"], {"step1.angle_of_repose_deg": {"repeats": [26.1, 28, 26.9],
+                                                                              "standard_deviation": 1.5}})
+        self.assertEqual(study["contact"]["attraction"], "none")
+        self.assertEqual([name for name, one in study["parameters"].items() if "free" in one],
+                         ["friction", "rolling_friction"])
+        self.assertIn("Many pairs of sliding and rolling friction give one angle", said)
+
     def test_the_target_has_its_own_law(self):
         laws = {"lammps": ("hertz", "polynomial", "strength_pa"), "liggghts": ("sjkr", "none", "cohesion_energy_density_pa"),
                 "yade": ("hertz", "polynomial", "strength_pa"), "edem": ("jkr", "none", "adhesion_pa")}

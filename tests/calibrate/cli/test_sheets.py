@@ -185,9 +185,9 @@ class Sheets(Desk):
         self.assertAlmostEqual(solid[0], solid[1], delta=0.035)
         self.assertAlmostEqual(spreads[0], spreads[1], delta=0.15 * spreads[0])
 
-    def test_times_are_refused_because_time_is_not_simulated(self):
-        lab = self.lab({"step1.spread_mm": {"value": 700, "standard_deviation": 25}, "step1.t500_s": {"value": 2.6}})
-        self.refused(lab, "measurements.step1.t500_s: is a time", "compared at rest")
+    def test_times_that_are_not_read_are_refused_with_those_that_are(self):
+        lab = self.lab({"step1.spread_mm": {"value": 700, "standard_deviation": 25}, "step1.t50": {"value": 2.6}})
+        self.refused(lab, "measurements.step1.t50: is a time", "step1.t500_s")
 
     def test_texts_of_windows_programs_are_read_or_named(self):
         lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}}, title="M\u00f6rtel")

@@ -356,6 +356,8 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
   SlumpTest test;
   test.drop.emplace().drops = 2;
   test.reading.flank.emplace();
+  test.reading.flow.emplace();
+  test.reading.spread_curve = {{0, 0.2}, {1, 0.3}};
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
   const std::vector<std::string> names = observable_names(test);
   const auto kinds = reading_kinds(test);
@@ -389,6 +391,42 @@ TEST_CASE("a laboratory that measured an angle of repose has it simulated, as it
   document["measurements"]["step1.angle_of_repose_deg"]["value"] = 91;
   REQUIRE(faults_of(document).size() == 1);
   CHECK(faults_of(document)[0].where == "measurements.step1.angle_of_repose_deg.value");
+}
+
+TEST_CASE("a time to a circle that the table does not hold is a fault of the circle, given or by default") {
+  json document = lab();
+  document["measurements"]["step1.t500_s"] = {{"value", 2.6}, {"standard_deviation", 0.3}};
+  document["apparatus"]["lift_velocity_mm_s"] = 100;
+  CHECK(faults_of(document).empty());  // a table of 700 mm
+  const auto place = [&] {
+    const Faults faults = faults_of(document);
+    REQUIRE(faults.size() == 1);
+    return faults[0].where;
+  };
+  document["apparatus"]["reading"]["flow"] = {{"diameter_mm", 750}};
+  CHECK(place() == "apparatus.reading.flow.diameter_mm");
+  document["apparatus"]["reading"]["flow"] = {{"diameter_mm", 150}};  // the mould is wider
+  CHECK(place() == "apparatus.reading.flow.diameter_mm");
+  document["apparatus"]["reading"].erase("flow");
+  document["apparatus"]["table_length_mm"] = 450;
+  document["apparatus"].erase("drop_plate");
+  document["measurements"] = {{"step1.t500_s", {{"value", 2.6}, {"standard_deviation", 0.3}}}};
+  CHECK(place() == "apparatus.reading.flow.diameter_mm");
+}
+
+TEST_CASE("a curve of the spread is read into SI; one that runs back in time is a fault with its place") {
+  json document = lab();
+  json& curve = document["measurements"]["step1.spread_curve"];
+  curve = {{"points", {{0, 200}, {1.5, 310}, {4, 330}}}, {"standard_deviation", 10}};
+  const auto read = lab_from_json(document, ".");
+  INFO((read.ok() ? "" : message_of(read.faults())));
+  REQUIRE(read.ok());
+  CHECK(std::get<SlumpTest>(read.value().test).reading.spread_curve ==
+        std::vector<SpreadPoint>{{0, 0.2}, {1.5, 0.31}, {4, 0.33}});
+  curve["points"] = {{0, 200}, {4, 330}, {1.5, 310}};
+  const Faults faults = faults_of(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].where.starts_with("measurements.step1.spread_curve.points"));
 }
 
 TEST_CASE("an angle of repose without the speed of the lift is noted, because it depends on it") {

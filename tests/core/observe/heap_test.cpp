@@ -112,7 +112,7 @@ TEST_CASE("grains that have rolled away do not change the angle of repose; a lay
   Particles heap = cone_of_grains(0.002, 0.06, 0.5);
   const double angle = flank_angle(heap, 0.002, 0.2, 0.8).value();
   std::vector<Vec3> centres;
-  for (const Motion& grain : heap.motion) centres.push_back(grain.position);
+  for (std::int32_t i = 0; i < heap.count(); ++i) centres.push_back(heap.motion[i].position);
   for (int k = -8; k <= 8; ++k)
     if (k != 0) centres.push_back({0.05 * k, 0.4, 0.002});
   const Particles scattered = make_particles(centres, std::vector<double>(centres.size(), 0.002), 2000);
