@@ -39,6 +39,13 @@ struct Experience {
   double value = 0, smallest = 0, largest = 0;
 };
 
+/// Yield stress of the fluid that would have a reading, by a formula from the literature.
+struct YieldStress {
+  std::string reading;
+  std::string_view formula;  ///< its authors and year
+  double pa = 0;
+};
+
 // What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
 // kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
 
@@ -114,6 +121,11 @@ inline std::vector<Experience> experience_of(const Specimen& test) {
 
 /// What these measurements, taken together, cannot be, or can hardly be.
 inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>) {
+  return {};
+}
+
+/// What the readings of a test say of its material as a fluid with a yield stress.
+inline std::vector<YieldStress> yield_stresses_of(const Specimen&, const Observables&) {
   return {};
 }
 

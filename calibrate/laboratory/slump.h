@@ -15,6 +15,7 @@
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/yield_stress.h"
 #include "core/apparatus/slump/packing.h"
 #include "core/apparatus/slump/slump_readings.h"
 #include "core/apparatus/slump/slump_test.h"

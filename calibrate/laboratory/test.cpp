@@ -165,6 +165,10 @@ ReadingCheck check_readings(const Test& test, std::span<const Measurement> measu
   return std::visit([&](const auto& one) { return check_readings(one, measurements); }, test);
 }
 
+std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& means) {
+  return std::visit([&](const auto& one) { return yield_stresses_of(one, means); }, test);
+}
+
 double default_tolerance(const Test& test, const Measurement& measured) {
   return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }

@@ -60,6 +60,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
+  { yield_stresses_of(given, means) } -> std::same_as<std::vector<YieldStress>>;
   { unseen_by(given, names, names) } -> std::same_as<std::string>;
   { experience_of(given) } -> std::same_as<std::vector<Experience>>;
   { default_tolerance(given, Measurement{}) } -> std::same_as<double>;
@@ -95,6 +96,7 @@ std::optional<bool> is_rejected(const Test& test, const Observables& run);
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);
+std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& means);
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);

@@ -1,5 +1,6 @@
 #include "calibrate/report/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -54,6 +55,27 @@ std::string reading_lines(const Card& card) {
   }
   if (packings == 1) out += "  Simulated: one packing, error unknown.\n";
   return out;
+}
+
+/// What measured and simulated readings say of the material as a fluid with a yield stress.
+std::string yield_stress_lines(const Card& card) {
+  std::string out;
+  for (const auto& test : card.tests) {
+    Observables measured, simulated;
+    for (const auto& one : test.observables) {
+      simulated.set(one.name, one.simulated);
+      if (one.measured) measured.set(one.name, *one.measured);
+    }
+    const auto of_laboratory = yield_stresses_of(test.test, measured);
+    for (const YieldStress& one : yield_stresses_of(test.test, simulated)) {
+      const auto same = std::ranges::find(of_laboratory, one.reading, &YieldStress::reading);
+      if (same == of_laboratory.end()) continue;
+      out += format("  %-24s %10.3g %10s %10.3g Pa  %s\n", reading_name(test, one.reading).c_str(), same->pa, "",
+                    one.pa, std::string(one.formula).c_str());
+    }
+  }
+  return out.empty() ? out
+                     : "Yield stress of a fluid that has the reading; the formulas differ by a factor of two\n" + out;
 }
 
 std::string hold_out_lines(const Card& card) {
@@ -142,7 +164,7 @@ std::string verdict_of(const Card& card) {
 
 std::string summary_of(const Card& card, const std::string& findings) {
   std::string out = one_line(card.title) + "\n\n" + type_in_lines(card) + "\n" + parameter_lines(card) + "\n" +
-                    reading_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
+                    reading_lines(card) + yield_stress_lines(card) + "\n" + findings + (findings.empty() ? "" : "\n");
   if (card.interpolated) return wrapped(lines_of(out) + one_line(verdict_of(card)) + "\n");
   out += format("%d of %d simulations", card.search.simulations, card.search.budget);
   if (card.search.coarse_simulations > 0) out += format(" and %d with coarse grains", card.search.coarse_simulations);

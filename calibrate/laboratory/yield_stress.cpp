@@ -1,0 +1,73 @@
+#include "calibrate/laboratory/yield_stress.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace pastefit {
+
+namespace {
+
+constexpr double gravity = 9.81;  // as precise as the theories
+constexpr int halvings = 60;
+
+/// Stress in the depth z below the top of a frustum, over rho g H; both in heights of the mould.
+double stress_at(double al, double z) {
+  const double wider = 1 + z / al;
+  return al / 6 * (wider - 1 / (wider * wider));
+}
+
+double kept_share_of_frustum(double al, double stress) {
+  if (stress >= stress_at(al, 1)) return 1;
+  double low = 0, high = 1;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    (stress_at(al, middle) < stress ? low : high) = middle;
+  }
+  const auto excess = [&](double z) { return std::pow(1 + z / al, 3) - 1; };
+  return low + 2 * stress * std::log(excess(1) / excess(low));
+}
+
+double kept_share_of_cylinder(double stress) {
+  return stress >= 0.5 ? 1 : 2 * stress * (1 - std::log(2 * stress));
+}
+
+}  // namespace
+
+std::optional<double> kept_height_m(const Mould& mould, double density_kg_m3, double yield_stress_pa) {
+  const double stress = yield_stress_pa / (density_kg_m3 * gravity * mould.height_m);
+  const double widening = (mould.base_radius_m - mould.top_radius_m) / mould.top_radius_m;
+  if (widening < -1e-6) return std::nullopt;
+  return mould.height_m *
+         (widening < 1e-6 ? kept_share_of_cylinder(stress) : kept_share_of_frustum(1 / widening, stress));
+}
+
+std::optional<double> yield_stress_of_height_pa(const Mould& mould, double density_kg_m3, double height_m) {
+  double low = 0, high = density_kg_m3 * gravity * mould.height_m;  // twice of what a cylinder needs to stand
+  const auto most = kept_height_m(mould, density_kg_m3, high);
+  if (!most || !(height_m > 0) || !(height_m < mould.height_m)) return std::nullopt;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    (*kept_height_m(mould, density_kg_m3, middle) < height_m ? low : high) = middle;
+  }
+  return low;
+}
+
+double yield_stress_of_spread_pa(double volume_m3, double density_kg_m3, double radius_m) {
+  return 225 * density_kg_m3 * gravity * volume_m3 * volume_m3 /
+         (128 * std::numbers::pi * std::numbers::pi * std::pow(radius_m, 5));
+}
+
+std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings) {
+  std::vector<YieldStress> out;
+  const double density = test.bulk_density_kg_m3;
+  if (const auto height_mm = readings.find("step1.height_mm"))
+    if (const auto pa = yield_stress_of_height_pa(test.mould, density, *height_mm / 1e3))
+      out.push_back({"step1.height_mm", "Schowalter & Christensen 1998", *pa});
+  const auto spread_mm = readings.find("step1.spread_mm");
+  if (spread_mm && *spread_mm > 0)
+    out.push_back({"step1.spread_mm", "Roussel & Coussot 2005, for flat cakes",
+                   yield_stress_of_spread_pa(volume_m3(test.mould), density, *spread_mm / 2e3)});
+  return out;
+}
+
+}  // namespace pastefit

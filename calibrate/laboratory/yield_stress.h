@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/laboratory/default_answers.h"
+#include "core/apparatus/slump/slump_test.h"
+#include "core/observe/observables.h"
+
+namespace pastefit {
+
+/// Height that a fluid with a yield stress keeps of a mould [m], if its layers widen until the largest shear stress in
+/// them is the yield stress.
+/// Requirement: every number is positive. In heights H of the mould, with T = yield stress/(rho g H):
+///     frustum, al = r_t/(r_b - r_t): T = (al/6)[(1 + h0/al) - (1 + h0/al)^-2] above which nothing yields,
+///         h1 = 2 T ln{[(1 + 1/al)^3 - 1]/[(1 + h0/al)^3 - 1]}, the rest;
+///     cylinder: h0 = 2 T, h1 = -2 T ln(2 T).
+/// Sources: Schowalter & Christensen, J. Rheol. 42 (1998) 865, as Murata 1984 and Christensen 1991 had it; Pashias et
+/// al., J. Rheol. 40 (1996) 1179, for the cylinder. Limits: no friction on the table, no inertia; a mould wider at its
+/// top is not of this form, and keeps nothing here.
+std::optional<double> kept_height_m(const Mould& mould, double density_kg_m3, double yield_stress_pa);
+
+/// Its inverse: the yield stress [Pa] with which a heap keeps this height, by bisection. Nothing if the heap is as high
+/// as its mould, or flat, or the mould is wider at its top.
+std::optional<double> yield_stress_of_height_pa(const Mould& mould, double density_kg_m3, double height_m);
+
+/// Yield stress [Pa] of a fluid that has spread to a flat cake: 225 rho g V^2/(128 pi^2 R^5).
+/// Requirement: every number is positive. Source: Roussel & Coussot, J. Rheol. 49 (2005) 705. Limit: exact as height
+/// over radius goes to 0; heaps that stand as high as a cone are not of this kind.
+double yield_stress_of_spread_pa(double volume_m3, double density_kg_m3, double radius_m);
+
+/// What height and spread after the lift say, each by its formula, as far as they were read.
+std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings);
+
+}  // namespace pastefit
