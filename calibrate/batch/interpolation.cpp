@@ -152,6 +152,7 @@ Result<Card> interpolated_card(const std::vector<BatchStudy>& batch, const MixIn
   card.provenance.program = program_identity();
   card.rebaselined.clear();
   card.rescaled.clear();
+  card.further_confirmations.clear();
   card.interpolated = Interpolation{mix.variable, mix.value, std::string(name_of(mix.model)), {}};
   for (const Anchor& one : anchors) card.interpolated->studies.push_back(one.study->name);
   return card;

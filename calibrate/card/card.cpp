@@ -142,6 +142,29 @@ ordered_json rescaling_to_json(const Rescaling& step) {
   return out;
 }
 
+ordered_json further_confirmation_to_json(const FurtherConfirmation& one) {
+  ordered_json out{{"engine", one.engine}, {"program", one.program}};
+  if (!one.test.empty()) out["test"] = one.test;
+  out["radius_m"] = one.radius_m;
+  out["packings"] = one.packings;
+  out["accepted"] = one.accepted;
+  out["ranks"] = one.ranks;
+  out["wall_s"] = one.wall_s;
+  out["core_s"] = one.core_s;
+  if (one.misfit) out["misfit"] = *one.misfit;
+  out["meets_laboratory"] = one.meets_laboratory;
+  out["readings"] = ordered_json::object();
+  for (const auto& reading : one.readings) {
+    ordered_json& row = out["readings"][reading.observable];
+    row = {{"card", reading.card},
+           {"simulated", reading.simulated},
+           {"simulated_standard_deviation", reading.simulated_standard_deviation},
+           {"bias", reading.bias()}};
+    if (reading.standard_error) row["standard_error"] = *reading.standard_error;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<double> standard_error(const CardObservable& observable) {
@@ -215,6 +238,8 @@ ordered_json to_json(const Card& card) {
   add_inference(out, card.inference);
   for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));
   for (const auto& step : card.rescaled) out["rescaled"].push_back(rescaling_to_json(step));
+  for (const auto& one : card.further_confirmations)
+    out["further_confirmations"].push_back(further_confirmation_to_json(one));
   if (const auto& one = card.interpolated)
     out["interpolated"] = {
         {"variable", one->variable}, {"value", one->value}, {"model", one->model}, {"studies", one->studies}};

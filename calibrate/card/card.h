@@ -155,6 +155,30 @@ struct Rescaling {
   std::vector<Bias> bias;  ///< empty: not measured
 };
 
+/// A test of the card as another engine simulated it, maybe with grains of another size, beside the card's own
+/// confirmation.
+struct FurtherConfirmation {
+  struct Reading {
+    std::string observable;
+    double card = 0;                          ///< mean of the card's own confirmation
+    double simulated = 0;                     ///< mean there, over the heaps that a laboratory would accept
+    double simulated_standard_deviation = 0;  ///< there, from packing to packing
+    std::optional<double> standard_error;     ///< of the bias; nothing if one of both means is of one packing
+    double bias() const { return simulated - card; }
+  };
+  std::string engine;   ///< e.g. "lammps"
+  std::string program;  ///< as it calls itself, with its version
+  std::string test;     ///< of the card; empty if that has one without a name
+  double radius_m = 0;  ///< mean radius of the grains
+  std::vector<std::uint64_t> packings;
+  int accepted = 0;  ///< packings whose heap a laboratory would accept; all, if it would accept none
+  int ranks = 1;
+  double wall_s = 0, core_s = 0;  ///< of the time steps of all packings; processor time of all ranks together
+  std::optional<double> misfit;   ///< as the card's own; nothing if no reading of the test is fitted
+  bool meets_laboratory = false;  ///< the noise of the packings leaves no doubt (`verdict_on`)
+  std::vector<Reading> readings;  ///< that both have
+};
+
 /// A material that was interpolated between calibrated ones, and fitted to no reading of its own.
 struct Interpolation {
   std::string variable;  ///< of the laboratory files, e.g. "mix.water_kg_m3"
@@ -176,8 +200,9 @@ struct Card {
   SearchRecord search;
   CardProvenance provenance;
   CardInference inference;
-  std::vector<Rebaseline> rebaselined;  ///< oldest first
-  std::vector<Rescaling> rescaled;      ///< oldest first
+  std::vector<Rebaseline> rebaselined;                     ///< oldest first
+  std::vector<Rescaling> rescaled;                         ///< oldest first
+  std::vector<FurtherConfirmation> further_confirmations;  ///< oldest first
   std::optional<Interpolation> interpolated;
 };
 
@@ -189,10 +214,11 @@ MisfitUnit misfit_unit_of(const Card& card);
 
 /// The card as JSON. The numbers in SI rule; `material.parameters` is the scale-free form of the same contact laws,
 /// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
-/// Derived on writing and not read back: difference = simulated - measured, `standard_error`, `conditions` of each test
-/// (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test, `intervals`,
-/// `correlation`, `not_identified`, `unstated_conditions`, `rebaselined`, `rescaled` and `interpolated` are written
-/// when there is something in them, `packings` of a reading when a laboratory would reject some of the confirmation's.
+/// Derived on writing and not read back: difference = simulated - measured, `bias`, `standard_error` of a reading,
+/// `conditions` of each test (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test,
+/// `intervals`, `correlation`, `not_identified`, `unstated_conditions`, `rebaselined`, `rescaled`,
+/// `further_confirmations` and `interpolated` are written when there is something in them, `packings` of a reading when
+/// a laboratory would reject some of the confirmation's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

@@ -314,6 +314,34 @@ void read_rescaling(ObjectReader& reader, const json& document, Rescaling& step)
   });
 }
 
+void read_further_confirmation(ObjectReader& reader, const json& document, FurtherConfirmation& one) {
+  constexpr int kMany = 1'000'000;
+  reader.text("engine", one.engine, kRequired);
+  reader.text("program", one.program, kRequired);
+  reader.text("test", one.test, kOptional);
+  reader.number("radius_m", one.radius_m, {0, 1, true}, kRequired);
+  reader.integers("packings", one.packings, kRequired);
+  reader.integer("accepted", one.accepted, 1, kMany, kRequired);
+  reader.integer("ranks", one.ranks, 1, kMany, kRequired);
+  reader.number("wall_s", one.wall_s, kNotNegative, kRequired);
+  reader.number("core_s", one.core_s, kNotNegative, kRequired);
+  if (double misfit = 0; reader.number("misfit", misfit, kNotNegative, kOptional)) one.misfit = misfit;
+  reader.flag("meets_laboratory", one.meets_laboratory, kRequired);
+  reader.object("readings", kRequired, [&](ObjectReader& readings) {
+    each_entry(readings, document["readings"], [&](ObjectReader& entry, const std::string& name) {
+      auto& reading = one.readings.emplace_back();
+      double derived = 0;
+      reading.observable = name;
+      entry.number("card", reading.card, kAny, kRequired);
+      entry.number("simulated", reading.simulated, kAny, kRequired);
+      entry.number("simulated_standard_deviation", reading.simulated_standard_deviation, kNotNegative, kRequired);
+      entry.number("bias", derived, kAny, kOptional);
+      if (double error = 0; entry.number("standard_error", error, kNotNegative, kOptional))
+        reading.standard_error = error;
+    });
+  });
+}
+
 void read_interpolation(ObjectReader& card, std::optional<Interpolation>& interpolated) {
   if (!card.has("interpolated")) return card.known("interpolated");
   card.object("interpolated", kOptional, [&](ObjectReader& reader) {
@@ -357,6 +385,7 @@ Result<Card> card_from_json(const json& document) {
     read_inference(reader, document, card.inference);
     read_list(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
     read_list(reader, document, "rescaled", card.rescaled, read_rescaling);
+    read_list(reader, document, "further_confirmations", card.further_confirmations, read_further_confirmation);
     read_interpolation(reader, card.interpolated);
   }
   for (CardTest& test : card.tests)

@@ -39,6 +39,7 @@ Result<Card> rescaled(Card card, double radius) {
   card.confirmation.misfit = 0;
   card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
   card.rebaselined.clear();
+  card.further_confirmations.clear();
   return card;
 }
 

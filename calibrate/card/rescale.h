@@ -9,7 +9,7 @@ namespace pastefit {
 /// s^2, liquid volume s^3, surface tension s, all radii of the distribution s; Young's modulus stays (contact stiffness
 /// then goes with s). Source: Thakur, Ooi & Ahmadian, Powder Technology 293 (2016) 130-137.
 ///
-/// What was simulated with the old grains (readings, confirmation, baseline, rebaselining) does not hold for the new
+/// What was simulated with the old grains (readings, confirmations, baseline, rebaselining) does not hold for the new
 /// ones and is left out; `rescaled` gets a row without bias (`check/rescale_bias.h` measures it).
 /// Errors: grains that a test cannot be run with (too coarse for the mould, finer than the format allows).
 Result<Card> rescaled(Card card, double radius_m);

@@ -1,10 +1,10 @@
 #include "calibrate/check/rescale_bias.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "calibrate/base/statistics.h"
+#include "calibrate/check/misfit.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/search/confirmation.h"
 
@@ -23,26 +23,6 @@ Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vect
     runs.push_back({packings[i], outcomes[i].observables});
   }
   return runs;
-}
-
-/// Of the fitted readings the largest difference from the laboratory and the largest standard error, each over its
-/// tolerance, as in the search (`Response::normalised_error`, `Response::noise`).
-struct Misfit {
-  double difference = 0, noise = 0;
-};
-
-Misfit misfit_of(const Card& card) {
-  Misfit largest;
-  for (const auto& test : card.tests) {
-    if (test.hold_out) continue;
-    for (const auto& observable : test.observables) {
-      if (!observable.measured || observable.weight <= 0) continue;
-      largest.difference =
-          std::max(largest.difference, std::abs(observable.simulated - *observable.measured) / observable.tolerance);
-      largest.noise = std::max(largest.noise, standard_error(observable).value_or(0) / observable.tolerance);
-    }
-  }
-  return largest;
 }
 
 }  // namespace
@@ -84,7 +64,7 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
   auto& confirmation = after.confirmation;
   confirmation.packings = packings;
   confirmation.fresh = true;
-  const Misfit misfit = misfit_of(after);
+  const Misfit misfit = fitted_misfit(after.tests);
   confirmation.misfit = misfit.difference;
   confirmation.meets_laboratory = !after.interpolated && verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
   return after;

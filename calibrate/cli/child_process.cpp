@@ -1,5 +1,6 @@
 #include "calibrate/cli/child_process.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -49,23 +50,14 @@ int wait_for(pid_t child, const std::atomic<bool>& stop) {
   }
 }
 
-}  // namespace
-
-ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop) {
-  std::vector<std::string> words{"pastefit"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const int output = ::memfd_create("pastefit-output", MFD_CLOEXEC);
-  if (output < 0) fail("memfd_create");
+/// Starts a process that calls `become`, which does not come back, and waits for its end.
+template <class Become>
+ChildEnd run_child(int output, const std::atomic<bool>& stop, Become become) {
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) fail("fork");
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(kNotStarted);
-    ::dup2(output, STDOUT_FILENO);
-    ::execv("/proc/self/exe", argv.data());
+    if (::getppid() == parent) become();
     ::_exit(kNotStarted);
   }
   const int state = wait_for(child, stop);
@@ -77,6 +69,36 @@ ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::
   end.output = content_of(output);
   ::close(output);
   return end;
+}
+
+}  // namespace
+
+ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop) {
+  std::vector<std::string> words{"pastefit"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const int output = ::memfd_create("pastefit-output", MFD_CLOEXEC);
+  if (output < 0) fail("memfd_create");
+  return run_child(output, stop, [&] {
+    ::dup2(output, STDOUT_FILENO);
+    ::execv("/proc/self/exe", argv.data());
+  });
+}
+
+ChildEnd run_in_shell(const std::string& command, const std::filesystem::path& folder,
+                      const std::filesystem::path& output_file, const std::atomic<bool>& stop) {
+  const int output = ::open(output_file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (output < 0) fail("open");
+  return run_child(output, stop, [&] {
+    const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (nothing < 0 || ::chdir(folder.c_str()) != 0) return;
+    ::dup2(nothing, STDIN_FILENO);
+    ::dup2(output, STDOUT_FILENO);
+    ::dup2(output, STDERR_FILENO);
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  });
 }
 
 }  // namespace pastefit

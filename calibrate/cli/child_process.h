@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,10 @@ struct ChildEnd {
 /// that of this process. Once `stop` is true it is asked to end, and waited for; it does not outlive this process.
 /// Throws std::system_error if no process can be started.
 ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
+
+/// Runs a command of the shell in `folder` and waits for its end, as above; it reads nothing. Both of its outputs go to
+/// the file `output`, and into the answer.
+ChildEnd run_in_shell(const std::string& command, const std::filesystem::path& folder,
+                      const std::filesystem::path& output, const std::atomic<bool>& stop);
 
 }  // namespace pastefit

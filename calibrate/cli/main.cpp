@@ -83,6 +83,7 @@ int run(int argc, char** argv) {
       {"show", "print a material card for a person", add_show},
       {"report", "write the page of a calibration, for a browser", add_report},
       {"rescale", "carry a material card to another grain size", add_rescale},
+      {"confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card", add_confirm},
       {"export", "write a material card's test for another DEM program", add_export},
       {"read", "compare the heap of an exported deck with the card", add_read},
       {"check", "simulate cards again and compare within the noise", add_check},

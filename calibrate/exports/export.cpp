@@ -63,6 +63,10 @@ Result<CardTest> test_to_export(const Card& card, const std::string& name) {
   return slump != card.tests.end() ? *slump : card.tests.front();
 }
 
+bool has_deck(const Test& test) {
+  return std::holds_alternative<SlumpTest>(test);
+}
+
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing) {
   ExportScene scene;
   scene.title = title_of(card, test);

@@ -71,6 +71,9 @@ std::string title_of(const Card& card, const CardTest& test);
 /// decks, or else the first. Error: there is no such test.
 Result<CardTest> test_to_export(const Card& card, const std::string& name);
 
+/// Whether there are decks of the whole test, not only of two grains.
+bool has_deck(const Test& test);
+
 /// A card's test for any target, a slump test with the mould filled by this packing, or by the test's own. Errors: the
 /// mould cannot be filled.
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing);

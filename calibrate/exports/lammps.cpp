@@ -24,9 +24,11 @@ const char* const kConventions = R"(#
 #
 )";
 
-const char* const kBuild =
+const std::string kBuild =
     "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
-    "    (cd style && mpicxx -O3 -std=c++17 -I. -isystem /usr/include/lammps *.cpp -o ../lmp_pastefit -llammps)\n"
+    "    (cd style && " +
+    lammps_style_build("../lmp_pastefit") +
+    ")\n"
     "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
     "    in.two_grains\n";
 

@@ -155,6 +155,13 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   return out;
 }
 
+std::vector<std::string> lammps_dumps(const ExportScene& scene) {
+  if (!scene.slump()) return {};
+  std::vector<std::string> names{"filled.dump", "heap.dump"};
+  if (scene.slump()->drop) names.push_back("heap2.dump");
+  return names;
+}
+
 std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
@@ -194,7 +201,7 @@ std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& 
                                     const std::vector<std::string>& notes, std::span<const double> radii) {
   const ExportFile material{"material.inc", material_file(scene, laws)};
   if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, laws, notes)}, material};
-  return {{"in.slump", slump_deck(scene, laws, notes)},
+  return {{kLammpsDeck, slump_deck(scene, laws, notes)},
           {"in.two_grains", two_grains_deck(scene, laws, {})},
           material,
           {"grains.data", grains_data(scene, radii)}};

@@ -32,6 +32,13 @@ std::string material_file(const ExportScene& scene, const LammpsLaws& laws);
 /// turn the plate up, rest, let it fall, rest. Notes become comments.
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
+/// The file of the deck of the whole test.
+inline const std::string kLammpsDeck = "in.slump";
+
+/// The dumps that the deck of the whole test leaves: the filled mould, then a heap for each step. None if there is no
+/// such deck.
+std::vector<std::string> lammps_dumps(const ExportScene& scene);
+
 /// Two grains of the first class at distances from an overlap (`two_grain_distances`) to beyond rupture, and back;
 /// prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive. Where there is no other deck
 /// it has the notes.

@@ -29,4 +29,8 @@ Result<std::vector<ExportFile>> lammps_style() {
                "set PASTEFIT_DATA_DIR to the data folder of pastefit, or export with --to lammps-tables"};
 }
 
+std::string lammps_style_build(const std::string& program) {
+  return "mpicxx -O3 -std=c++17 -I. -isystem /usr/include/lammps *.cpp -o " + program + " -llammps";
+}
+
 }  // namespace pastefit

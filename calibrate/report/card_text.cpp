@@ -89,11 +89,26 @@ std::string rescaling_lines(const Card& card) {
 
 }  // namespace
 
+std::string further_confirmation_text(const FurtherConfirmation& one) {
+  std::string out =
+      "Simulated in another program: " + one_line(one.program) + (one.test.empty() ? "" : ", test " + one.test) + "\n";
+  out += format("  grains of %g mm, %zu packings (%d heaps accepted), ranks: %d, %.3g core s, %.3g s\n",
+                1e3 * one.radius_m, one.packings.size(), one.accepted, one.ranks, one.core_s, one.wall_s);
+  for (const auto& reading : one.readings)
+    out += format("  %-24s %12.5g -> %.5g, bias %+.3g", reading.observable.c_str(), reading.card, reading.simulated,
+                  reading.bias()) +
+           (reading.standard_error ? format(" +- %.2g\n", *reading.standard_error) : " (error unknown)\n");
+  if (!one.misfit) return out;
+  return out + "  The material " + (one.meets_laboratory ? "meets" : "is not shown to meet") +
+         format(" the laboratory there: largest error %.2f of its tolerance.\n", *one.misfit);
+}
+
 std::string text_of(const Card& card) {
   std::string out = summary_of(card);
   for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
                            baseline_lines(card), rescaling_lines(card)})
     if (!part.empty()) out += "\n" + wrapped(lines_of(part));
+  for (const auto& one : card.further_confirmations) out += "\n" + wrapped(further_confirmation_text(one));
   return out;
 }
 

@@ -284,6 +284,18 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
   inference.not_identified = {{"formation_ratio", "no reading moves with it"}};
   written.rebaselined = {{"the fill was mended", "a", "b", {{"step1.height_mm", 150, 152}}}};
   written.rescaled = {{0.01, {{"step1.height_mm", 150, 140, 2}}}};
+  written.further_confirmations = {{"lammps",
+                                    "LAMMPS 1",
+                                    "",
+                                    0.003,
+                                    {8, 9},
+                                    2,
+                                    16,
+                                    60,
+                                    900,
+                                    0.75,
+                                    true,
+                                    {{"step1.height_mm", 150, 147.5, 4, 3.0}, {"step1.spread_mm", 300, 310, 5, {}}}}};
   const auto document = to_json(written);
   const auto read = card_from_json(text_and_back(document));
   REQUIRE(read.ok());
@@ -292,7 +304,8 @@ TEST_CASE("intervals, correlations, what is not identified and the history of a 
   CHECK(read.value().tests[0].baseline.runs.at(1).packing == 4);
   const auto text = text_of(read.value());
   for (const auto* words : {"95 %", "300 to 900", "-0.75 with curvature", "no reading moves with it",
-                            "the fill was mended", "grains of 10 mm", "bias -10"})
+                            "the fill was mended", "grains of 10 mm", "bias -10", "LAMMPS 1", "grains of 3 mm",
+                            "ranks: 16", "bias -2.5 +- 3", "bias +10 (error unknown)", "0.75 of its tolerance"})
     CHECK_THAT(text, Catch::Contains(words));
 }
 
@@ -340,15 +353,17 @@ TEST_CASE("faults in the later parts of a card are named with their place") {
   document["correlation"] = {{"strength_pa", {{"curvature", 3}}}};
   document["rebaselined"] = {3};
   document["rescaled"] = "no";
+  document["further_confirmations"] = {{{"engine", "lammps"}, {"ranks", 0}}};
   const auto read = card_from_json(document);
   REQUIRE_FALSE(read.ok());
   std::string places;
   for (const auto& fault : read.faults()) places += fault.where + "\n";
   for (const auto* place :
        {"tests[0].baseline.readings.step1.height_mm", "intervals.level", "intervals.parameters.strength_pa.upper",
-        "correlation.strength_pa.curvature", "rebaselined[0]", "rescaled"})
+        "correlation.strength_pa.curvature", "rebaselined[0]", "rescaled", "further_confirmations[0].ranks",
+        "further_confirmations[0].radius_m"})
     CHECK_THAT(places, Catch::Contains(place));
-  CHECK(read.faults().size() == 6);
+  CHECK(read.faults().size() == 15);
 }
 
 TEST_CASE("a card carried to another grain size is the same law in scale-free numbers") {

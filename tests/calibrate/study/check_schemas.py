@@ -85,6 +85,7 @@ SPOILED = {
         (["tests", 0, "lab_hash"], "xyz"),
         (["tests", 0, "observables"], {"step1.height_mm": {"simulated": 100}}),
         (["rescaled"], {}),
+        (["further_confirmations"], [{"engine": "lammps"}]),
         (["correlation"], {"strength_pa": {"curvature": 2}}),
     ],
     "case": [

@@ -1,0 +1,181 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+
+#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/card/rescale.h"
+#include "calibrate/check/further_confirmation.h"
+#include "calibrate/cli/commands.h"
+#include "calibrate/cli/interrupt.h"
+#include "calibrate/cli/lammps_program.h"
+#include "calibrate/cli/lammps_run.h"
+#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/output_file.h"
+#include "calibrate/cli/standard_output.h"
+#include "calibrate/report/card_text.h"
+
+namespace pastefit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kFirstConfirmPacking = 80'001;  // of neither a search nor `rescale`
+
+struct ConfirmOptions {
+  std::string card, engine = "lammps", launch, program, runs, test, out;
+  std::optional<double> radius_mm;
+  int packings = 4;
+  bool force = false;
+  bool json = false;
+};
+
+/// A folder that is gone when nobody needs it any more, unless it is the user's.
+class RunsFolder {
+ public:
+  explicit RunsFolder(const std::string& given) : temporary_(given.empty()) {
+    std::error_code error;
+    path_ =
+        temporary_ ? fs::temp_directory_path(error) / format("pastefit-confirm-%d", ::getpid()) : fs::absolute(given);
+  }
+  fs::path of(std::uint64_t packing) const { return path_ / ("packing-" + std::to_string(packing)); }
+  void done() const {
+    std::error_code error;
+    if (temporary_) fs::remove_all(path_, error);
+  }
+
+ private:
+  const bool temporary_;
+  fs::path path_;
+};
+
+/// The test in the grains to be simulated.
+struct Asked {
+  Card card;      ///< with these grains
+  CardTest test;  ///< of that card
+};
+
+Result<Asked> asked_for(const Card& card, const ConfirmOptions& options) {
+  Card with_grains = card;
+  const double radius = options.radius_mm.value_or(0) / 1e3;
+  if (options.radius_mm && radius != card.material.grains.radius_m) {
+    auto changed = rescaled(card, radius);
+    if (!changed.ok()) return changed.faults();
+    with_grains = std::move(changed).value();
+  }
+  auto test = test_to_export(with_grains, options.test);
+  if (!test.ok()) return test.faults();
+  if (!has_deck(test.value().test))
+    return Fault{test.value().name.empty() ? "the card's test" : "test " + test.value().name,
+                 "has no deck: another program cannot run it", "choose another test with --test"};
+  return Asked{std::move(with_grains), std::move(test).value()};
+}
+
+/// What is wrong with the options alone, besides the card.
+Faults unusable_options(const ConfirmOptions& options) {
+  Faults faults;
+  if (options.engine != "lammps")
+    faults.push_back({"--engine", one_line(options.engine) + " is no engine that can confirm a card", "lammps"});
+  std::string first;
+  if (std::istringstream(options.launch) >> first; !first.empty() && !is_program(first))
+    faults.push_back({"--launch", "there is no program " + one_line(first),
+                      "install an MPI (Debian's openmpi-bin), or leave --launch out for one rank"});
+  if (!options.out.empty())
+    for (Fault& fault : output_faults("--out", options.out, options.force)) faults.push_back(std::move(fault));
+  if (!options.runs.empty())
+    for (Fault& fault : output_folder_faults("--runs", options.runs)) faults.push_back(std::move(fault));
+  return faults;
+}
+
+/// Runs packing after packing. The first failure ends it.
+Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const RunsFolder& folder,
+                           const ConfirmOptions& options, const std::atomic<bool>& stop) {
+  EngineRuns out;
+  out.engine = options.engine;
+  for (int i = 0; i < options.packings; ++i) {
+    const std::uint64_t packing = kFirstConfirmPacking + static_cast<std::uint64_t>(i);
+    const auto scene = export_scene(asked.card, asked.test, packing);
+    if (!scene.ok()) return scene.faults();
+    note("packing %d of %d: %zu grains\n", i + 1, options.packings, scene.value().packing.centres.size());
+    auto heap = run_in_lammps(scene.value(), launch, folder.of(packing), stop);
+    if (stop) return Fault{"packing " + std::to_string(packing), "interrupted", "the same command with --runs goes on"};
+    if (!heap.ok()) {
+      Faults faults = heap.faults();
+      for (Fault& fault : faults) fault.where = "packing " + std::to_string(packing) + ": " + fault.where;
+      return faults;
+    }
+    const auto& [readings, log] = heap.value();
+    note("  %.3g s, %.3g core s, ranks: %d\n", log.wall_s, log.core_s, log.ranks);
+    out.program = log.program;
+    out.ranks = std::max(out.ranks, log.ranks);
+    out.wall_s += log.wall_s;
+    out.core_s += log.core_s;
+    out.runs.push_back({packing, readings});
+  }
+  return out;
+}
+
+int confirm(const ConfirmOptions& options) {
+  Faults faults = unusable_options(options);
+  const auto card = read_card(options.card);
+  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  if (!faults.empty()) return report(faults);
+  const auto asked = asked_for(card.value(), options);
+  if (!asked.ok()) return report(asked.faults());
+  const auto of_card = test_to_export(card.value(), options.test);
+  const std::atomic<bool>& stop = listen_for_stop();
+  const auto program = lammps_program(options.program, stop);
+  if (!program.ok()) return report(program.faults());
+
+  const RunsFolder folder(options.runs);
+  const auto runs = run_all(asked.value(), {options.launch, program.value()}, folder, options, stop);
+  if (!runs.ok()) return report(runs.faults(), kFailed);
+  folder.done();
+  Card confirmed = card.value();
+  confirmed.further_confirmations.push_back(
+      further_confirmation(confirmed, of_card.value(), asked.value().test.test, runs.value()));
+  const std::string out = options.out.empty() ? options.card : options.out, text = json_text(to_json(confirmed));
+  if (!is_standard_output(out))
+    print("%s",
+          options.json ? text.c_str() : further_confirmation_text(confirmed.further_confirmations.back()).c_str());
+  if (const auto unwritten = write_output(out, text); !unwritten.empty()) return report(unwritten, kFailed);
+  if (!is_stream(out)) note("wrote %s\n", out.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+Command add_confirm(CLI::App& verb) {
+  const auto options = std::make_shared<ConfirmOptions>();
+  verb.add_option("CARD", options->card, "card file")->required();
+  verb.add_option("--engine", options->engine, "the other engine: lammps")->type_name("NAME")->capture_default_str();
+  verb.add_option("--radius", options->radius_mm, "mean radius of the grains in mm; without it the card's")
+      ->check(number_from(0.01, 1000))
+      ->type_name("MM");
+  verb.add_option("--launch", options->launch,
+                  "what starts it on several ranks, e.g. \"mpirun -n 16\"; without it one rank")
+      ->type_name("COMMAND");
+  verb.add_option("--packings", options->packings, "simulations in fresh packings")
+      ->check(whole_number(2, 1000))
+      ->capture_default_str();
+  verb.add_option("--program", options->program, "LAMMPS with the card's laws; without it one is built, once")
+      ->type_name("FILE");
+  verb.add_option("--runs", options->runs,
+                  "folder in which decks, logs and heaps stay, and from which a stopped command goes on; without it a "
+                  "temporary one")
+      ->type_name("DIR");
+  verb.add_option("--test", options->test, "the card's test to simulate; without it that of export")->type_name("NAME");
+  verb.add_option("--out", options->out, "file for the card; without it CARD itself is replaced; -: standard output")
+      ->type_name("FILE");
+  verb.add_flag("--force", options->force, "replace FILE");
+  verb.add_flag("--json", options->json, "print the card itself");
+  return [options] { return confirm(*options); };
+}
+
+}  // namespace pastefit

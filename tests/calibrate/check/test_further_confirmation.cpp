@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "calibrate/check/further_confirmation.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// A card with one reading of 100 +- 3 mm over 9 packings, measured 101 mm within 5 mm.
+Card card_of_height() {
+  Card card;
+  card.tests.emplace_back().test = SlumpTest{};
+  CardObservable height;
+  height.name = "step1.height_axis_mm";
+  height.simulated = 100;
+  height.simulated_standard_deviation = 3;
+  height.packings = 9;
+  height.measured = 101;
+  height.weight = 1;
+  height.tolerance = 5;
+  card.tests[0].observables = {height};
+  return card;
+}
+
+EngineRuns runs_of_heights(const std::vector<double>& heights) {
+  EngineRuns runs{"lammps", "LAMMPS (1)", {}, 2, 10, 20};
+  for (const double height : heights) {
+    Observables readings;
+    readings.set("step1.height_axis_mm", height);
+    readings.set("step1.unknown_mm", 1);
+    runs.runs.push_back({runs.runs.size() + 1, readings});
+  }
+  return runs;
+}
+
+}  // namespace
+
+TEST_CASE("the bias of another engine is the difference of the means, with the noise of both") {
+  const Card card = card_of_height();
+  const auto there =
+      further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights({102, 104, 106, 108}));
+  REQUIRE(there.readings.size() == 1);
+  CHECK(there.readings[0].bias() == 5);
+  const double variance = 20.0 / 3;  // of 102, 104, 106, 108
+  CHECK(*there.readings[0].standard_error == Approx(std::sqrt(variance / 4 + 9.0 / 9)));
+  CHECK(*there.misfit == Approx(4.0 / 5));
+  CHECK(there.packings == std::vector<std::uint64_t>{1, 2, 3, 4});
+  CHECK(there.core_s == 20);
+  CHECK(there.meets_laboratory);
+}
+
+TEST_CASE("a material meets the laboratory in another engine only where its readings and their noise allow it") {
+  Card card = card_of_height();
+  const auto verdict = [&](const std::vector<double>& heights) {
+    return further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights(heights)).meets_laboratory;
+  };
+  CHECK(verdict({101, 101.5}));
+  CHECK_FALSE(verdict({107, 107.5}));  // 1.25 tolerances off
+  CHECK_FALSE(verdict({90, 112}));     // right in the mean, by chance
+  card.interpolated.emplace();
+  CHECK_FALSE(verdict({101, 101.5}));
+}
+
+TEST_CASE("the bias against one packing has no standard error, and a test that is held out has no verdict") {
+  Card card = card_of_height();
+  card.tests[0].observables[0].packings = 1;
+  card.tests[0].hold_out = true;
+  const auto there = further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights({101, 102}));
+  CHECK_FALSE(there.readings[0].standard_error.has_value());
+  CHECK_FALSE(there.misfit.has_value());
+  CHECK_FALSE(there.meets_laboratory);
+}
