@@ -28,7 +28,8 @@ LammpsLog read_lammps_log(std::string_view text) {
       end_of_loop();
       loop_s = std::max(0.0, seconds);
       log.ranks = std::max(log.ranks, ranks);
-    } else if (std::sscanf(line.c_str(), "%lf%% CPU use", &percent) == 1 && percent > 0) {
+    } else if (line.find("% CPU use") != std::string::npos && std::sscanf(line.c_str(), "%lf", &percent) == 1 &&
+               percent > 0) {
       share = percent / 100;
     } else if (line.starts_with("Total wall time:")) {
       log.ended = true;

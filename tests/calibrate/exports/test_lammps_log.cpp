@@ -8,8 +8,10 @@ TEST_CASE("the log of LAMMPS tells its name, ranks, and the processor time of al
   const LammpsLog log = read_lammps_log(
       "LAMMPS (29 Sep 2021 - Update 2)\n"
       "  1 by 4 by 1 MPI processor grid\n"
+      "Step Time Atoms\n       0            0    12787\n     400         0.02    12787\n"
       "Loop time of 10 on 4 procs for 400 steps with 12787 atoms\n\n"
       "75.0% CPU use with 4 MPI tasks x no OpenMP threads\n"
+      "Step Time Atoms\n     400         0.02    12787\n"
       "Loop time of 2.5 on 4 procs for 0 steps with 12787 atoms\n\n"
       "Total wall time: 0:00:13\n");
   CHECK(log.program == "LAMMPS (29 Sep 2021 - Update 2)");
