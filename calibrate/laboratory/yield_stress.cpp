@@ -62,10 +62,10 @@ std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observab
   const double density = test.bulk_density_kg_m3;
   if (const auto height_mm = readings.find("step1.height_mm"))
     if (const auto pa = yield_stress_of_height_pa(test.mould, density, *height_mm / 1e3))
-      out.push_back({"step1.height_mm", "Schowalter & Christensen 1998", *pa});
+      out.push_back({"step1.height_mm", "Schowalter 1998", *pa});
   const auto spread_mm = readings.find("step1.spread_mm");
   if (spread_mm && *spread_mm > 0)
-    out.push_back({"step1.spread_mm", "Roussel & Coussot 2005, for flat cakes",
+    out.push_back({"step1.spread_mm", "Roussel 2005",
                    yield_stress_of_spread_pa(volume_m3(test.mould), density, *spread_mm / 2e3)});
   return out;
 }

@@ -70,12 +70,12 @@ std::string yield_stress_lines(const Card& card) {
     for (const YieldStress& one : yield_stresses_of(test.test, simulated)) {
       const auto same = std::ranges::find(of_laboratory, one.reading, &YieldStress::reading);
       if (same == of_laboratory.end()) continue;
-      out += format("  %-24s %10.3g %10s %10.3g Pa  %s\n", reading_name(test, one.reading).c_str(), same->pa, "",
+      out += format("  %-24s %10.0f %10s %10.0f Pa  %s\n", reading_name(test, one.reading).c_str(), same->pa, "",
                     one.pa, std::string(one.formula).c_str());
     }
   }
   return out.empty() ? out
-                     : "Yield stress of a fluid that has the reading; the formulas differ by a factor of two\n" + out;
+                     : "Yield stress that a fluid with this reading would have (nothing is fitted to it)\n" + out;
 }
 
 std::string hold_out_lines(const Card& card) {
