@@ -24,6 +24,7 @@ Numbers numbers_of(const ContactModel& contact) {
           {"bridge.liquid_volume_m3", bridge.liquid_volume_m3},
           {"bridge.surface_tension_n_m", bridge.surface_tension_n_m},
           {"bridge.contact_angle_rad", bridge.contact_angle_rad},
+          {"bridge.viscosity_pa_s", bridge.viscosity_pa_s},
           {"surface_energy_j_m2", contact.surface_energy_j_m2},
           {"cohesion_energy_density_pa", contact.cohesion_energy_density_pa},
           {"cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},

@@ -30,6 +30,10 @@ Faults unknown_laws(const ContactModel& contact, const KnownLaws& known) {
   if (!known.attraction.empty())
     look(contact.bridge.shape, known.attraction, bridge_shapes, "test.contact.bridge.shape", "attraction", known.target,
          faults);
+  if (contact.bridge.viscosity_pa_s > 0 && !known.viscosity)
+    faults.push_back({"test.contact.bridge.viscosity_pa_s",
+                      "is not 0, but " + std::string(known.target) + " lacks the viscosity of a bridge",
+                      "export to another target, or calibrate with viscosity_pa_s 0"});
   return faults;
 }
 

@@ -14,6 +14,7 @@ struct KnownLaws {
   std::vector<NormalLaw> normal{NormalLaw::hertz};
   std::vector<RollingModel> rolling{RollingModel::none, RollingModel::spring_dashpot};
   std::vector<BridgeShape> attraction = {};  ///< empty: whatever the curve, as a table or a fit
+  bool viscosity = false;                    ///< lubrication by the liquid of a bridge
 };
 
 inline const std::vector<RollingModel> kAllRolling{RollingModel::none, RollingModel::spring_dashpot,

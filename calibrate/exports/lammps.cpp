@@ -54,6 +54,7 @@ std::string bridge_words(const Bridge& bridge) {
   if (bridge.shape == BridgeShape::polynomial) out += number("a_n_m2", bridge.a_n_m2) + number("b_n_m", bridge.b_n_m);
   out += word("formation", bridge.formation, bridge_formations);
   if (bridge.formation == BridgeFormation::film) out += number("offset_m", bridge.offset_m);
+  if (bridge.viscosity_pa_s > 0) out += number("viscosity_pa_s", bridge.viscosity_pa_s);
   return out;
 }
 
@@ -80,7 +81,7 @@ std::string wall_words(const WallContact& wall) {
 }  // namespace
 
 Result<Export> export_lammps(const ExportScene& scene) {
-  const KnownLaws known{"pair style pastefit", {NormalLaw::hertz}, kAllRolling, kAllAttractions};
+  const KnownLaws known{"pair style pastefit", {NormalLaw::hertz}, kAllRolling, kAllAttractions, true};
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();

@@ -32,6 +32,7 @@ void describe_bridge(Fields& fields, Model& bridge) {
   fields.number("liquid_volume_m3", bridge.liquid_volume_m3, any_number, required);
   fields.number("surface_tension_n_m", bridge.surface_tension_n_m, any_number, required);
   fields.number("contact_angle_rad", bridge.contact_angle_rad, any_number, required);
+  fields.number("viscosity_pa_s", bridge.viscosity_pa_s, any_number, Default{0.0});
 }
 
 template <class Fields, class Model>

@@ -216,6 +216,7 @@ Faults validate_in_file_words(const Test& test) {
                                                {"grains.standard_deviation_m", "grains.standard_deviation_mm"},
                                                {"grains.smallest_m", "grains.smallest_mm"},
                                                {"grains.largest_m", "grains.largest_mm"},
+                                               {"contact.bridge.viscosity_pa_s", "parameters.viscosity_pa_s"},
                                                {"contact", "parameters: contact"}};
   const auto renamed = [](Fault& fault, const std::vector<FilePlace>& places) {
     for (const FilePlace& one : places) {

@@ -100,6 +100,10 @@ TypeInGroup attraction_of(const Material& material) {
       {"offset", milli * bridge.offset_m, "mm",
        bridge.formation == BridgeFormation::film ? "liquid shell of a grain" : "not used: forms at touch"});
   group.rows.push_back({"cohesion", contact.cohesion_n.value_or(at_touch), "N", "constant attraction in overlap"});
+  if (bridge.viscosity_pa_s > 0) {
+    group.rows.push_back({"viscosity", bridge.viscosity_pa_s, "Pa s", "lubrication of a living bridge"});
+    group.rows.push_back({"roughness", milli * kRoughness * radius, "mm", "least gap that lubrication reckons with"});
+  }
   return group;
 }
 

@@ -87,6 +87,7 @@ void read_bridge(ObjectReader& reader, Bridge& bridge) {
   reader.number("liquid_volume_m3", bridge.liquid_volume_m3, {0, 1e3}, liquid);
   reader.number("surface_tension_n_m", bridge.surface_tension_n_m, {0, 1e4}, liquid);
   reader.number("contact_angle_rad", bridge.contact_angle_rad, {0, std::numbers::pi / 2}, liquid);
+  reader.number("viscosity_pa_s", bridge.viscosity_pa_s, {0, 1e9}, Need::optional);
 }
 
 void read_impact_contact(ObjectReader& reader, ContactModel& contact) {

@@ -15,7 +15,7 @@ constexpr Scale linear = Scale::linear;
 constexpr Scale logarithmic = Scale::logarithmic;
 
 // Files and stored evaluations know a parameter by its name; the order is that of tables for people.
-constexpr std::array<ParameterKind, 19> kinds{{
+constexpr std::array<ParameterKind, 20> kinds{{
     {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
     {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
@@ -37,6 +37,7 @@ constexpr std::array<ParameterKind, 19> kinds{{
     {"adhesion_pa", 1, 1e6, 1000, logarithmic, "surface energy of the grains over the mean grain radius, gamma/R"},
     {"cohesion_energy_density_pa", 1, 1e9, 50000, logarithmic,
      "attraction of the grains over the area in which they meet"},
+    {"viscosity_pa_s", 0, 1000, 0, linear, "viscosity of the liquid between the grains"},
 }};
 
 constexpr std::array<PlausibleRange, 2> plausible{{

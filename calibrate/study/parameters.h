@@ -17,7 +17,8 @@ namespace pastefit {
 /// Each law of core/laws names those it is made of and makes its numbers in SI from them; a study has those of the laws
 /// it chose, and those that no law names, which every test has. Of the present laws:
 ///
-///   every attraction   strength_pa c/R^2 [Pa], rupture_gap_ratio -d_c/R, cohesion_ratio F_coh/c
+///   every attraction   strength_pa c/R^2 [Pa], rupture_gap_ratio -d_c/R, cohesion_ratio F_coh/c,
+///                      viscosity_pa_s
 ///   with film formation besides, formation_ratio 2 offset/-d_c
 ///   polynomial         besides, rupture_force_ratio F(d_c)/c and curvature (core/laws/attraction.h)
 ///   jkr, dmt           adhesion_pa gamma/R [Pa]

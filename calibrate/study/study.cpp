@@ -103,11 +103,21 @@ std::vector<double> most_squeezed(const Study& study) {
   return point;
 }
 
+/// The point where everything free is at its lower bound, but the viscosity at its upper one: the softest grains in the
+/// thickest liquid.
+std::vector<double> thickest(const Study& study) {
+  std::vector<double> point;
+  for (const Parameter& parameter : study.parameters)
+    if (parameter.free) point.push_back(parameter.name == "viscosity_pa_s" ? 1 : 0);
+  return point;
+}
+
 /// The study's test at the centre and at corners of its bounds: every point must be fit to run.
 Faults validate_points(const Study& study) {
   const auto free = static_cast<std::size_t>(free_count(study));
   using Point = std::vector<double>;
-  for (const Point& point : {Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study)}) {
+  for (const Point& point :
+       {Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study), thickest(study)}) {
     const std::vector<double> values = values_at(study, point);
     for (const StudyTest& test : study.tests)
       if (Faults faults = validate_in_file_words(test_with(test.lab.test, values, 1)); !faults.empty()) return faults;

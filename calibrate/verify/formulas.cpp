@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "calibrate/verify/sticking.h"
+#include "calibrate/verify/viscous.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {
@@ -329,6 +330,11 @@ constexpr Formula kFormulas[] = {
     {"sjkr_force", sjkr_force, "SJKR at a gap; a negative one is an overlap"},
     {"sjkr_pull_off", sjkr_pull_off, "2/3 pi^3 k^3 R*^2/E*^2"},
     {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
+    {"squeeze_force", squeeze_force, "6 pi mu R*^2 v/h at a gap, v the speed of parting"},
+    {"squeezed_speed", squeezed_speed, "v - 6 pi mu R*^2/m* ln(h0/h), dh/dt = -v"},
+    {"settled_overlap", settled_overlap, "-h0 exp(-m g t/(6 pi mu R^2)), without inertia", FormulaNeeds::wall},
+    {"sheared_velocity", sheared_velocity, "sliding at a gap: decays with 6 pi mu R* (8/15 ln(R*/h) + 0.9588)"},
+    {"sheared_spin", sheared_spin, "the same of a spin, with the lever r + h/2"},
     {"speed_after_slip", speed_after_slip, "5/7 v + 2/7 r w relative to the wall, once the grain rolls",
      FormulaNeeds::wall},
     {"slope_speed", slope_speed, "v + 5/7 g (sin - mu_r cos) t, rolling; 0 if mu_r >= tan", FormulaNeeds::wall},

@@ -9,6 +9,7 @@
 #include "core/laws/constants.h"
 #include "core/laws/table.h"
 #include "core/random.h"
+#include "core/step/time_step.h"
 
 namespace pastefit {
 
@@ -75,6 +76,30 @@ double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n)
   return sizes.radius_m;
 }
 
+namespace {
+
+/// Of the filled mould the grains take so much; the density of grains follows from the filling, which is not known
+/// here.
+constexpr double kFilledShare = 0.6;
+
+void check_viscosity(FieldChecker& check, const Specimen& specimen) {
+  const double viscosity = specimen.contact.bridge.viscosity_pa_s, radius = specimen.grains.radius_m;
+  check.require(viscosity >= 0, "contact.bridge.viscosity_pa_s", "is " + FieldChecker::text(viscosity) + " Pa s",
+                "give 0 or more");
+  if (!(viscosity > 0)) return;
+  check.require(specimen.contact.bridge.shape != BridgeShape::none, "contact.bridge.viscosity_pa_s",
+                "is the viscosity of a bridge, and there is none", "give 0, or a \"shape\" of the bridge");
+  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3) * specimen.bulk_density_kg_m3 / kFilledShare;
+  const double largest = largest_viscosity(specimen.contact, radius, mass);
+  check.require(!(viscosity > largest), "contact.bridge.viscosity_pa_s",
+                "is " + FieldChecker::text(viscosity) + " Pa s, which would need time steps of less than a twentieth",
+                "give at most " + FieldChecker::text(largest) +
+                    " Pa s; larger or stiffer grains can have more, in proportion to the radius and to the root of "
+                    "youngs_modulus_pa");
+}
+
+}  // namespace
+
 void check_wall(FieldChecker& check, const WallContact& wall, const std::string& name) {
   const auto at = [&](const char* field) { return name + "." + field; };
   check.range(at("youngs_modulus_pa"), wall.youngs_modulus_pa, 1e4, 1e13, "Pa");
@@ -130,6 +155,7 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
                             : "give less strength, which no stiffness up to " + FieldChecker::text(kStiffestPa) +
                                   " Pa would carry") +
                       ": 10 % is the most that is carried");
+    check_viscosity(check, specimen);
   }
 }
 

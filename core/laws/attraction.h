@@ -43,12 +43,12 @@ struct NoAttraction {
   static void set(PairConstants&, const Bridge&, double, double) {}
 };
 
-/// What all attractions are made of: c/R^2, -d_c/R, 2 offset/-d_c and the cohesion over c. The shells of two grains
-/// meet across twice the offset; beyond the rupture gap that acts on nothing. Touch formation has no formation_ratio:
-/// the shells then reach as far as the bridge, whatever holds it.
+/// What all attractions are made of: c/R^2, -d_c/R, 2 offset/-d_c, the cohesion over c, and the viscosity. The shells
+/// of two grains meet across twice the offset; beyond the rupture gap that acts on nothing. Touch formation has no
+/// formation_ratio: the shells then reach as far as the bridge, whatever holds it.
 struct AcrossGap {
-  static constexpr std::array<std::string_view, 5> parameters{"strength_pa", "rupture_gap_ratio", "formation_ratio",
-                                                              "cohesion_ratio", "cohesion_factor"};
+  static constexpr std::array<std::string_view, 6> parameters{"strength_pa",    "rupture_gap_ratio", "formation_ratio",
+                                                              "cohesion_ratio", "cohesion_factor",   "viscosity_pa_s"};
   static constexpr std::string_view film_parameter = "formation_ratio";
   static constexpr bool present = true;
 
@@ -63,7 +63,10 @@ struct AcrossGap {
     const double c = value("strength_pa") * radius * radius;
     const double gap = value("rupture_gap_ratio") * radius;
     const double reach = formation == BridgeFormation::film ? value(film_parameter) : 1;
-    contact.bridge = {.shape = shape, .formation = formation, .offset_m = 0.5 * reach * gap};
+    contact.bridge = {.shape = shape,
+                      .formation = formation,
+                      .offset_m = 0.5 * reach * gap,
+                      .viscosity_pa_s = value("viscosity_pa_s")};
     contact.cohesion_n = value("cohesion_ratio") * c;
     return {c, gap};
   }
@@ -88,9 +91,9 @@ struct GivenEnds : AcrossGap {
 struct PolynomialAttraction : GivenEnds {
   static constexpr BridgeShape choice = BridgeShape::polynomial;
   static constexpr std::string_view word = "polynomial";
-  static constexpr std::array<std::string_view, 7> parameters{
-      "strength_pa",     "rupture_gap_ratio",   "formation_ratio", "cohesion_ratio",
-      "cohesion_factor", "rupture_force_ratio", "curvature"};
+  static constexpr std::array<std::string_view, 8> parameters{
+      "strength_pa",     "rupture_gap_ratio", "formation_ratio",     "cohesion_ratio",
+      "cohesion_factor", "viscosity_pa_s",    "rupture_force_ratio", "curvature"};
 
   template <class Value>
   static void make(ContactModel& contact, double radius, const Value& value) {

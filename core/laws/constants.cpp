@@ -62,6 +62,8 @@ void set_attraction(PairConstants& pair, const ContactModel& grains, double radi
   pair.passage = kPassage * radius;
   pair.rupture_gap = rupture_gap(bridge, radius);
   pair.formation_gap = bridge.formation == BridgeFormation::film ? shells * bridge.offset_m : 0.0;
+  pair.viscosity = 6 * std::numbers::pi * share * bridge.viscosity_pa_s;
+  pair.roughness = kRoughness * radius;
   with_law(Attractions{}, bridge.shape, [&](auto law) { law.set(pair, bridge, radius, share); });
 }
 

@@ -42,6 +42,8 @@ struct ConstantsOf {
   Real bridge_c{0};          ///< attraction at touch [N]
   Real rupture_gap{0};       ///< -d_c [m]
   Real formation_gap{0};     ///< gap at which a bridge forms [m]
+  Real viscosity{0};         ///< 6 pi times that of the liquid of a bridge [Pa s]
+  Real roughness{0};         ///< least gap of reference grains that it reckons with [m]
 };
 using PairConstants = ConstantsOf<double>;
 
@@ -76,13 +78,20 @@ PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
           Real(k.bridge_b),
           Real(k.bridge_c),
           Real(k.rupture_gap),
-          Real(k.formation_gap)};
+          Real(k.formation_gap),
+          Real(k.viscosity),
+          Real(k.roughness)};
 }
 
 /// Overlap in mean radii over which the attraction of a bridge at touch passes over into the cohesion, where they
 /// differ. A force that jumps makes energy at any time step: a pair that the bridge pulls shut and nothing holds shut
 /// crosses touch for ever. The narrower the passage, the stiffer it is.
 inline constexpr double kPassage = 0.01;
+
+/// Least gap that lubrication reckons with, over the mean radius: LIGGGHTS's recommended minSeparationDistanceRatio of
+/// 1.01 (cohesion washino/capillary/viscous), by which the surface of either grain is rough by a hundredth of its
+/// radius.
+inline constexpr double kRoughness = 0.02;
 
 /// Grain against grain. `reference_radius_m` is the radius the bridge's numbers belong to.
 /// Source of the elastic constants: Hertz; Mindlin; damping Tsuji et al. in the form of physics conventions

@@ -5,6 +5,7 @@
 #include "core/laws/contact_kinematics.h"
 #include "core/laws/contact_plane.h"
 #include "core/laws/dashpots.h"
+#include "core/laws/lubrication.h"
 #include "core/laws/normal.h"
 #include "core/laws/rolling.h"
 #include "core/laws/tangential.h"
@@ -105,10 +106,11 @@ PASTEFIT_INLINE RollingContact<Real> rolling_contact(const ConstantsOf<Real>& k,
 ///   (laws/tangential.h), rolling resistance (laws/rolling.h).
 /// overlap d > 0: cohesion besides, constant but for the passage to it (`pass_over`).
 /// gap, bridge alive: attraction F(d). A bridge forms at the formation gap and lives until the rupture gap.
+/// bridge alive, with `viscous`: lubrication besides (laws/lubrication.h).
 ///
 /// Square roots and divisions are what this function costs most: two roots and one division, and a root and a division
 /// more for each of sliding and rolling where a contact of the batch yields; what can be divided together is.
-template <class Normal, class Attraction, class Rolling, class Real>
+template <class Normal, class Attraction, class Rolling, bool viscous, class Real>
 PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const ContactKinematics<Real>& m,
                                        ContactHistory<Real>& history, Real dt, Energies energies) {
   const Real zero(0.0);
@@ -135,11 +137,19 @@ PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const Contact
   const TangentialContact<Real> tangential{fused(-approach, m.normal, m.velocity), slip, detail::restored(slip), radius,
                                            friction_load};
   const TangentialSpring<Real> spring = slide<Normal>(k, tangential, normal, d, dt, history.slip, contact_force);
+  Lubrication<Real> liquid;
+  Real viscous_drag;
+  if constexpr (viscous) {
+    liquid = lubrication(k, m.overlap, radius, size_scale, history.bridge, m.inverse_mass, m.neighbour_damping, dt);
+    viscous_drag = viscous_before(liquid, spring.kept * d.damper_t, history);
+    history.drag = history.drag - viscous_drag;
+  }
   if (counted) count_sliding<Normal>(k, tangential, spring, d, approach, dt, history, contact_force);
 
   RollingContact<Real> rolling = rolling_contact<Rolling>(k, m, normal, d, dt, history);
   rolling.limit = k.rolling_friction * (friction_load + spring.normal_force) * radius;
   Rolling::act(k, rolling, dt, counted, history.roll, contact_force);
+  if constexpr (viscous) lubricate(liquid, m, approach, d.damper_n, viscous_drag, dt, counted, history, contact_force);
   history.sqrt_contact_radius = d.sqrt_contact_radius;
   return contact_force;
 }

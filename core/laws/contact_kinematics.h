@@ -27,8 +27,8 @@ struct ContactHistory {
   BasicVec3<Real>
       roll;  ///< accumulated relative rotation across the normal [rad]; constant torque: the last torque [N m]
   Real sqrt_contact_radius;  ///< sqrt(a), a = sqrt(R* d), at the last step [m^(1/2)], 0 if the bodies did not touch
-  Real damper;               ///< normal damping force at the last step [N]
-  Real drag;    ///< coefficient of the tangential damper at the last step, as far as friction let it act [N s/m]
+  Real damper;               ///< normal damping force at the last step, that of viscous liquid included [N]
+  Real drag;    ///< coefficient of the tangential dampers at the last step, as far as friction let them act [N s/m]
   Real bridge;  ///< 1 while a liquid bridge lives, else 0
 };
 
@@ -41,7 +41,8 @@ struct ContactForce {
   Real damping;                      ///< damping coefficient along the normal [N s/m]
   // For the energy balance: energy dissipated in this step by each mechanism, and energy stored now [J].
   Real dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridge, stored;
-  Real stiffness;  ///< largest stiffness, rotation counted [N/m]
+  Real dissipation_viscous;  ///< set where liquid is viscous
+  Real stiffness;            ///< largest stiffness, rotation counted [N/m]
 };
 
 /// How much of a contact's energies is asked for.

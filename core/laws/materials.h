@@ -71,6 +71,7 @@ struct Bridge {
   double liquid_volume_m3 = 0;     ///< capillary only
   double surface_tension_n_m = 0;  ///< capillary only
   double contact_angle_rad = 0;    ///< capillary only
+  double viscosity_pa_s = 0;  ///< of the liquid between the grains, the same for grains of any size (lubrication.h)
 };
 
 /// What the friction limit mu N is taken of.

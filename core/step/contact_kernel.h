@@ -123,6 +123,7 @@ class Tally {
     lanes[0] = lanes[0] + widened<0>(value);
     second = second + widened<1>(value);
   }
+  template <bool viscous>
   PASTEFIT_INLINE void count(Energies energies, int lane, const ContactForce<Real>& contact_force) {
     if (energies == Energies::none) return;
     count(EnergySums::normal_damping, lane, contact_force.dissipation_normal);
@@ -130,6 +131,7 @@ class Tally {
     count(EnergySums::rolling, lane, contact_force.dissipation_rolling);
     count(EnergySums::bridges, lane, contact_force.dissipation_bridge);
     count(EnergySums::stored, lane, contact_force.stored);
+    if constexpr (viscous) count(EnergySums::viscous, lane, contact_force.dissipation_viscous);
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
@@ -166,9 +168,16 @@ PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const ContactHistory<Re
   if constexpr (Attraction::present) history.bridge.store(c.bridge + lane);
 }
 
-template <class Normal, class Attraction, class Rolling>
-PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
-                                  const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
+/// A pair's kinematics, and the levers of what acts across the normal: to the middle of the overlap, and where liquid
+/// is viscous to the middle of a gap.
+struct Encounter {
+  ContactKinematics<Real> kinematics;
+  Real lever_a, lever_b;
+};
+
+template <bool viscous>
+PASTEFIT_INLINE Encounter encounter(const KernelTask& task, const Lanes& i, const Lanes& j, const Pairing& p,
+                                    const ContactBatch& c, int lane) {
   const Quad velocity_a = velocities(task, i), velocity_b = velocities(task, j);
   const Quad spin_a = spins(task, i), spin_b = spins(task, j);
   const Real radius_a = spin_a.beside, radius_b = spin_b.beside;
@@ -176,7 +185,7 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real
   ContactKinematics<Real> kinematics;
   kinematics.normal = p.inverse_distance * p.between;
   kinematics.overlap = p.overlap;
-  const Real half_depth = Real(0.5) * larger(kinematics.overlap, Real(0.0));
+  const Real half_depth = Real(0.5) * (viscous ? kinematics.overlap : larger(kinematics.overlap, Real(0.0)));
   const Real lever_a = radius_a - half_depth, lever_b = radius_b - half_depth;
   kinematics.velocity = velocity_a.vector - velocity_b.vector +
                         cross(fused(lever_a, spin_a.vector, lever_b * spin_b.vector), kinematics.normal);
@@ -187,12 +196,18 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real
   kinematics.sqrt_mass = Real::load(c.sqrt_mass + lane);
   kinematics.inverse_mass = Real(1.0) / (kinematics.sqrt_mass * kinematics.sqrt_mass);
   kinematics.neighbour_damping = velocity_a.beside + velocity_b.beside;
+  return {kinematics, lever_a, lever_b};
+}
 
+template <class Normal, class Attraction, class Rolling, bool viscous>
+PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
+                                  const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
+  const auto [kinematics, lever_a, lever_b] = encounter<viscous>(task, i, j, p, c, lane);
   ContactHistory<Real> history = recall<Rolling>(c, lane);
   const ContactForce<Real> contact_force =
-      act<Normal, Attraction, Rolling>(pair, kinematics, history, dt, task.energies);
+      act<Normal, Attraction, Rolling, viscous>(pair, kinematics, history, dt, task.energies);
   remember<Attraction, Rolling>(c, lane, history);
-  tally.count(task.energies, lane, contact_force);
+  tally.count<viscous>(task.energies, lane, contact_force);
 
   const Vector force = fused(-contact_force.normal_force, kinematics.normal, contact_force.tangential_force);
   const Vector turning = cross(kinematics.normal, contact_force.tangential_force);
@@ -220,6 +235,47 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
   add_loads(task, i, j, force, zero, none, none, pull.slope);
 }
 
+/// Pairs that do not touch, of a viscous liquid: lubrication besides. They have no other dampers, and remember no more.
+template <class Attraction>
+PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<Real>& pair, Real dt, const Lanes& i,
+                                     const Lanes& j, const Pairing& p, ContactBatch& c, int lane, Tally& tally) {
+  const Real zero(0.0);
+  const auto [kinematics, lever_a, lever_b] = encounter<true>(task, i, j, p, c, lane);
+  const Real radius = kinematics.sqrt_radius * kinematics.sqrt_radius, scale = pair.size_per_radius * radius;
+  ContactHistory<Real> history;
+  history.bridge = Real::load(c.bridge + lane);
+  history.damper = Real::load(c.damper + lane);
+  const Real before = Real::load(c.drag + lane);
+  history.drag = zero;
+  ContactForce<Real> contact_force;
+  const Pull<Real> pull =
+      bridge_pull<Attraction>(pair, p.overlap, scale, history.bridge, contact_force.dissipation_bridge);
+  const Real approach = dot(kinematics.velocity, kinematics.normal);
+  contact_force.normal_force = -pull.force;
+  contact_force.tangential_force = {zero, zero, zero};
+  contact_force.damping = zero;
+  contact_force.dissipation_normal = Real(0.5) * dt * history.damper * approach;
+  history.damper = zero;
+  const Lubrication<Real> liquid = lubrication(pair, p.overlap, radius, scale, history.bridge, kinematics.inverse_mass,
+                                               kinematics.neighbour_damping, dt);
+  const bool counted = task.energies != Energies::none;
+  lubricate(liquid, kinematics, approach, zero, before, dt, counted, history, contact_force);
+  history.bridge.store(c.bridge + lane);
+  tally.count(EnergySums::bridges, lane, contact_force.dissipation_bridge);
+  if (counted) {
+    history.damper.store(c.damper + lane);
+    history.drag.store(c.drag + lane);
+    tally.count(EnergySums::normal_damping, lane, contact_force.dissipation_normal);
+    tally.count(EnergySums::viscous, lane, contact_force.dissipation_viscous);
+  }
+  if (task.energies == Energies::all)
+    tally.count(EnergySums::stored, lane, -history.bridge * Attraction::work(pair, smaller(p.overlap, zero), scale));
+
+  const Vector force = fused(-contact_force.normal_force, kinematics.normal, contact_force.tangential_force);
+  const Vector turning = cross(kinematics.normal, contact_force.tangential_force);
+  add_loads(task, i, j, force, contact_force.damping, lever_a * turning, lever_b * turning, pull.slope);
+}
+
 /// Whether a pair touches, or did so at the last step and has yet to forget it. Where none does, a contact exerts
 /// nothing and has nothing to remember.
 PASTEFIT_INLINE bool some_touch(const Pairing& p, const ContactBatch& c, int lane) {
@@ -243,7 +299,7 @@ PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& ba
   }
 }
 
-template <class Normal, class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling, bool viscous>
 void pair_kernel(const KernelTask& task) {
   const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
   const Real dt(task.dt);
@@ -257,7 +313,9 @@ void pair_kernel(const KernelTask& task) {
       const Lanes i(batch.i + lane), j(batch.j + lane);
       const Pairing p = pairing(task, i, j);
       if (k < task.stretch.near || some_touch(p, batch, lane)) {
-        act_on_pairs<Normal, Attraction, Rolling>(task, pair, dt, i, j, p, batch, lane, tally);
+        act_on_pairs<Normal, Attraction, Rolling, viscous>(task, pair, dt, i, j, p, batch, lane, tally);
+      } else if constexpr (viscous) {
+        lubricate_pairs<Attraction>(task, pair, dt, i, j, p, batch, lane, tally);
       } else if constexpr (Attraction::present) {
         const Real sqrt_radius = Real::load(batch.sqrt_radius + lane);
         attract_pairs<Attraction>(task, pair, pair.size_per_radius * (sqrt_radius * sqrt_radius), i, j, p, batch, lane,
@@ -282,7 +340,7 @@ void bridge_kernel(const KernelTask& task) {
   tally.add_to(*task.energy);
 }
 
-template <class Normal, class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling, bool viscous>
 void wall_kernel(const KernelTask& task) {
   const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
   const Real dt(task.dt);
@@ -297,7 +355,7 @@ void wall_kernel(const KernelTask& task) {
       ContactKinematics<Real> kinematics;
       kinematics.normal = load(w.normal, lane);
       kinematics.overlap = Real::load(w.overlap + lane);
-      const Real lever = radius - larger(kinematics.overlap, Real(0.0));
+      const Real lever = radius - (viscous ? kinematics.overlap : larger(kinematics.overlap, Real(0.0)));
       kinematics.velocity =
           velocity.vector - load(w.wall_velocity, lane) + cross(lever * spin.vector, kinematics.normal);
       kinematics.spin = spin.vector;
@@ -310,9 +368,9 @@ void wall_kernel(const KernelTask& task) {
 
       ContactHistory<Real> history = recall<Rolling>(c, lane);
       const ContactForce<Real> contact_force =
-          act<Normal, Attraction, Rolling>(pair, kinematics, history, dt, task.energies);
+          act<Normal, Attraction, Rolling, viscous>(pair, kinematics, history, dt, task.energies);
       remember<Attraction, Rolling>(c, lane, history);
-      tally.count(task.energies, lane, contact_force);
+      tally.count<viscous>(task.energies, lane, contact_force);
 
       store(w.force, lane, contact_force.tangential_force - contact_force.normal_force * kinematics.normal);
       store(w.moment, lane, lever * cross(kinematics.normal, contact_force.tangential_force) + contact_force.moment);
@@ -332,12 +390,18 @@ struct LawTriple {
   using Normal = Law<NormalLaws, at / (Attractions::size * RollingLaws::size)>;
   using Attraction = Law<Attractions, at / RollingLaws::size % Attractions::size>;
   using Rolling = Law<RollingLaws, at % RollingLaws::size>;
+  /// Liquid is viscous where there is a bridge.
+  template <bool viscous>
+  static constexpr bool is_compiled = go_together(Normal{}, Attraction{}) && (Attraction::present || !viscous);
+
+  template <bool viscous>
   static constexpr Kernel pair() {
-    if constexpr (go_together(Normal{}, Attraction{})) return pair_kernel<Normal, Attraction, Rolling>;
+    if constexpr (is_compiled<viscous>) return pair_kernel<Normal, Attraction, Rolling, viscous>;
     return nullptr;
   }
+  template <bool viscous>
   static constexpr Kernel wall() {
-    if constexpr (go_together(Normal{}, Attraction{})) return wall_kernel<Normal, Attraction, Rolling>;
+    if constexpr (is_compiled<viscous>) return wall_kernel<Normal, Attraction, Rolling, viscous>;
     return nullptr;
   }
 };
@@ -350,8 +414,10 @@ constexpr Kernel bridge_kernel_of() {
 
 template <std::size_t... at, class... Attraction>
 constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction...>) {
-  return {{LawTriple<at>::pair()...},
-          {LawTriple<at>::wall()...},
+  return {{LawTriple<at>::template pair<false>()...},
+          {LawTriple<at>::template wall<false>()...},
+          {LawTriple<at>::template pair<true>()...},
+          {LawTriple<at>::template wall<true>()...},
           {bridge_kernel_of<Attraction>()...},
           move_grains,
           PASTEFIT_ISA_NAME};

@@ -23,7 +23,7 @@ struct Stretch {
 /// Energies of a step, summed in eight lanes by the contact's place in its half of a batch, so that every instruction
 /// set sums alike.
 struct alignas(64) EnergySums {
-  enum Kind { normal_damping, sliding, rolling, bridges, stored, kinds };
+  enum Kind { normal_damping, sliding, rolling, bridges, viscous, stored, kinds };
   static constexpr int kLanes = 8;
   double lane[kinds][kLanes] = {};
   void forget(Kind kind) {
@@ -75,13 +75,17 @@ using Kernel = void (*)(const KernelTask&);
 
 inline constexpr std::size_t kCombinations = NormalLaws::size * Attractions::size * RollingLaws::size;
 
+/// Kernels of one kind, by `combination`; empty where laws do not go together.
+using Kernels = std::array<Kernel, kCombinations>;
+
 /// Where the kernels of these laws stand in the table.
 constexpr std::size_t combination(NormalLaw normal, BridgeShape attraction, RollingModel rolling) {
   return (row_of(normal) * Attractions::size + row_of(attraction)) * RollingLaws::size + row_of(rolling);
 }
 
 struct KernelTable {
-  std::array<Kernel, kCombinations> pair, wall;  ///< by `combination`; empty where laws do not go together
+  Kernels pair, wall;
+  Kernels viscous_pair, viscous_wall;  ///< of bridges that have a viscosity; no other pairs attract each other
   std::array<Kernel, Attractions::size> bridge;  ///< pairs that cannot touch; empty where there is no attraction
   Moved (*move)(const MoveTask&);
   std::string_view instruction_set;

@@ -142,8 +142,9 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
 }
 
 void Stepper::act_on_pairs(int b) {
+  const Kernels& of_pairs = world_.grain_pair.viscosity > 0 ? kernels_.viscous_pair : kernels_.pair;
   const Kernel pairs =
-      kernels_.pair[combination(acting(world_.normal, world_.grain_pair), world_.attraction, world_.rolling)];
+      of_pairs[combination(acting(world_.normal, world_.grain_pair), world_.attraction, world_.rolling)];
   const Kernel bridges = kernels_.bridge[row_of(world_.attraction)];
   Block& block = world_.pairs.blocks[b];
   KernelTask mine = task(world_.grain_pair, b);

@@ -43,7 +43,9 @@ void Stepper::act_on(const Wall& wall, WallContacts& touching, Column<WallBatch>
   task.wall = batches.data();
   task.stretch = {0, 0, touching.contacts.batch_count()};
   const BridgeShape attraction = wall.pair.bridge_c > 0 ? world_.attraction : BridgeShape::none;
-  kernels_.wall[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](task);
+  const Kernels& of_walls =
+      wall.pair.viscosity > 0 && attraction != BridgeShape::none ? kernels_.viscous_wall : kernels_.wall;
+  of_walls[combination(acting(world_.normal, wall.pair), attraction, world_.rolling)](task);
 }
 
 void Stepper::add_up_walls() {

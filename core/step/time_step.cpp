@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/laws/lubrication.h"
 #include "core/laws/table.h"
 
 namespace pastefit {
@@ -13,6 +14,9 @@ constexpr double kSlowest = 0.01;     // [m/s] speed that is always reckoned wit
 constexpr double kLeastLoss = 0.004;  // share of a collision's energy beyond which losing less asks for no more steps
 constexpr double kFastCrossing = 10;  // over the speed a bridge can give
 constexpr double kLevelsPerOctave = 16;
+constexpr double kNarrowGaps = 8;         // of a grain in a packing: neighbours that touch it, or nearly so
+constexpr double kLeastOverlap = 1e-3;    // over a radius, of grains that hardly attract each other: their weight
+constexpr double kMostViscousSteps = 20;  // for one that is taken without viscosity
 
 /// The level at or below a step. The last bits of pow differ between processors; levels do not.
 double level_below(double step) {
@@ -45,11 +49,30 @@ double bridge_limit(const World& world, const StabilityLimits& limits) {
   return gap / std::clamp(limits.fastest, kSlowest, std::max(kSlowest, kFastCrossing * escape));
 }
 
+/// Viscous dampers of a grain are stable together while dt (sum of c/m over both bodies of a pair) is at most 2
+/// (core/laws/lubrication.h).
+double viscous_limit(const PairConstants& pair, double radius, double mass) {
+  if (pair.viscosity == 0) return 1e300;
+  const double effective = 0.5 * radius, scale = pair.size_per_radius * effective;
+  return mass / (kNarrowGaps * lubrication(pair, 0.0, effective, scale, 1.0, 0.0, 0.0, 0.0).damping);
+}
+
 }  // namespace
 
 double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options) {
   return std::min({options.safety * stability_limit(limits), impact_limit(world, limits) / options.impact_resolution,
-                   bridge_limit(world, limits) / options.bridge_resolution});
+                   bridge_limit(world, limits) / options.bridge_resolution,
+                   viscous_limit(world.grain_pair, limits.smallest_radius, limits.smallest_mass)});
+}
+
+double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options) {
+  model.bridge.viscosity_pa_s = 1;
+  const PairConstants pair = grain_pair(model, radius);
+  const double overlap = 2 * radius * resting_overlap(model, radius);
+  const double stiffness = pair.normal_stiffness * std::sqrt(0.5 * radius * std::max(overlap, kLeastOverlap * radius)) *
+                           std::max(1.0, kSurfaceLightness * pair.tangential_ratio);
+  const double step = options.safety * stability_limit({.stiffest = kNarrowGaps * stiffness / mass});
+  return kMostViscousSteps * viscous_limit(pair, radius, mass) / step;
 }
 
 bool TimeStep::is_sound() const {

@@ -13,15 +13,21 @@ struct StabilityLimits {
   double stiffest = 0;         ///< largest sum of the stiffnesses at a grain over its mass [1/s^2]
 };
 
-/// The largest step the scene allows now [s], the least of three:
+/// The largest step the scene allows now [s], the least of four:
 ///   stability of the leapfrog: safety * 2/omega, omega^2 <= max over grains of 2 sum(k)/m (Gershgorin; k the largest
 ///   stiffness of a contact, rotation counted);
 ///   impacts: the shortest collision (laws/normal.h) at the largest speed takes impact_resolution/(1 - e^2)^(1/3)
 ///   steps, at most 6.3 impact_resolution, so that the integration's error, which falls with the cube of their number,
 ///   stays the same small share of the energy that the collision loses;
 ///   bridges: none is crossed in fewer than bridge_resolution steps. A grain that is ten times as fast as a bridge can
-///   make it feels a hundredth of its energy there; beyond that the step does not follow the speed any more.
+///   make it feels a hundredth of its energy there; beyond that the step does not follow the speed any more;
+///   viscous liquid: the dampers of a grain with eight neighbours at the roughness need not be weakened to be stable.
 double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options);
+
+/// The largest viscosity that grains of this size and mass can have [Pa s]: beyond it the step would be less than a
+/// twentieth of what the springs of such grains allow at their resting overlap. It goes with sqrt(E) and with R.
+/// Requirement: the model has a bridge.
+double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options = {});
 
 /// The step a run takes: as advised, but constant for long. A step that follows the stiffness of a contact up and down
 /// creates energy in every collision (14 % of what a slump puts in, in one case of the stress test). So it takes one of

@@ -80,6 +80,7 @@ struct AttractionReach {
   double rupture_gap = 0;    ///< a living bridge acts within it [m]
   double pull_off_gap = 0;   ///< grains that have touched may stay in contact within it [m]
   double reference_radius = 1;
+  bool viscous = false;  ///< bridges are contacts: they feel velocities and remember dampers
 };
 
 /// Sorts the grains in space (cells of the largest interaction plus skin), divides them into blocks, and lists all

@@ -64,6 +64,9 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
       const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
       if (square >= range * range) return;
+    }
+    if (!is_near && !reach.viscous) {
+      const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
       candidate.keep(NeighbourList::bridge);
       chosen.bridges.add(i, j, static_cast<float>(scale), alive);
       return;

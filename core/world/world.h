@@ -33,7 +33,8 @@ class World {
   std::int64_t step = 0;
 
   AttractionReach reach() const {
-    return {grain_pair.formation_gap, grain_pair.rupture_gap, grain_pair.pull_off_gap, reference_radius};
+    return {grain_pair.formation_gap, grain_pair.rupture_gap, grain_pair.pull_off_gap, reference_radius,
+            grain_pair.viscosity > 0};
   }
 };
 

@@ -8,7 +8,8 @@ namespace pastefit_lammps {
 namespace {
 
 const double kPi = std::acos(-1.0);
-const double kPassage = 0.01;  // of the reference radius
+const double kPassage = 0.01;    // of the reference radius
+const double kRoughness = 0.02;  // of the reference radius
 
 double damping_ratio(double restitution) {
   const double ln = std::log(restitution);
@@ -95,6 +96,8 @@ void Contact::set_attraction(const Law& law, double share, double shells) {
     a_ = 2.5 * radius / volume;
     b_ = 1.05 * std::sqrt(radius / volume);
   }
+  viscosity_ = 6 * kPi * share * law.viscosity_pa_s;
+  roughness_ = kRoughness * law.reference_radius_m;
   touch_excess_ = c_ - cohesion_;
   passage_ = kPassage * law.reference_radius_m;
 }
@@ -130,6 +133,7 @@ ContactForce Contact::act(const ContactKinematics& m, ContactHistory& history, d
     history.slip = history.roll = {};
     history.contact_radius = 0;
     contact_force.force = pull * m.normal;
+    lubricate(m, scale, dt, history, contact_force);
     return contact_force;
   }
   const double contact_radius = std::sqrt(m.radius * m.overlap);
@@ -161,7 +165,21 @@ ContactForce Contact::act(const ContactKinematics& m, ContactHistory& history, d
   const double softened = std::min(1.0, history.contact_radius / contact_radius);
   roll(m, pressed + kept * kept * slip_normal_force, softened, braked_n, dt, advance, history, contact_force);
   history.contact_radius = contact_radius;
+  lubricate(m, scale, dt, history, contact_force);
   return contact_force;
+}
+
+/// Two bodies lose at most their whole relative velocity in a step.
+void Contact::lubricate(const ContactKinematics& m, double scale, double dt, const ContactHistory& history,
+                        ContactForce& contact_force) const {
+  if (viscosity_ == 0 || history.bridge == 0) return;
+  const double narrowness = m.radius / std::max(-m.overlap, roughness_ * scale);
+  const double along = viscosity_ * m.radius * narrowness;
+  const double across = viscosity_ * m.radius * (8.0 / 15 * std::log(narrowness) + 0.9588);
+  const double approach = dot(m.velocity, m.normal);
+  const Vector drag = -across / std::max(3.5 * dt * across / m.mass, 1.0) * (m.velocity - approach * m.normal);
+  contact_force.tangential_force = contact_force.tangential_force + drag;
+  contact_force.force = contact_force.force + drag - along / std::max(dt * along / m.mass, 1.0) * approach * m.normal;
 }
 
 void Contact::roll(const ContactKinematics& m, double load, double softened, double braked, double dt, double advance,

@@ -19,6 +19,7 @@ struct Law {
   std::string formation;       ///< film or touch
   double a_n_m2 = 0, b_n_m = 0, c_n = 0, d_c_m = 0, offset_m = 0;
   double liquid_volume_m3 = 0, surface_tension_n_m = 0, contact_angle_rad = 0;
+  double viscosity_pa_s = 0;  ///< of the liquid of a bridge; may be left out
 };
 
 /// What grains meet at a wall.
@@ -94,6 +95,8 @@ class Contact {
   /// Mindlin spring 8 G* sqrt(R* d), which pushes along the normal as its energy grows with the overlap, with the
   /// friction limit on spring and damper together, rolling resistance.
   /// Gap: the bridge's attraction, if it lives. It forms at the formation gap and lives until the rupture gap.
+  /// Living bridge of a viscous liquid: lubrication 6 pi mu R* (R*/h) along and 6 pi mu R* (8/15 ln(R*/h) + 0.9588)
+  /// across the normal, h the gap but at least 0.02 of the reference radius, also where bodies overlap.
   ContactForce act(const ContactKinematics& kinematics, ContactHistory& history, double dt, double advance) const;
 
  private:
@@ -103,6 +106,8 @@ class Contact {
   double size_scale(double effective_radius) const { return size_per_radius_ * effective_radius; }
   double attraction(double overlap, double scale, ContactHistory& history) const;
   double cohesion(double overlap, double scale) const;
+  void lubricate(const ContactKinematics& kinematics, double scale, double dt, const ContactHistory& history,
+                 ContactForce& contact_force) const;
   void roll(const ContactKinematics& kinematics, double load, double softened, double braked, double dt, double advance,
             ContactHistory& history, ContactForce& contact_force) const;
 
@@ -112,6 +117,7 @@ class Contact {
   double friction_ = 0, slip_limit_ = 0, rolling_friction_ = 0, cohesion_ = 0;
   bool friction_of_total_ = false;
   double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0, touch_excess_ = 0, passage_ = 1;
+  double viscosity_ = 0, roughness_ = 0;
 };
 
 }  // namespace pastefit_lammps

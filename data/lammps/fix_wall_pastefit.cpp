@@ -78,7 +78,7 @@ void FixWallPastefit::meet(int i, int n, double advance, ContactHistory& history
   m.smaller_radius = m.radius = atom->radius[i];
   m.mass = atom->rmass[i];
   m.overlap = m.radius - contact.r;
-  const double lever = m.radius - std::max(m.overlap, 0.0);
+  const double lever = m.radius - m.overlap;
   m.spin = vector(atom->omega[i]);
   m.velocity = vector(atom->v[i]) - vector(wall_velocity) + cross(lever * m.spin, m.normal);
   m.twist = 0.5 * dot(m.spin, m.normal);

@@ -16,6 +16,8 @@ class Words {
       if (!values_.emplace(words[i], words[i + 1]).second) fault("'" + words[i] + "' is named twice");
   }
 
+  bool has(const std::string& name) const { return values_.count(name) > 0; }
+
   /// A number in (low, high], or [low, high] where `least` is admitted.
   void number(const std::string& name, double& to, double low, double high, bool least = true) {
     std::string text;
@@ -92,6 +94,7 @@ std::string read_law(const std::vector<std::string>& all, Law& law) {
   if (law.bridge != "none") {
     law.formation = words.choice("formation", {"film", "touch"});
     if (law.formation == "film") words.number("offset_m", law.offset_m, 0, 10);
+    if (words.has("viscosity_pa_s")) words.number("viscosity_pa_s", law.viscosity_pa_s, 0, kMost);
   }
   return words.faults();
 }

@@ -108,7 +108,7 @@ void PairPastefit::compute(int eflag, int vflag) {
       const double distance = std::sqrt(square);
       m.normal = 1 / distance * between;
       m.overlap = radius + other - distance;
-      const double half_depth = 0.5 * std::max(m.overlap, 0.0);
+      const double half_depth = 0.5 * m.overlap;  // or, below zero, of the gap: lubrication acts in its middle
       const double lever_i = radius - half_depth, lever_j = other - half_depth;
       const Vector spin_i = vector(atom->omega[i]), spin_j = vector(atom->omega[j]);
       m.velocity = vector(atom->v[i]) - vector(atom->v[j]) + cross(lever_i * spin_i + lever_j * spin_j, m.normal);

@@ -61,6 +61,7 @@ class Scene {
   }
 
   const EnergyBalance& energy_balance() const { return stepper_->energy_balance(); }
+  double time_step() const { return stepper_->time_step(); }
 
   /// Grain by the order in which it was added.
   const Motion& motion(int identity) const { return world.particles.motion[place(identity)]; }

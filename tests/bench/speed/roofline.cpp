@@ -165,11 +165,11 @@ ContactCost cost_of_contact(bool cohesive) {
   ContactHistory<Counted> history{};
   const auto pair = in_lanes<Counted>(grain_pair(scene_material(cohesive), kSceneRadius));
   if (cohesive)
-    act<Hertz, PolynomialAttraction, SpringDashpotRolling>(pair, kinematics, history, Counted(kSceneStep),
-                                                           Energies::dissipation);
+    act<Hertz, PolynomialAttraction, SpringDashpotRolling, false>(pair, kinematics, history, Counted(kSceneStep),
+                                                                  Energies::dissipation);
   else
-    act<Hertz, NoAttraction, SpringDashpotRolling>(pair, kinematics, history, Counted(kSceneStep),
-                                                   Energies::dissipation);
+    act<Hertz, NoAttraction, SpringDashpotRolling, false>(pair, kinematics, history, Counted(kSceneStep),
+                                                          Energies::dissipation);
   ContactCost cost;
   cost.additions_multiplications = Counted::simple;
   cost.roots_divisions = Counted::roots + Counted::divisions;

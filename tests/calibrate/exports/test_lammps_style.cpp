@@ -18,7 +18,7 @@ constexpr double kGrainRadius = 0.008, kStep = 1e-5;
 ContactModel paste(BridgeShape shape) {
   ContactModel model;
   model.cohesion_n = 0.2;
-  model.bridge = {shape, BridgeFormation::film, -1500, 40, 0.3, -0.004, 0.0012, 1e-9, 3, 0.2};
+  model.bridge = {shape, BridgeFormation::film, -1500, 40, 0.3, -0.004, 0.0012, 1e-9, 3, 0.2, 0.3};
   return model;
 }
 
@@ -47,7 +47,8 @@ style::Law law_of(const ContactModel& model) {
           bridge.offset_m,
           bridge.liquid_volume_m3,
           bridge.surface_tension_n_m,
-          bridge.contact_angle_rad};
+          bridge.contact_angle_rad,
+          bridge.viscosity_pa_s};
 }
 
 /// A pair that comes together, is pressed, sheared, rolled and twisted, and is torn apart beyond rupture.
@@ -77,7 +78,8 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
     const ContactKinematics<double> kinematics{
         of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
         std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
-    const auto contact_force = act<Hertz, Attraction, Rolling>(pair, kinematics, history, kStep, Energies::none);
+    const auto contact_force =
+        act<Hertz, Attraction, Rolling, Attraction::present>(pair, kinematics, history, kStep, Energies::none);
     const Vec3 force = contact_force.tangential_force - contact_force.normal_force * kinematics.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
                                      mass, std::min(small, large)},

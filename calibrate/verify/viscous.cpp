@@ -1,0 +1,105 @@
+#include "calibrate/verify/viscous.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/laws/constants.h"
+
+namespace pastefit {
+
+namespace {
+
+Fault too_near() {
+  return {"expected.formula", "the pair comes nearer than the roughness", "another scene, or another formula"};
+}
+
+bool meets_grain(const Impact& scene) {
+  return scene.grains.size() > 1;
+}
+
+/// C_n [N m/(m/s)].
+double squeezing(const Impact& scene) {
+  const double share = meets_grain(scene) ? 1 : scene.walls[0].surface.cohesion_factor, radius = pair_of(scene).radius;
+  return 6 * std::numbers::pi * share * scene.contact.bridge.viscosity_pa_s * radius * radius;
+}
+
+double least_gap(const Impact& scene) {
+  return kRoughness * pair_of(scene).radius * (meets_grain(scene) ? 2 : 1);
+}
+
+/// Of two grains; of a grain above a plane through the origin.
+double first_gap(const Impact& scene) {
+  const ImpactGrain& grain = scene.grains[0];
+  if (!meets_grain(scene)) return grain.centre_m.z - grain.radius_m;
+  return norm(scene.grains[1].centre_m - grain.centre_m) - grain.radius_m - scene.grains[1].radius_m;
+}
+
+/// Of the sliding decay: what has become of a grain's velocity and spin.
+struct Sheared {
+  Vec3 velocity, spin;
+};
+
+Sheared sheared(const Impact& scene, std::size_t which) {
+  const Approach a = pair_of(scene);
+  const double gap = first_gap(scene);
+  const double drag = squeezing(scene) / a.radius * (8.0 / 15 * std::log(a.radius / gap) + 0.9588);
+  double lightness = 0;
+  Vec3 sliding = scene.grains[0].velocity_m_s - scene.grains[1].velocity_m_s;
+  for (const ImpactGrain& grain : scene.grains) {
+    const double mass = mass_kg(scene, grain), lever = grain.radius_m + 0.5 * gap;
+    lightness += 1 / mass + lever * lever / (0.4 * mass * grain.radius_m * grain.radius_m);
+    sliding += cross(lever * grain.spin_rad_s, a.normal);
+  }
+  sliding = sliding - dot(sliding, a.normal) * a.normal;
+  const Vec3 on_first = -(1 - std::exp(-drag * lightness * scene.duration_s)) / lightness * sliding;
+  const ImpactGrain& grain = scene.grains[which];
+  const double mass = mass_kg(scene, grain), lever = grain.radius_m + 0.5 * gap;
+  const double inertia = 0.4 * mass * grain.radius_m * grain.radius_m;
+  return {grain.velocity_m_s + (which == 0 ? 1 : -1) / mass * on_first,
+          grain.spin_rad_s + lever / inertia * cross(a.normal, on_first)};
+}
+
+double component(const Vec3& v, const std::string& axis) {
+  return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
+}
+
+}  // namespace
+
+Result<double> squeeze_force(const Impact& scene, const FormulaArguments& arguments) {
+  return -squeezing(scene) * pair_of(scene).speed / std::max(arguments.gap_m, least_gap(scene));
+}
+
+Result<double> squeezed_speed(const Impact& scene, const FormulaArguments&) {
+  const Approach a = pair_of(scene);
+  const double start = first_gap(scene), slope = squeezing(scene) / a.mass;
+  // With x = ln(h0/h): v = v0 - slope x, dt = h/v dx.
+  constexpr int kSteps = 200000;
+  const double farthest = std::log(start / least_gap(scene)), dx = farthest / kSteps;
+  double time = 0;
+  for (int n = 0; n < kSteps; ++n) {
+    const double x = (n + 0.5) * dx, speed = a.speed - slope * x;
+    if (!(speed > 0)) return 0.0;
+    const double duration = start * std::exp(-x) / speed * dx;
+    if (time + duration > scene.duration_s) return a.speed - slope * dx * (n + (scene.duration_s - time) / duration);
+    time += duration;
+  }
+  return too_near();
+}
+
+Result<double> settled_overlap(const Impact& scene, const FormulaArguments&) {
+  const double weight = mass_kg(scene, scene.grains[0]) * scene.gravity_m_s2;
+  const double gap = first_gap(scene) * std::exp(-weight * scene.duration_s / squeezing(scene));
+  if (gap < least_gap(scene)) return too_near();
+  return -gap;
+}
+
+Result<double> sheared_velocity(const Impact& scene, const FormulaArguments& arguments) {
+  return component(sheared(scene, arguments.grain).velocity, arguments.axis);
+}
+
+Result<double> sheared_spin(const Impact& scene, const FormulaArguments& arguments) {
+  return component(sheared(scene, arguments.grain).spin, arguments.axis);
+}
+
+}  // namespace pastefit
