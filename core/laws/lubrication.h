@@ -40,7 +40,8 @@ PASTEFIT_INLINE Real logarithm(Real x) {
 ///
 /// The coefficient is not reduced for the delay of half a step, so that steady flow has the viscosity it is given. Two
 /// bodies lose at most their whole relative velocity in a step; among many the bound of all dampers holds
-/// (laws/dashpots.h): where their sum X exceeds 2, each is weakened by X/2.
+/// (laws/dashpots.h): where their sum X exceeds 2, each is weakened by X/2. In the first step of a run, whose length is
+/// not known when forces are computed, dt is 0 and the liquid does nothing yet.
 template <class Real>
 PASTEFIT_INLINE Lubrication<Real> lubrication(const ConstantsOf<Real>& k, Real overlap, Real radius, Real size_scale,
                                               Real alive, Real inverse_mass, Real neighbour_damping, Real dt) {
@@ -52,7 +53,8 @@ PASTEFIT_INLINE Lubrication<Real> lubrication(const ConstantsOf<Real>& k, Real o
   const Real own_n = along * inverse_mass, own_t = Real(kSurfaceLightness) * across * inverse_mass;
   const Real brake_n = larger(dt * larger(half * neighbour_damping, own_n), one);
   const Real brake_t = larger(dt * larger(half * k.spin_damping_share * neighbour_damping, own_t), one);
-  return {along / brake_n, across / brake_t, along + across};
+  const auto begun = dt > Real(0.0);
+  return {select(begun, along / brake_n, Real(0.0)), select(begun, across / brake_t, Real(0.0)), along + across};
 }
 
 /// Adds lubrication to the force of a pair, and counts what it dissipates. `before` is the share of the tangential
