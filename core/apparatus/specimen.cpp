@@ -94,8 +94,7 @@ void check_viscosity(FieldChecker& check, const Specimen& specimen) {
   check.require(!(viscosity > largest), "contact.bridge.viscosity_pa_s",
                 "is " + FieldChecker::text(viscosity) + " Pa s, which would need time steps of less than a twentieth",
                 "give at most " + FieldChecker::text(largest) +
-                    " Pa s; larger or stiffer grains can have more, in proportion to the radius and to the root of "
-                    "youngs_modulus_pa");
+                    " Pa s; larger or stiffer grains (youngs_modulus_pa) can have more");
 }
 
 }  // namespace

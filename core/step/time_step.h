@@ -25,7 +25,7 @@ struct StabilityLimits {
 double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options);
 
 /// The largest viscosity that grains of this size and mass can have [Pa s]: beyond it the step would be less than a
-/// twentieth of what the springs of such grains allow at their resting overlap. It goes with sqrt(E) and with R.
+/// twentieth of what the springs of such grains allow at their resting overlap. It goes with R, and grows with the modulus.
 /// Requirement: the model has a bridge.
 double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options = {});
 

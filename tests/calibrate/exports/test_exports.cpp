@@ -192,6 +192,22 @@ TEST_CASE("a law that an exporter was not told of is refused, not misread") {
   }
 }
 
+TEST_CASE("a viscosity is written for LAMMPS's style, and refused where the target lacks it") {
+  ExportScene one = scene(slump_of_paste());
+  specimen_of(one.test).contact.bridge.viscosity_pa_s = 2.5;
+  for (const auto& exporter : exporters()) {
+    INFO(exporter.name);
+    const auto written = exporter.write(one);
+    REQUIRE(written.ok() == (exporter.name == std::string("lammps")));
+    if (written.ok()) {
+      CHECK_THAT(text_of(written.value()), Catch::Contains("viscosity_pa_s 2.5"));
+    } else {
+      CHECK(written.faults().size() == 1);
+      CHECK(written.faults()[0].where == "test.contact.bridge.viscosity_pa_s");
+    }
+  }
+}
+
 TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table") {
   auto several = scene(slump_of_paste());
   several.packing.radii = {0.006, 0.008, 0.010};

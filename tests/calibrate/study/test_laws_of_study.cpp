@@ -101,6 +101,24 @@ TEST_CASE("a law of the overlap that goes beside no bridge is refused beside one
   }
 }
 
+TEST_CASE(
+    "a viscosity that no step carries is a fault of the study that names the largest, at the worst corner of its "
+    "bounds") {
+  json document = Desk::study();
+  document["parameters"]["viscosity_pa_s"] = {{"free", {0, 3}}};
+  CHECK(Desk().faults(document).empty());
+  document["parameters"]["viscosity_pa_s"] = {{"free", {0, 900}}};
+  const Faults faults = Desk().faults(document);
+  REQUIRE(faults.size() == 1);
+  CHECK(says(at(faults, "parameters.viscosity_pa_s"), "is 900 Pa s"));
+  CHECK(says(at(faults, "parameters.viscosity_pa_s"), "give at most "));
+  document["parameters"]["youngs_modulus_pa"] = {{"free", {1e6, 1e9}}};
+  document["parameters"]["viscosity_pa_s"] = {{"value", 60}};
+  CHECK(says(at(Desk().faults(document), "parameters.viscosity_pa_s"), "is 60 Pa s"));
+  document["parameters"]["youngs_modulus_pa"] = {{"value", 1e9}};
+  CHECK(Desk().faults(document).empty());
+}
+
 TEST_CASE("without an attraction nothing is asked of a film") {
   json document = Desk::study();
   document["contact"] = {{"attraction", "none"}, {"formation", "touch"}};
