@@ -8,6 +8,8 @@
 #include "calibrate/base/format.h"
 #include "calibrate/exports/nearest_law.h"
 #include "calibrate/store/program.h"
+#include "core/laws/constants.h"
+#include "core/step/time_step.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -90,8 +92,11 @@ double deck_time_step_s(const ExportScene& scene) {
   const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
   double smallest = std::ranges::min(scene.sizes.radii_m);
   if (!scene.slump() && scene.grains().distribution != SizeDistribution::mono) smallest = scene.grains().smallest_m;
-  const double step = 0.1 * std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
-                      (0.1631 * contact.poissons_ratio + 0.8766);
+  const double rayleigh = std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
+                          (0.1631 * contact.poissons_ratio + 0.8766);
+  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(smallest, 3) * scene.grain_density_kg_m3;
+  const double step =
+      std::min(0.1 * rayleigh, 0.5 * viscous_step(grain_pair(contact, scene.radius_m()), smallest, mass));
   const double digit = std::pow(10, std::floor(std::log10(step)) - 1);
   return std::floor(step / digit) * digit;
 }

@@ -55,7 +55,7 @@ std::string grains_data(const ExportScene& scene, std::span<const double> radii_
 std::vector<ExportWall> walls_in_deck(const ExportScene& scene);
 
 /// Tenth of the Rayleigh time of the smallest grain [s], rounded down to two digits: pi R sqrt(rho/G)/(0.1631 nu +
-/// 0.8766).
+/// 0.8766). With a viscous bridge at most half of what its dampers are stable with, as those styles do not weaken them.
 double deck_time_step_s(const ExportScene& scene);
 
 }  // namespace pastefit

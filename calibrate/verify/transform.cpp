@@ -57,6 +57,7 @@ Shape shape_of(const Shape& shape, Transform transform) {
 void lengthen(Impact& test) {
   const double k = kLonger;
   test.contact = enlarged(test.contact, k);
+  test.contact.bridge.viscosity_pa_s *= k;  // a stress over a rate, and times grow
   test.reference_radius_m *= k;
   test.gravity_m_s2 /= k;
   test.duration_s *= k;

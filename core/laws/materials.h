@@ -98,7 +98,7 @@ struct ContactModel {
 };
 
 /// The same material for grains k times as large: forces go with the square of the length, the bridge's b with the
-/// length, its a not at all, so that F/R^2 stays the same function of d/R. Requirement: k > 0.
+/// length, its a and its viscosity not at all, so that F/R^2 stays the same function of d/R. Requirement: k > 0.
 ContactModel enlarged(ContactModel model, double k);
 /// All lengths times k.
 GrainSizes enlarged(GrainSizes grains, double k);

@@ -49,20 +49,18 @@ double bridge_limit(const World& world, const StabilityLimits& limits) {
   return gap / std::clamp(limits.fastest, kSlowest, std::max(kSlowest, kFastCrossing * escape));
 }
 
-/// Viscous dampers of a grain are stable together while dt (sum of c/m over both bodies of a pair) is at most 2
-/// (core/laws/lubrication.h).
-double viscous_limit(const PairConstants& pair, double radius, double mass) {
+}  // namespace
+
+double viscous_step(const PairConstants& pair, double radius, double mass) {
   if (pair.viscosity == 0) return 1e300;
   const double effective = 0.5 * radius, scale = pair.size_per_radius * effective;
   return mass / (kNarrowGaps * lubrication(pair, 0.0, effective, scale, 1.0, 0.0, 0.0, 0.0).damping);
 }
 
-}  // namespace
-
 double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options) {
   return std::min({options.safety * stability_limit(limits), impact_limit(world, limits) / options.impact_resolution,
                    bridge_limit(world, limits) / options.bridge_resolution,
-                   viscous_limit(world.grain_pair, limits.smallest_radius, limits.smallest_mass)});
+                   viscous_step(world.grain_pair, limits.smallest_radius, limits.smallest_mass)});
 }
 
 double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options) {
@@ -72,7 +70,7 @@ double largest_viscosity(ContactModel model, double radius, double mass, const S
   const double stiffness = pair.normal_stiffness * std::sqrt(0.5 * radius * std::max(overlap, kLeastOverlap * radius)) *
                            std::max(1.0, kSurfaceLightness * pair.tangential_ratio);
   const double step = options.safety * stability_limit({.stiffest = kNarrowGaps * stiffness / mass});
-  return kMostViscousSteps * viscous_limit(pair, radius, mass) / step;
+  return kMostViscousSteps * viscous_step(pair, radius, mass) / step;
 }
 
 bool TimeStep::is_sound() const {

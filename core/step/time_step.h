@@ -24,9 +24,14 @@ struct StabilityLimits {
 ///   viscous liquid: the dampers of a grain with eight neighbours at the roughness need not be weakened to be stable.
 double advised_step(const World& world, const StabilityLimits& limits, const StepOptions& options);
 
+/// Steps up to this keep the viscous dampers of a grain with eight neighbours at the roughness stable without weakening
+/// them: dt (sum of c/m over both bodies of a pair) is at most 2 [s] (core/laws/lubrication.h). 1e300 without
+/// viscosity.
+double viscous_step(const PairConstants& pair, double radius, double mass);
+
 /// The largest viscosity that grains of this size and mass can have [Pa s]: beyond it the step would be less than a
-/// twentieth of what the springs of such grains allow at their resting overlap. It goes with R, and grows with the modulus.
-/// Requirement: the model has a bridge.
+/// twentieth of what the springs of such grains allow at their resting overlap. It goes with R, and grows with the
+/// modulus. Requirement: the model has a bridge.
 double largest_viscosity(ContactModel model, double radius, double mass, const StepOptions& options = {});
 
 /// The step a run takes: as advised, but constant for long. A step that follows the stiffness of a contact up and down
