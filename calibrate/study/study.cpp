@@ -116,8 +116,10 @@ std::vector<double> thickest(const Study& study) {
 Faults validate_points(const Study& study) {
   const auto free = static_cast<std::size_t>(free_count(study));
   using Point = std::vector<double>;
-  for (const Point& point :
-       {Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study), thickest(study)}) {
+  std::vector<Point> points{Point(free, 0.5), Point(free, 0.0), Point(free, 1.0), most_squeezed(study)};
+  const auto is_viscosity = [](const Parameter& one) { return one.free && one.name == "viscosity_pa_s"; };
+  if (std::ranges::any_of(study.parameters, is_viscosity)) points.insert(points.begin(), thickest(study));
+  for (const Point& point : points) {
     const std::vector<double> values = values_at(study, point);
     for (const StudyTest& test : study.tests)
       if (Faults faults = validate_in_file_words(test_with(test.lab.test, values, 1)); !faults.empty()) return faults;

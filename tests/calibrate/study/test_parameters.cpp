@@ -245,8 +245,9 @@ TEST_CASE("the same parameters for larger grains are the enlarged material, what
       CHECK(made.cohesion_energy_density_pa == grown.cohesion_energy_density_pa);
       CHECK(*made.cohesion_n == Approx(*grown.cohesion_n));
       using Number = double Bridge::*;
-      for (const Number number : {&Bridge::a_n_m2, &Bridge::b_n_m, &Bridge::c_n, &Bridge::d_c_m, &Bridge::offset_m,
-                                  &Bridge::liquid_volume_m3, &Bridge::surface_tension_n_m, &Bridge::contact_angle_rad})
+      for (const Number number :
+           {&Bridge::a_n_m2, &Bridge::b_n_m, &Bridge::c_n, &Bridge::d_c_m, &Bridge::offset_m, &Bridge::liquid_volume_m3,
+            &Bridge::surface_tension_n_m, &Bridge::contact_angle_rad, &Bridge::viscosity_pa_s})
         CHECK(made.bridge.*number == Approx(grown.bridge.*number));
     }
 }
@@ -269,8 +270,8 @@ TEST_CASE("a parameter belongs to the laws that name it, and to every test if no
   laws.bridge.shape = BridgeShape::exponential;
   CHECK(missing() == Names{"adhesion_pa", k, "rupture_force_ratio", "curvature"});
   laws.bridge.shape = BridgeShape::none;
-  const Names of_attractions{"strength_pa",     "rupture_force_ratio", "curvature",
-                             "formation_ratio", "rupture_gap_ratio",   "cohesion_ratio"};
+  const Names of_attractions{"strength_pa",       "rupture_force_ratio", "curvature",     "formation_ratio",
+                             "rupture_gap_ratio", "cohesion_ratio",      "viscosity_pa_s"};
   for (const NormalLaw law : {NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr}) {
     laws.normal = law;
     Names missed = of_attractions;
