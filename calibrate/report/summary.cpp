@@ -74,8 +74,7 @@ std::string yield_stress_lines(const Card& card) {
                     one.pa, std::string(one.formula).c_str());
     }
   }
-  return out.empty() ? out
-                     : "Yield stress that a fluid with this reading would have (nothing is fitted to it)\n" + out;
+  return out.empty() ? out : "Yield stress that a fluid with this reading would have (nothing is fitted to it)\n" + out;
 }
 
 std::string hold_out_lines(const Card& card) {
