@@ -199,13 +199,13 @@ Result<Apparatus> apparatus_from_json(const json& document) {
     read_material(reader, apparatus.test);
     read_grains(reader, apparatus.test, Need::required);
     reader.text("caution", apparatus.caution, Need::optional);
-    if (faults.size() == before)
-      read_customary(reader, apparatus);
-    else
-      reader.known("readings");
     apparatus.test = with_default_contact(apparatus.test);
     if (faults.size() == before)
       for (Fault& fault : validate_in_file_words(apparatus.test)) faults.push_back(std::move(fault));
+    if (faults.size() == before)
+      read_customary(reader, apparatus);  // what a reading may be depends on the apparatus
+    else
+      reader.known("readings");
   }
   if (!faults.empty()) return faults;
   json simulated = document;

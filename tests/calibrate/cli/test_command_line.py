@@ -403,7 +403,7 @@ class CommandLine(Desk):
 
     def test_templates_are_printed(self):
         self.assertIn("lifted-cylinder", run("template", "lab", "--mould", "lifted-cylinder").stdout)
-        self.fails(run("template", "lab", "--mould", "abrams"), 2, "has no lab of its own", "lifted-cylinder")
+        self.fails(run("template", "study", "--mould", "abrams"), 2, "has no study of its own", "lifted-cylinder")
         self.fails(run("template", "pellet-lab", "--mould", "lifted-cylinder"), 2, "pellet-lab")
         self.fails(run("template", "nonsense"), 2, "nonsense")
         self.assertIn("pastefit-study-1", run("template", "study").stdout)
