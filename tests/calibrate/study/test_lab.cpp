@@ -432,6 +432,7 @@ TEST_CASE("a curve of the spread is read into SI; one that runs back in time is 
 TEST_CASE("an angle of repose without the speed of the lift is noted, because it depends on it") {
   json document = lab();
   document["apparatus"] = {{"preset", "lifted-cylinder"}};
+  document["grains"] = {{"distribution", "mono"}, {"radius_mm", 2.5}};
   document["measurements"] = {{"step1.angle_of_repose_deg", {{"value", 27}, {"standard_deviation", 1.5}}}};
   const auto notes = [&] { return lab_from_json(document, PASTEFIT_SOURCE_DIR "/data/lab").value().notes; };
   REQUIRE(notes().size() == 1);
