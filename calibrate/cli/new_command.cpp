@@ -51,7 +51,7 @@ Faults faults_of_text(const Result<std::vector<double>>& read) {
 }
 
 /// For people.
-std::string unit_of(const ShortReading& reading) {
+std::string unit_in_words(const ShortReading& reading) {
   return reading.name == "mass" ? "kg" : reading.name == "angle" ? "degrees" : "mm";
 }
 
@@ -67,7 +67,7 @@ bool ask_readings(Sheet& sheet, const SlumpTest& test) {
     const bool height = one.name == "height" && !sheet.readings.empty();  // a slump is one
     if (height) continue;
     const auto answer = answer_to(
-        std::string(one.name) + ", " + std::string(one.meaning) + " (" + unit_of(one) +
+        std::string(one.name) + ", " + std::string(one.meaning) + " (" + unit_in_words(one) +
             "; repeats as \"180, 175, 190\"; empty: not measured)",
         "", [&](const std::string& text) {
           return text.empty() ? Faults{}
@@ -198,9 +198,9 @@ Command add_new(CLI::App& verb) {
   options->by_name.reserve(short_readings().size());
   for (const ShortReading& one : short_readings()) {
     options->by_name.emplace_back(one.name, "");
-    verb.add_option(
-            "--" + std::string(one.name), options->by_name.back().second,
-            std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " + unit_of(one) + " or with their unit")
+    verb.add_option("--" + std::string(one.name), options->by_name.back().second,
+                    std::string(one.meaning) + ": repeats as \"180, 175, 190\", in " + unit_in_words(one) +
+                        " or with their unit")
         ->type_name("VALUES");
   }
   verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")

@@ -153,8 +153,8 @@ bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
     const bool time = (unit && unit->key == "s") || key.find("t500") != std::string::npos || key.ends_with("t50");
     if (!time || std::ranges::count(own, key, &ReadingKind::key) > 0) continue;
     reader.refuse(key, "is a time that is not read",
-                  "of a slump test step1.t500_s, the time to a spread of apparatus.reading.flow.diameter_mm, and "
-                  "step1.flow_time_s; else leave it out");
+                  "a flow has step1.t500_s, the time to a spread of apparatus.reading.flow.diameter_mm, and "
+                  "step1.flow_time_s; leave out others");
     any = true;
   }
   return any;

@@ -18,8 +18,8 @@ namespace {
 // Parameter j of corner n is at its upper end where n and column j have an odd number of bits in common. No four or
 // fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Found one after the other,
 // each the smallest that will do.
-constexpr std::array<unsigned, 19> kColumns{1,   2,   4,   8,   15,  16,  32,  51,  64, 85,
-                                            106, 128, 150, 171, 219, 237, 247, 256, 279};
+constexpr std::array<unsigned, 20> kColumns{1,   2,   4,   8,   15,  16,  32,  51,  64,  85,
+                                            106, 128, 150, 171, 219, 237, 247, 256, 279, 297};
 
 constexpr bool have_strength_4() {
   for (const unsigned a : kColumns)
@@ -32,6 +32,9 @@ constexpr bool have_strength_4() {
   return true;
 }
 static_assert(have_strength_4());
+
+// Beyond this the step shrinks with the viscosity, and soft grains are refused.
+constexpr double kMostViscous = 1;  // [Pa s]
 
 /// The n-th of the choices of a law.
 template <class Law>
@@ -56,7 +59,7 @@ StressCase case_at(const std::vector<double>& unit, int number, const RandomStre
     const Parameter parameter{.name = std::string(kind.name),
                               .free = true,
                               .lower = kind.smallest,
-                              .upper = kind.largest,
+                              .upper = kind.name == "viscosity_pa_s" ? kMostViscous : kind.largest,
                               .scale = kind.scale};
     values.push_back(value_between(parameter, unit[values.size()]));
   }
