@@ -55,7 +55,8 @@ class BadInput(Desk):
     def test_schema_and_program_agree_on_the_bounds_of_every_apparatus(self):
         # Where another length or the granules say how far one may go, the program may be stricter at that end.
         stricter = {"top_diameter_mm", "probe_diameter_mm", "die_diameter_mm", "length_mm", "width_mm", "fill_height_mm",
-                    "sag_window_mm", "lift_height_mm", "pressed_height_mm", "ribs", "speed_mm_s", "speedup", "flow.diameter_mm"}
+                    "sag_window_mm", "lift_height_mm", "pressed_height_mm", "ribs", "speed_mm_s", "speedup",
+                    "flow.diameter_mm", "flank."}
         schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
         presets, _, *others = schema["properties"]["apparatus"]["oneOf"]
         checked = 0
