@@ -1,9 +1,35 @@
 #include "calibrate/exports/lammps_log.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <locale>
+#include <sstream>
+#include <string>
 
 namespace pastefit {
+
+namespace {
+
+/// The words of a line, numbers as in C whatever the locale.
+std::istringstream words_of(const std::string& line) {
+  std::istringstream words(line);
+  words.imbue(std::locale::classic());
+  return words;
+}
+
+/// "Loop time of 1.5 on 2 procs ...".
+bool is_loop(const std::string& line, double& seconds, int& ranks) {
+  std::string loop, time, of, on;
+  auto words = words_of(line);
+  words >> loop >> time >> of >> seconds >> on >> ranks;
+  return words && loop == "Loop" && time == "time" && of == "of" && on == "on";
+}
+
+/// "99.5% CPU use with ...".
+bool is_share(const std::string& line, double& percent) {
+  return line.find("% CPU use") != std::string::npos && words_of(line) >> percent && percent > 0;
+}
+
+}  // namespace
 
 LammpsLog read_lammps_log(std::string_view text) {
   LammpsLog log;
@@ -24,12 +50,11 @@ LammpsLog read_lammps_log(std::string_view text) {
       if (log.copies++ == 0) log.program = line;
     } else if (line.starts_with("ERROR")) {
       if (log.error.empty()) log.error = line;
-    } else if (std::sscanf(line.c_str(), "Loop time of %lf on %d procs", &seconds, &ranks) == 2) {
+    } else if (is_loop(line, seconds, ranks)) {
       end_of_loop();
       loop_s = std::max(0.0, seconds);
       log.ranks = std::max(log.ranks, ranks);
-    } else if (line.find("% CPU use") != std::string::npos && std::sscanf(line.c_str(), "%lf", &percent) == 1 &&
-               percent > 0) {
+    } else if (is_share(line, percent)) {
       share = percent / 100;
     } else if (line.starts_with("Total wall time:")) {
       log.ended = true;

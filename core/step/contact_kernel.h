@@ -314,12 +314,13 @@ void pair_kernel(const KernelTask& task) {
       const Pairing p = pairing(task, i, j);
       if (k < task.stretch.near || some_touch(p, batch, lane)) {
         act_on_pairs<Normal, Attraction, Rolling, viscous>(task, pair, dt, i, j, p, batch, lane, tally);
-      } else if constexpr (viscous) {
-        lubricate_pairs<Attraction>(task, pair, dt, i, j, p, batch, lane, tally);
-      } else if constexpr (Attraction::present) {
-        const Real sqrt_radius = Real::load(batch.sqrt_radius + lane);
-        attract_pairs<Attraction>(task, pair, pair.size_per_radius * (sqrt_radius * sqrt_radius), i, j, p, batch, lane,
-                                  tally);
+      } else {
+        if constexpr (viscous) lubricate_pairs<Attraction>(task, pair, dt, i, j, p, batch, lane, tally);
+        if constexpr (Attraction::present && !viscous) {
+          const Real sqrt_radius = Real::load(batch.sqrt_radius + lane);
+          attract_pairs<Attraction>(task, pair, pair.size_per_radius * (sqrt_radius * sqrt_radius), i, j, p, batch,
+                                    lane, tally);
+        }
       }
     }
   }
