@@ -10,7 +10,7 @@ namespace pastefit {
 namespace {
 
 /// The words of a line, numbers as in C whatever the locale.
-std::istringstream words_of(const std::string& line) {
+std::istringstream line_stream(const std::string& line) {
   std::istringstream words(line);
   words.imbue(std::locale::classic());
   return words;
@@ -19,14 +19,14 @@ std::istringstream words_of(const std::string& line) {
 /// "Loop time of 1.5 on 2 procs ...".
 bool is_loop(const std::string& line, double& seconds, int& ranks) {
   std::string loop, time, of, on;
-  auto words = words_of(line);
+  auto words = line_stream(line);
   words >> loop >> time >> of >> seconds >> on >> ranks;
   return words && loop == "Loop" && time == "time" && of == "of" && on == "on";
 }
 
 /// "99.5% CPU use with ...".
 bool is_share(const std::string& line, double& percent) {
-  return line.find("% CPU use") != std::string::npos && words_of(line) >> percent && percent > 0;
+  return line.find("% CPU use") != std::string::npos && line_stream(line) >> percent && percent > 0;
 }
 
 }  // namespace
