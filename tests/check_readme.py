@@ -77,7 +77,8 @@ class Readme(unittest.TestCase):
                 self.assertEqual("step 1 only" in cells[1], steps == ["step1"], name)
                 self.assertEqual(cells[1].startswith("step 2"), steps == ["step2"], name)
                 told |= {f"{step}.{name}" for step in steps}
-        told |= set(re.findall(r"In a laboratory file: `([\w.]+)`", MANUAL))
+        for line in re.findall(r"In a laboratory file: (.*)", MANUAL):
+            told |= set(re.findall(r"`(\w+\.\w+)`", line))
         told |= {key for cells in rows("test") for key in re.findall(r"`(\w+\.\w+)`", cells[-1])}
         self.assertEqual(told, keys)
 
