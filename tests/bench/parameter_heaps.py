@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a parameter does to heaps that shear off: packings of a card with other values, counted and averaged.
 
-usage: viscous_heaps.py PROGRAM CARD TABLE.csv [--set NAME=VALUE ...] --vary NAME=VALUE,VALUE... [--packings 201:217] [--jobs 2]
+usage: parameter_heaps.py PROGRAM CARD TABLE.csv [--set NAME=VALUE ...] --vary NAME=VALUE,VALUE... [--packings 201:217] [--jobs 2]
 
 Each value of the varied parameter, with the other values of --set for all of them. A row: the label, the value, heaps that ran,
 how many sheared off (top shifted by more than 0.4 of the mould's base radius), height and spread of those that stand (all, where
