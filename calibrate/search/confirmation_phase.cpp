@@ -17,18 +17,23 @@ bool ConfirmationPhase::confirm(bool whatever_it_does) {
   state_.history.enter("confirmation");
   state_.history.hold_back(0);
   const UnitPoint candidate = state_.ranking().best();
+  std::vector<std::uint64_t> fresh = state_.fresh_packings(first_packings());
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
-  std::vector<std::uint64_t> fresh = state_.fresh_packings(static_cast<int>((all + 3) / 4));
-  Response confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
+  const auto least = std::max<std::size_t>(all, 2);  // of a single packing the noise is not known
+  Response confirmation;
   Verdict verdict = Verdict::undecided;
-  if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely) verdict = Verdict::refuted;
-  while (verdict == Verdict::undecided && fresh.size() < most_confirmations * all && !state_.history.stop_requested()) {
-    const std::size_t more = fresh.size() < all ? all - fresh.size() : fresh.size();
+  while (true) {
+    confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
+    const std::size_t asked = fresh.size();
+    if (asked >= least)
+      verdict = verdict_on(confirmation, state_.scoring().rejected_share());
+    else if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely)
+      verdict = Verdict::refuted;
+    if (asked >= least && packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
+    if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested()) break;
+    const std::size_t more = asked < all ? all - asked : asked;
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
-    confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
-    verdict = verdict_on(confirmation, state_.scoring().rejected_share());
-    if (packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
   }
   if (state_.history.stop_requested()) return false;
   ++rounds_;
@@ -37,6 +42,11 @@ bool ConfirmationPhase::confirm(bool whatever_it_does) {
   report(confirmation);
   state_.history.hold_back(state_.options.confirmation_packings);
   return confirmed_;
+}
+
+int ConfirmationPhase::first_packings() const {
+  const int all = state_.options.confirmation_packings;
+  return state_.options.max_pending > 0 ? all : (all + 3) / 4;
 }
 
 void ConfirmationPhase::report(const Response& confirmation) {

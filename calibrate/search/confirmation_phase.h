@@ -12,7 +12,8 @@ class ConfirmationPhase {
 
   /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
   /// quarter of them is asked first: if it is unlikely then that it will do, the others are saved, but for
-  /// `whatever_it_does`.
+  /// `whatever_it_does`. With `SearchOptions::max_pending`, when workers would be idle meanwhile, all are asked at
+  /// once.
   bool confirm(bool whatever_it_does);
   /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them. They may prove
   /// wrong what broke it off.
@@ -25,6 +26,7 @@ class ConfirmationPhase {
   const Response& confirmation() const { return confirmation_; }  ///< the same on the fresh ones
 
  private:
+  int first_packings() const;
   /// The result is this candidate, judged on fresh packings, if no better one was.
   void report(const Response& confirmation);
 

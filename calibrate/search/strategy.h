@@ -23,10 +23,10 @@ namespace pastefit {
 ///   3. Refinement: Ceres on the residuals on the common packings, if no candidate is likely to do and the noise of
 ///      these packings is less than what is allowed.
 ///   4. Confirmation of the likely best candidate on fresh packings: a quarter of them first, and no more if it is
-///      unlikely then that it will do; up to eight times as many as the options say while their noise hides whether it
-///      meets the laboratory (`confirmation.h`). If it does not for certain, the candidate is out and the search goes
-///      on from 2 with what all of them taught. Limit: a mean that is looked at up to four times is a little kinder
-///      than one that is looked at once.
+///      unlikely then that it will do, or with `max_pending` all at once; up to eight times as many as the options say
+///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the
+///      candidate is out and the search goes on from 2 with what all of them taught. Limit: a mean that is looked at up
+///      to four times is a little kinder than one that is looked at once.
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, scoring.parameters(),

@@ -84,7 +84,8 @@ struct SearchOptions {
   int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< simulations in all, confirmation included
   int packings = 2;                  ///< random packings on which candidates are tried in turn
-  int max_pending = 0;               ///< candidates that may be under way when the next one is proposed
+  int max_pending = 0;               ///< candidates that may be under way when the next one is proposed; above 0 a
+                                     ///< confirmation asks for all its packings at once
   int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
   double rejected_share = 0.2;  ///< of heaps that a laboratory would reject, at most; 1: not judged. Not stated: as
                                 ///< many as the laboratory's own, if that is more

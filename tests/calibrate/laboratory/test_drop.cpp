@@ -70,7 +70,8 @@ TEST_CASE("faults of a drop test are named in the words of its file") {
   CHECK(test::says(test::at(faults_of(lab), "apparatus.preset"), "another test"));
 }
 
-TEST_CASE("restitution and friction of the drop twin are found, confirmed, and lie where they are told to") {
+TEST_CASE("restitution and friction of the drop twin are found, confirmed, and lie where they are told to",
+          "[campaign]") {
   Twin twin;
   INFO(twin.calibration.reason);
   CHECK(twin.calibration.status == CalibrationStatus::confirmed);

@@ -1,5 +1,6 @@
 #include "calibrate/search/confirmation.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -229,4 +230,27 @@ TEST_CASE("a material is confirmed for how its heaps stand, not for their mean a
   CHECK(confirmed >= 18);
   CHECK(stand >= 0.85 * confirmed);
   CHECK(would_keep < keep);
+}
+
+TEST_CASE("a quarter of a confirmation is asked first, and all of it at once where workers would be idle") {
+  for (const int max_pending : {0, 1}) {
+    CAPTURE(max_pending);
+    Synthetic slump = fake_slump(150, 1);
+    SearchOptions options = generous_options(1);
+    options.max_pending = max_pending;
+    Search search(slump, options, {.simulations = options.budget_simulations});
+    std::ptrdiff_t asked_at_once = 0;
+    while (!search.finished()) {
+      const std::vector<Candidate> candidates = search.suggest(64);
+      if (asked_at_once == 0) asked_at_once = std::ranges::count(candidates, "confirmation", &Candidate::purpose);
+      for (const Candidate& one : candidates) {
+        const auto answer = one.may_end_early ? &Objective::try_out : &Objective::evaluate;
+        const Response response = (slump.*answer)({&one.point, 1}, {&one.packing, 1}).at(0);
+        const CandidateResult result{one.number, response.evaluations.at(0)};
+        search.ingest({&result, 1});
+      }
+    }
+    CHECK(asked_at_once == (max_pending == 0 ? 2 : 8));
+    CHECK(search.result().status == CalibrationStatus::confirmed);
+  }
 }
