@@ -137,7 +137,8 @@ BatchRow row_of(const BatchStudy& one) {
     if (const auto store = Store::read(one.folder / kStore); store.ok()) {
       const auto evaluations = store.value().all();
       row.simulations = static_cast<int>(evaluations.size());
-      for (const StoredEvaluation& evaluation : evaluations) row.core_s += evaluation.wall_s;
+      for (const StoredEvaluation& evaluation : evaluations)
+        row.core_s += evaluation.core_s > 0 ? evaluation.core_s : evaluation.wall_s;
     }
   if (const auto failure = read_failure(one)) {
     row.verdict = failure->status;

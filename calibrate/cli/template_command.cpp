@@ -18,13 +18,17 @@ struct TemplateOptions {
   std::string name, target, mould;
 };
 
-/// The starting files of a mould for dry materials, or the laboratory file with what belongs to a mould.
+/// The starting files of a mould for dry materials; of another one its laboratory file, and the study of every slump
+/// test.
 Result<std::string> template_of_mould(const TemplateOptions& options) {
   if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
-  if (options.name != "lab")
-    return Faults{{"--mould " + printable(options.mould), "has no " + printable(options.name) + " of its own",
-                   "template lab --mould ..., or --mould lifted-cylinder with lab or study"}};
-  return slump_lab_template(options.mould, ".");
+  if (options.name != "lab" && options.name != "study")
+    return Faults{{"--mould " + printable(options.mould),
+                   "goes with lab and study, not with " + printable(options.name),
+                   "template lab --mould ..., template study --mould ..."}};
+  auto lab = slump_lab_template(options.mould, ".");
+  if (lab.ok() && options.name == "study") return *template_text("study");
+  return lab;
 }
 
 int print_template(const TemplateOptions& options, const std::string& names) {
@@ -59,8 +63,8 @@ Command add_template(CLI::App& verb) {
   verb.add_option("--for", options->target, "with the laws that this program runs exactly: " + names_of_targets())
       ->type_name("PROGRAM");
   verb.add_option("--mould", options->mould,
-                  "of the laboratory file: a preset, whose table, grains and customary readings it then has (abrams, "
-                  "mini-cone, haegermann-table, ...); lifted-cylinder has a study, too")
+                  "with lab or study: a preset, whose table, grains and customary readings a laboratory file then has "
+                  "(abrams, mini-cone, haegermann-table, ...); lifted-cylinder has a study of its own")
       ->type_name("PRESET");
   return [options, names] { return print_template(*options, names); };
 }

@@ -231,12 +231,13 @@ void SimulationObjective::run(Task& task) {
   evaluation.sketch = sketcher.sketch(outcome);
   if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.cutoff.value());
   evaluation.wall_s = seconds_since(start);
+  evaluation.core_s = thread_seconds() - core_start;
   task.finished = true;
 
   auto faults = store_.add(evaluation);
   {
     const std::lock_guard lock(mutex_);
-    counts_.core_s += thread_seconds() - core_start;
+    counts_.core_s += evaluation.core_s;
   }
   if (!faults.empty()) {
     const std::lock_guard lock(mutex_);

@@ -103,6 +103,7 @@ Faults defects(Database& database, const std::string& file) {
 
 std::string text_of_run(const StoredEvaluation& evaluation) {
   auto run = to_json(evaluation.run, evaluation.wall_s);
+  if (evaluation.core_s > 0) run["core_s"] = number_to_json(evaluation.core_s);
   if (!evaluation.sketch.points.empty()) run["sketch"] = to_json(evaluation.sketch);
   return run.dump();
 }
@@ -179,6 +180,7 @@ StoredEvaluation evaluation_of(const Row& row) {
   out.run = run_from_json(run);
   if (const auto sketch = run.find("sketch"); sketch != run.end()) out.sketch = sketch_from_json(*sketch);
   out.wall_s = number_from_json(run.at("wall_s"));
+  if (const auto core = run.find("core_s"); core != run.end()) out.core_s = number_from_json(*core);
   refuse_what_nothing_stored(out);
   return out;
 }

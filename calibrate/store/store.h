@@ -32,6 +32,7 @@ struct StoredEvaluation {
   RunSummary run;
   Sketch sketch;      ///< without points if there is none
   double wall_s = 0;  ///< time the simulation took
+  double core_s = 0;  ///< processor time; 0: not known, as of an older store or a foreign simulator
 };
 
 /// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of all that the test (its packing seed

@@ -403,7 +403,9 @@ class CommandLine(Desk):
 
     def test_templates_are_printed(self):
         self.assertIn("lifted-cylinder", run("template", "lab", "--mould", "lifted-cylinder").stdout)
-        self.fails(run("template", "study", "--mould", "abrams"), 2, "has no study of its own", "lifted-cylinder")
+        self.assertEqual(run("template", "study", "--mould", "abrams").stdout, run("template", "study").stdout)
+        self.assertNotEqual(run("template", "study", "--mould", "lifted-cylinder").stdout, run("template", "study").stdout)
+        self.fails(run("template", "study", "--mould", "none-such"), 2, "none-such")
         self.fails(run("template", "pellet-lab", "--mould", "lifted-cylinder"), 2, "pellet-lab")
         self.fails(run("template", "nonsense"), 2, "nonsense")
         self.assertIn("pastefit-study-1", run("template", "study").stdout)

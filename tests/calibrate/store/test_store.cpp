@@ -49,6 +49,7 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   CHECK(found->run.particle_steps == kept.run.particle_steps);
   CHECK(same_bits(found->run.time_step_s, kept.run.time_step_s));
   CHECK(same_bits(found->wall_s, kept.wall_s));
+  CHECK(same_bits(found->core_s, kept.core_s));
   CHECK(found->sketch.heap);
   CHECK(found->sketch.points == kept.sketch.points);
 }
