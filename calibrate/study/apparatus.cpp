@@ -142,9 +142,10 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
   return preset;
 }
 
-void read_material(ObjectReader& document, Test& test) {
+void read_material(ObjectReader& document, Test& test, const std::function<void(ObjectReader& material)>& further) {
   document.object("material", Need::required, [&](ObjectReader& material) {
     material.number("bulk_density_kg_m3", specimen_of(test).bulk_density_kg_m3, {100, 10000}, Need::required);
+    if (further) further(material);
   });
 }
 
