@@ -1,6 +1,6 @@
 // What the readings of a test say of its material as a fluid with a yield stress.
 import { element, table } from "./dom.js";
-import { wordsAndUnit } from "./names.js";
+import { words } from "./names.js";
 import { number, plusMinus } from "./numbers.js";
 
 /** @typedef {import("./content.js").Test} Test */
@@ -22,7 +22,7 @@ export function yieldStressTable({ yield_stress: stresses, measured_yield_stress
     element(
       "tr",
       {},
-      element("th", { scope: "row" }, `${wordsAndUnit(name)}, ${stress.formula}`),
+      element("th", { scope: "row" }, `${words(name)}, ${stress.formula}`),
       element("td", { class: "number" }, number(stress.measured, 3)),
       element("td", { class: "number" }, number(stress.simulated, 3)),
       measured ? element("td", { class: "number" }, comparedWords(stress)) : null,
