@@ -123,6 +123,7 @@ void set_tests(Card& card, const Study& study, double density_ratio) {
     one.observables.clear();
     one.within_noise.reset();
     one.baseline = {};
+    one.yield_stress.reset();
     one.lab.notes = "Apparatus of this laboratory file; its readings are of another mix. " + one.lab.notes;
   }
   card.material.contact = specimen_of(card.tests.front().test).contact;

@@ -88,6 +88,7 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   out.lab_file = test.lab_file;
   out.lab_hash = test.lab.hash;
   out.lab = test.lab.provenance;
+  out.yield_stress = test.lab.yield_stress;
   const auto add_note = [&](const std::string& note) { out.lab.notes += (out.lab.notes.empty() ? "" : "; ") + note; };
   if (!test.lab.note.empty()) add_note(test.lab.note);
   if (test.lab.repeats.sheared > 0) add_note(sheared_in_words(test.lab.repeats));

@@ -95,6 +95,10 @@ ordered_json test_to_json(const CardTest& test, const Material& material, std::s
   out["lab_file"] = test.lab_file;
   out["lab_hash"] = test.lab_hash;
   out["lab"] = provenance_to_json(test.lab);
+  if (const auto& measured = test.yield_stress)
+    out["measured_yield_stress_pa"] = {{"value", measured->value},
+                                       {"standard_deviation", measured->standard_deviation},
+                                       {"repeats", measured->repeats}};
   out["conditions"] = conditions_of(test.test);
   json of_test = to_json(test.test);
   const json shared = shared_part(material);

@@ -63,6 +63,7 @@ struct CardTest {
   bool hold_out = false;  ///< predicted, not fitted
   std::string lab_file, lab_hash;
   Provenance lab;
+  std::optional<Measurement> yield_stress = std::nullopt;  ///< that the laboratory measured [Pa]; compared, not fitted
   Test test;  ///< apparatus, grains and contact laws, in SI; the grains may be of other sizes than the material's
   std::vector<CardObservable> observables;  ///< none: it was not simulated
   std::optional<bool> within_noise;         ///< of a hold-out: every reading that counts lies within its band
@@ -215,10 +216,10 @@ MisfitUnit misfit_unit_of(const Card& card);
 /// The card as JSON. The numbers in SI rule; `material.parameters` is the scale-free form of the same contact laws,
 /// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
 /// Derived on writing and not read back: difference = simulated - measured, `bias`, `standard_error` of a reading,
-/// `conditions` of each test (what a fit to it holds for). `name`, `hold_out`, `within_noise` and `baseline` of a test,
-/// `intervals`, `correlation`, `not_identified`, `unstated_conditions`, `rebaselined`, `rescaled`,
-/// `further_confirmations` and `interpolated` are written when there is something in them, `packings` of a reading when
-/// a laboratory would reject some of the confirmation's.
+/// `conditions` of each test (what a fit to it holds for). `measured_yield_stress_pa`, `name`, `hold_out`,
+/// `within_noise` and `baseline` of a test, `intervals`, `correlation`, `not_identified`, `unstated_conditions`,
+/// `rebaselined`, `rescaled`, `further_confirmations` and `interpolated` are written when there is something in them,
+/// `packings` of a reading when a laboratory would reject some of the confirmation's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.

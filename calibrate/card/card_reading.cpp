@@ -127,7 +127,15 @@ void read_card_test(ObjectReader& reader, const json& document, const json& mate
   reader.text("lab_file", test.lab_file, kRequired);
   reader.text("lab_hash", test.lab_hash, kRequired);
   read_lab_provenance(reader, test.lab);
+  reader.object("measured_yield_stress_pa", kOptional, [&](ObjectReader& measured) {
+    Measurement& one = test.yield_stress.emplace();
+    one.observable = "yield_stress_pa";
+    measured.number("value", one.value, kPositive, kRequired);
+    measured.number("standard_deviation", one.standard_deviation, kPositive, kRequired);
+    measured.integer("repeats", one.repeats, 1, 1'000'000, kRequired);
+  });
   reader.known("conditions");
+  reader.known("yield_stress_pa");
   reader.known("test");
   const bool has_test =
       read_test_of_material(document.value("test", json()), material, reader.place("test"), test.test, reader.faults());

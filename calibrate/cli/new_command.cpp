@@ -100,7 +100,7 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
            [](const std::string& text) { return faults_of_text(written_readings("", text, "kg_m3")); }))
     return false;
   const auto test = apparatus_of(sheet.mould, folder);
-  if (sheet.readings.empty() && test.ok())
+  if (sheet.readings.empty() && sheet.yield_stress.empty() && test.ok())
     if (!ask_readings(sheet, std::get<SlumpTest>(test.value()))) return false;
   return ask(sheet.target, "program that the material is for: " + names_of_targets(), "lammps", [](const auto& text) {
     return laws_for(text) ? Faults{} : Faults{{"", "is no such program", "one of " + names_of_targets()}};
@@ -113,7 +113,7 @@ Faults missing_options(const Sheet& sheet) {
   if (sheet.mould.empty()) faults.push_back({"--mould", "is missing", "e.g. abrams, haegermann or 200/100/300"});
   if (sheet.density.empty())
     faults.push_back({"--density", "is missing", "e.g. 2350, or with its unit: \"145 lb/ft3\""});
-  if (sheet.readings.empty())
+  if (sheet.readings.empty() && sheet.yield_stress.empty())
     faults.push_back({"--slump", "is missing, and every other reading", "e.g. --slump \"180, 175, 190\" --spread 330"});
   return faults;
 }
@@ -206,6 +206,10 @@ Command add_new(CLI::App& verb) {
   verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")
       ->type_name("NAME=VALUES")
       ->take_all();
+  verb.add_option("--yield-stress", sheet.yield_stress,
+                  "of a vane or another rheometer, in Pa or with its unit; compared, and without any reading what it "
+                  "predicts of the test is fitted")
+      ->type_name("VALUES");
   verb.add_option("--for", sheet.target, "program that the material is for: " + names_of_targets())
       ->type_name("PROGRAM");
   verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the error names it")

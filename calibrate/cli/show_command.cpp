@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
@@ -18,7 +19,7 @@ struct ShowOptions {
 int show(const ShowOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) return report(card.faults());
-  print("%s", options.json ? json_text(to_json(card.value())).c_str() : text_of(card.value()).c_str());
+  print("%s", options.json ? json_text(with_yield_stresses(card.value())).c_str() : text_of(card.value()).c_str());
   return kDone;
 }
 
@@ -27,7 +28,9 @@ int show(const ShowOptions& options) {
 Command add_show(CLI::App& verb) {
   const auto options = std::make_shared<ShowOptions>();
   verb.add_option("CARD", options->card, "card file")->required();
-  verb.add_flag("--json", options->json, "print the card itself, in the form of this program's version");
+  verb.add_flag(
+      "--json", options->json,
+      "print the card itself, in the form of this program's version, with the yield stresses of its readings");
   return [options] { return show(*options); };
 }
 

@@ -178,7 +178,7 @@ class Simulation {
       return kFailed;
     }
     if (outcome.failure) outlines_.clear();
-    const auto text = simulation_json(outcome, outlines_, wall_s);
+    const auto text = simulation_json(outcome, test_, outlines_, wall_s);
     if (options_.json)
       print("%s", text.c_str());
     else

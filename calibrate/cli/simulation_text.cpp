@@ -5,6 +5,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/store/outcome_json.h"
 
@@ -24,11 +25,14 @@ nlohmann::ordered_json outlines_json(const std::map<std::string_view, Outline>& 
 
 }  // namespace
 
-std::string simulation_json(const Outcome& outcome, const std::map<std::string_view, Outline>& outlines,
-                            double wall_s) {
+std::string simulation_json(const Outcome& outcome, const Test* test,
+                            const std::map<std::string_view, Outline>& outlines, double wall_s) {
   const auto& run = outcome.run;
   nlohmann::ordered_json out;
   out["observables"] = to_json(outcome.observables);
+  if (test && !outcome.failure)
+    if (auto stresses = yield_stresses_json(*test, outcome.observables); !stresses.empty())
+      out["yield_stress_pa"] = std::move(stresses);
   if (!outlines.empty()) out["outlines_mm"] = outlines_json(outlines);
   out["run"] = {{"particles", run.particles},
                 {"steps", run.steps},

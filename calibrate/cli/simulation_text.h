@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "calibrate/laboratory/test.h"
 #include "core/observe/outline.h"
 #include "core/step/run.h"
 
@@ -11,9 +12,11 @@ namespace pastefit {
 
 /// What is said of one simulation. `wall_s`: what it took.
 
-/// Readings and run as JSON text. `outlines`: of the heap, by name, written as the points of a profile in a laboratory
+/// Readings and run as JSON text, with the yield stresses that the readings say (`test`: nothing for an impact).
+/// `outlines`: of the heap, by name, written as the points of a profile in a laboratory
 /// file: {"step1": [[x_mm, z_mm], ...], ...}.
-std::string simulation_json(const Outcome& outcome, const std::map<std::string_view, Outline>& outlines, double wall_s);
+std::string simulation_json(const Outcome& outcome, const Test* test,
+                            const std::map<std::string_view, Outline>& outlines, double wall_s);
 
 /// The same for people, without outlines. `packed`: it was of a random packing.
 void print_simulation(const Outcome& outcome, double wall_s, bool packed);

@@ -46,6 +46,14 @@ struct YieldStress {
   double pa = 0;
 };
 
+/// A reading that a fluid with a yield stress would give, by a formula from the literature.
+struct PredictedReading {
+  std::string_view key;  ///< in laboratory files
+  std::string_view formula;
+  double value = 0;               ///< in the unit of the key
+  double standard_deviation = 0;  ///< the formula's own error, likewise
+};
+
 // What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
 // kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
 
@@ -127,6 +135,12 @@ inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>
 /// What the readings of a test say of its material as a fluid with a yield stress.
 inline std::vector<YieldStress> yield_stresses_of(const Specimen&, const Observables&) {
   return {};
+}
+
+/// The readings that a fluid with this yield stress would give, in the order of the test; none where no formula holds.
+/// Nothing for a kind of test for which there are no such formulas.
+inline std::optional<std::vector<PredictedReading>> readings_of_fluid(const Specimen&, double) {
+  return std::nullopt;
 }
 
 /// Whether the standards have a laboratory reject this run and repeat it; nothing for a kind of which no run is.

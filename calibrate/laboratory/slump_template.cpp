@@ -27,6 +27,7 @@ constexpr std::string_view slump_lab =
 
   // Of the fresh material, as it fills the mould.
   "material": {"bulk_density_kg_m3": 2300},
+  // Beside the density what a vane read, to be compared: "yield_stress_pa": {"value": 500, "standard_deviation": 50}.
 
   // What it was mixed of, in any names with their units: not simulated, but in the table of many studies (pastefit batch).
   // "mix": {"water_kg_m3": 180, "superplasticizer_kg_m3": 4.5},

@@ -169,6 +169,10 @@ std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& 
   return std::visit([&](const auto& one) { return yield_stresses_of(one, means); }, test);
 }
 
+std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test, double yield_stress_pa) {
+  return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
+}
+
 double default_tolerance(const Test& test, const Measurement& measured) {
   return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }

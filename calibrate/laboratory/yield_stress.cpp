@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
+
+#include "calibrate/base/units.h"
 
 namespace pastefit {
 
@@ -9,6 +12,7 @@ namespace {
 
 constexpr double gravity = 9.81;  // as precise as the theories
 constexpr int halvings = 60;
+constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005";
 
 /// Stress in the depth z below the top of a frustum, over rho g H; both in heights of the mould.
 double stress_at(double al, double z) {
@@ -57,15 +61,38 @@ double yield_stress_of_spread_pa(double volume_m3, double density_kg_m3, double 
          (128 * std::numbers::pi * std::numbers::pi * std::pow(radius_m, 5));
 }
 
+double radius_of_cake_m(double volume_m3, double density_kg_m3, double yield_stress_pa) {
+  return std::pow(yield_stress_of_spread_pa(volume_m3, density_kg_m3, 1) / yield_stress_pa, 0.2);
+}
+
+std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& test, double yield_stress_pa) {
+  constexpr double flat = 1.0 / 3;  // height over that of the mould
+  const double density = test.bulk_density_kg_m3, volume = volume_m3(test.mould);
+  std::vector<PredictedReading> out;
+  const auto predict = [&](std::string_view key, std::string_view formula, const auto& reading_mm) {
+    const double low = reading_mm(yield_stress_pa / kFormulaFactor),
+                 high = reading_mm(yield_stress_pa * kFormulaFactor);
+    const double deviation = std::abs(high - low) / 2;
+    if (deviation > 0) out.push_back({key, formula, reading_mm(yield_stress_pa), deviation});
+  };
+  if (kept_height_m(test.mould, density, yield_stress_pa))
+    predict("step1.height_mm", height_formula, [&](double pa) { return mm * *kept_height_m(test.mould, density, pa); });
+  const auto radius_m = [&](double pa) { return radius_of_cake_m(volume, density, pa); };
+  const double middle_m = std::sqrt(2 * yield_stress_pa * radius_m(yield_stress_pa) / (density * gravity));
+  if (middle_m <= flat * test.mould.height_m)
+    predict("step1.spread_mm", spread_formula, [&](double pa) { return 2 * mm * radius_m(pa); });
+  return out;
+}
+
 std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings) {
   std::vector<YieldStress> out;
   const double density = test.bulk_density_kg_m3;
   if (const auto height_mm = readings.find("step1.height_mm"))
     if (const auto pa = yield_stress_of_height_pa(test.mould, density, *height_mm / 1e3))
-      out.push_back({"step1.height_mm", "Schowalter 1998", *pa});
+      out.push_back({"step1.height_mm", height_formula, *pa});
   const auto spread_mm = readings.find("step1.spread_mm");
   if (spread_mm && *spread_mm > 0)
-    out.push_back({"step1.spread_mm", "Roussel 2005",
+    out.push_back({"step1.spread_mm", spread_formula,
                    yield_stress_of_spread_pa(volume_m3(test.mould), density, *spread_mm / 2e3)});
   return out;
 }

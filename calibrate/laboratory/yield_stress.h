@@ -29,6 +29,23 @@ std::optional<double> yield_stress_of_height_pa(const Mould& mould, double densi
 /// over radius goes to 0; heaps that stand as high as a cone are not of this kind.
 double yield_stress_of_spread_pa(double volume_m3, double density_kg_m3, double radius_m);
 
+/// Its inverse: radius [m] of the cake that a fluid with this yield stress spreads to.
+double radius_of_cake_m(double volume_m3, double density_kg_m3, double yield_stress_pa);
+
+/// By what factor the yield stress of these formulas may differ from a measured one, as one standard deviation. The
+/// relations of yield stress and slump of concretes in the Abrams cone (Hu; Ferraris & de Larrard 1998, of some 80
+/// mixes by rheometer; Roussel 2006, simulated) say 1.8 to 3.3 times what the formula of the height says, for slumps
+/// from 50 to 200 mm (tests/calibrate/laboratory/yield_stress_test.cpp); of mine pastes slump tests say more than a
+/// vane (Moghaddam & Hassani, 9th Int. Symp. on Mining with Backfill, 2007). Of the spread nothing was found that
+/// could be evaluated; it gets the same.
+inline constexpr double kFormulaFactor = 3;
+
+/// The height after the lift by `kept_height_m`, and the spread where the cake is flat; the deviation of each is half
+/// of what a yield stress `kFormulaFactor` times as large and as small makes of it. Flat: in the middle no higher than
+/// a third of the mould (Roussel, Stefani & Leroy 2005 hold a spread good for slumps above 200 mm of an Abrams cone's
+/// 300). No height that would be the mould's at both ends.
+std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& test, double yield_stress_pa);
+
 /// What height and spread after the lift say, each by its formula, as far as they were read.
 std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings);
 

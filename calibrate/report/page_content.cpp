@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/rounded.h"
+#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/report/law_curves.h"
 #include "calibrate/report/reservations.h"
@@ -172,6 +173,9 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
                    {"grain_radius_mm", 1e3 * specimen_of(test.test).grains.radius_m}};
   if (test.within_noise) out["within_noise"] = *test.within_noise;
   out["readings"] = page_readings(test);
+  if (auto compared = yield_stresses_json(test); !compared.empty()) out["yield_stress"] = std::move(compared);
+  if (const auto& measured = test.yield_stress)
+    out["measured_yield_stress"] = {{"value", measured->value}, {"standard_deviation", measured->standard_deviation}};
   std::vector<Observables> runs;
   for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
   const std::string remarks = remarks_on(test.test, runs);

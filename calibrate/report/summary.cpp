@@ -7,6 +7,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/base/wrapped_text.h"
+#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/report/type_in_table.h"
 #include "calibrate/study/parameters.h"
@@ -57,22 +58,29 @@ std::string reading_lines(const Card& card) {
   return out;
 }
 
+/// How the yield stresses that simulated readings say compare with the one that the laboratory measured.
+std::string measured_yield_stress_lines(const CardTest& test, const std::vector<ComparedYieldStress>& compared) {
+  if (!test.yield_stress) return "";
+  std::string out = format("  %-24s %10.4g %10.3g %10s Pa  measured\n", reading_name(test, "yield_stress_pa").c_str(),
+                           test.yield_stress->value, test.yield_stress->standard_deviation, "-");
+  for (const ComparedYieldStress& one : compared)
+    out += format("    by %s: %.2g times what was measured, %+.2g deviations\n", one.reading.c_str(), *one.ratio,
+                  *one.deviations);
+  return out;
+}
+
 /// What measured and simulated readings say of the material as a fluid with a yield stress.
 std::string yield_stress_lines(const Card& card) {
   std::string out;
-  for (const auto& test : card.tests) {
-    Observables measured, simulated;
-    for (const auto& one : test.observables) {
-      simulated.set(one.name, one.simulated);
-      if (one.measured) measured.set(one.name, *one.measured);
+  for (const CardTest& test : card.tests) {
+    const std::vector<ComparedYieldStress> compared = compared_yield_stresses(test);
+    for (const ComparedYieldStress& one : compared) {
+      if (!one.reading_pa && !test.yield_stress) continue;
+      out += format("  %-24s %10s %10s %10.0f Pa  %s\n", reading_name(test, one.reading).c_str(),
+                    one.reading_pa ? format("%.0f", *one.reading_pa).c_str() : "-", "", one.simulated_pa,
+                    std::string(one.formula).c_str());
     }
-    const auto of_laboratory = yield_stresses_of(test.test, measured);
-    for (const YieldStress& one : yield_stresses_of(test.test, simulated)) {
-      const auto same = std::ranges::find(of_laboratory, one.reading, &YieldStress::reading);
-      if (same == of_laboratory.end()) continue;
-      out += format("  %-24s %10.0f %10s %10.0f Pa  %s\n", reading_name(test, one.reading).c_str(), same->pa, "",
-                    one.pa, std::string(one.formula).c_str());
-    }
+    out += measured_yield_stress_lines(test, compared);
   }
   return out.empty() ? out : "Yield stress that a fluid with this reading would have (nothing is fitted to it)\n" + out;
 }

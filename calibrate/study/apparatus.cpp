@@ -142,10 +142,16 @@ std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test, cons
   return preset;
 }
 
-void read_material(ObjectReader& document, Test& test) {
-  document.object("material", Need::required, [&](ObjectReader& material) {
-    material.number("bulk_density_kg_m3", specimen_of(test).bulk_density_kg_m3, {100, 10000}, Need::required);
-  });
+void read_material(ObjectReader& document, Test& test, const std::function<void(ObjectReader& material)>& further) {
+  const json* content = document.content("material");
+  const bool density = content && content->is_number();  // a bare number can be nothing else
+  document.object(
+      "material", Need::required,
+      [&](ObjectReader& material) {
+        material.number("bulk_density_kg_m3", specimen_of(test).bulk_density_kg_m3, {100, 10000}, Need::required);
+        if (further) further(material);
+      },
+      density ? "write {\"bulk_density_kg_m3\": " + text_of(*content) + "}" : "");
 }
 
 void read_grains(ObjectReader& document, Test& test, Need need) {

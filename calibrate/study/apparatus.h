@@ -62,7 +62,8 @@ void read_kind(ObjectReader& document, Test& test);
 std::optional<Apparatus> read_apparatus(ObjectReader& document, Test& test,
                                         const std::optional<std::filesystem::path>& folder);
 
-void read_material(ObjectReader& document, Test& test);
+/// The object "material". `further` reads what only one of both kinds of files has.
+void read_material(ObjectReader& document, Test& test, const std::function<void(ObjectReader& material)>& further = {});
 void read_grains(ObjectReader& document, Test& test, Need need);
 
 /// Whether all values could be read: unknown keys are the only faults from `first` on.

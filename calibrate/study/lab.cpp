@@ -6,6 +6,7 @@
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/coarseness.h"
@@ -66,6 +67,18 @@ std::vector<std::string> notes_on_conditions(const Lab& lab) {
                     ", which the file does not state; the preset's is assumed");
   }
   return notes;
+}
+
+/// What the formulas say that the laboratory's yield stress would make of the test.
+std::string note_on_yield_stress(const Lab& lab) {
+  const auto predicted = readings_of_fluid(lab.test, lab.yield_stress->value);
+  std::string readings;
+  for (const PredictedReading& one : predicted.value_or(std::vector<PredictedReading>{}))
+    readings += (readings.empty() ? "" : ", ") + std::string(one.key) + " " + shown(rounded(one.value, 3)) + " +- " +
+                shown(rounded(one.standard_deviation, 2)) + " (" + std::string(one.formula) + ")";
+  return "the yield stress of " + shown(lab.yield_stress->value) + " Pa is compared, not fitted; " +
+         (readings.empty() ? "no formula says what a fluid with it would read"
+                           : "a fluid with it would read " + readings);
 }
 
 /// "repeats": how many heaps were made, and how many of them sheared off.
@@ -136,7 +149,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     const std::size_t before = faults.size();
     read_kind(reader, lab.test);
     preset = read_apparatus(reader, lab.test, folder);
-    read_material(reader, lab.test);
+    read_material(reader, lab.test,
+                  [&](ObjectReader& material) { lab.yield_stress = read_yield_stress(material, lab.test, questions); });
     read_mix(reader, lab.mix);
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
     lab.test = with_default_contact(lab.test);
@@ -145,7 +159,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
       for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
         faults.push_back(std::move(fault));
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
-    lab.measurements = read_measurements(reader, lab.test, questions);
+    lab.measurements = read_measurements(reader, lab.test, lab.yield_stress, questions);
     // A reading that was taken has the test read it, by default in a way that the apparatus may not admit.
     if (values_are_good(faults, before))
       for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
@@ -159,6 +173,7 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     }
     lab.notes = questions.notes();
     for (std::string& note : notes_on_conditions(lab)) lab.notes.push_back(std::move(note));
+    if (lab.yield_stress && faults.empty()) lab.notes.push_back(note_on_yield_stress(lab));
     if (lab.repeats.sheared > 0) lab.notes.push_back(sheared_in_words(lab.repeats));
   }
   if (!faults.empty()) return faults;

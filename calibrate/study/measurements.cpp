@@ -8,6 +8,7 @@
 #include <span>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
 
 namespace pastefit {
@@ -160,11 +161,58 @@ bool refuse_times(ObjectReader& reader, std::span<const ReadingKind> own) {
   return any;
 }
 
+constexpr ReadingKind yield_stress_kind{
+    .name = "yield_stress_pa", .key = "yield_stress_pa", .measure = "yield_stress_pa", .possible = {1e-2, 1e5}};
+
+/// What to do where nothing was read off a test.
+std::string advice_without_readings(const Test& test, std::span<const ReadingKind> kinds,
+                                    const std::optional<Measurement>& yield_stress) {
+  const auto by_default = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
+  const std::string measure = "give at least one, e.g. " + in_quotes(std::string(by_default->key));
+  if (!yield_stress) return measure;
+  const std::string predicted = predicted_in_words(test, yield_stress->value);
+  if (predicted.empty()) return measure + "; no formula says what its yield stress predicts of this test";
+  return measure + "; or what its yield stress predicts, " + predicted +
+         ", and say in provenance.notes that it is predicted, not measured";
+}
+
 }  // namespace
 
-std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Questions& questions) {
+std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test& test, Questions& questions) {
+  if (!readings_of_fluid(test, 1)) {
+    material.refuse(yield_stress_kind.key,
+                    "no formula compares it with the readings of a " + std::string(kind_of(test)) + " test",
+                    "leave it out");
+    return std::nullopt;
+  }
+  Measurement measurement;
+  measurement.observable = yield_stress_kind.name;
+  const bool there = material.object(
+      yield_stress_kind.key, Need::optional,
+      [&](ObjectReader& reader) { read_one(reader, yield_stress_kind, measurement, questions); },
+      R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]}, in Pa)");
+  return there ? std::optional(measurement) : std::nullopt;
+}
+
+std::string predicted_in_words(const Test& test, double yield_stress_pa) {
+  std::string out;
+  for (const PredictedReading& one : readings_of_fluid(test, yield_stress_pa).value_or(std::vector<PredictedReading>{}))
+    out += (out.empty() ? "" : ", or ") + in_quotes(std::string(one.key)) +
+           ": {\"value\": " + shown(rounded(one.value, 3)) +
+           ", \"standard_deviation\": " + shown(rounded(one.standard_deviation, 2)) + "} (" + std::string(one.formula) +
+           ", with the formula's own error)";
+  return out;
+}
+
+std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
+                                           const std::optional<Measurement>& yield_stress, Questions& questions) {
   const auto kinds = reading_kinds(test);
   std::vector<Measurement> measurements;
+  if (yield_stress && !document.has("measurements")) {
+    document.known("measurements");
+    document.fault("measurements", "is missing", advice_without_readings(test, kinds, yield_stress));
+    return measurements;
+  }
   document.object("measurements", Need::required, [&](ObjectReader& reader) {
     bool any = false;
     for (const ReadingKind& kind : kinds) {
@@ -192,9 +240,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Q
     bool strange = refuse_strange(reader, test, kinds);
     strange = refuse_times(reader, kinds) || strange;
     if (any || strange) return;
-    const auto by_default = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
-    document.fault("measurements", "holds no reading",
-                   "give at least one, e.g. " + in_quotes(std::string(by_default->key)));
+    document.fault("measurements", "holds no reading", advice_without_readings(test, kinds, yield_stress));
   });
   return measurements;
 }

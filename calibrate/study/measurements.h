@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
@@ -7,6 +9,14 @@
 #include "calibrate/study/study.h"
 
 namespace pastefit {
+
+/// "yield_stress_pa" of the object "material", as {"value", "standard_deviation"} or {"repeats": [...]}: what a vane or
+/// another rheometer read. Fault: in a test whose readings say nothing of a yield stress.
+std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test& test, Questions& questions);
+
+/// What a fluid with this yield stress would read in the test, as the parts of "measurements"; empty where no formula
+/// predicts anything.
+std::string predicted_in_words(const Test& test, double yield_stress_pa);
 
 /// The object "measurements": each reading with {"value", "standard_deviation"} or {"repeats": [...]}.
 /// Repeats give mean and sample standard deviation; "standard_deviation" beside them is its lower bound.
@@ -16,6 +26,8 @@ namespace pastefit {
 /// and no standard deviation, no reading at all. A profile, {"points": [[x_mm, z_mm], ...], "standard_deviation"},
 /// becomes the outline of `test`, and its reading is the root mean square difference from it, measured as 0.
 /// Repeats that differ by more than the test's published repeatability are asked about.
-std::vector<Measurement> read_measurements(ObjectReader& document, Test& test, Questions& questions);
+/// Where there is no reading, but a yield stress, the fault says what that predicts.
+std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
+                                           const std::optional<Measurement>& yield_stress, Questions& questions);
 
 }  // namespace pastefit

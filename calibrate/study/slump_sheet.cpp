@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "calibrate/base/fault_text.h"
@@ -116,6 +117,12 @@ ordered_json reading_json(const std::vector<double>& values, double deviation) {
   return out;
 }
 
+/// Adds a sentence to what the file says of its numbers.
+void add_note(ordered_json& lab, const std::string& note) {
+  std::string notes = lab["provenance"].value("notes", "");
+  lab["provenance"]["notes"] = notes + (notes.empty() ? "" : "; ") + note;
+}
+
 /// "measurements": what the sheet says.
 ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
   auto out = ordered_json::object();
@@ -140,6 +147,52 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
     out[std::string(key)] = reading_json(values.value(), deviation_of(*kind, test, values.value()[0]));
   }
   return out;
+}
+
+/// What a vane read, as the sheet says; nothing if it does not.
+std::vector<double> yield_stresses_in(const Sheet& sheet, Faults& faults) {
+  if (sheet.yield_stress.empty()) return {};
+  const auto read = written_readings("yield stress", sheet.yield_stress, "pa");
+  if (!read.ok()) {
+    faults.insert(faults.end(), read.faults().begin(), read.faults().end());
+    return {};
+  }
+  if (std::ranges::all_of(read.value(), [](double pa) { return pa > 0; })) return read.value();
+  faults.push_back({"yield stress", "is not above 0", "in Pa, e.g. 520, or with its unit: \"0.52 kPa\""});
+  return {};
+}
+
+/// "material" with a yield stress to be compared; the deviation of a single one is assumed.
+void add_yield_stress(ordered_json& lab, const std::vector<double>& stresses_pa) {
+  constexpr double share = 0.1;
+  ordered_json& written = lab["material"]["yield_stress_pa"];
+  if (stresses_pa.size() > 1) {
+    written["repeats"] = stresses_pa;
+    return;
+  }
+  written = {{"value", stresses_pa[0]}, {"standard_deviation", rounded(share * stresses_pa[0], 2)}};
+  add_note(lab, "the standard deviation of the yield stress is assumed, a tenth");
+}
+
+/// "measurements" of a sheet that has a yield stress only: the last reading that it predicts, whose formula holds best.
+/// Fault: there is none.
+void predict_reading(ordered_json& lab, Test test, const std::vector<double>& stresses_pa, Faults& faults) {
+  specimen_of(test).bulk_density_kg_m3 = lab["material"]["bulk_density_kg_m3"];
+  const double yield_stress_pa =
+      std::accumulate(stresses_pa.begin(), stresses_pa.end(), 0.0) / static_cast<double>(stresses_pa.size());
+  const auto predicted = readings_of_fluid(test, yield_stress_pa);
+  if (!predicted || predicted->empty()) {
+    faults.push_back({"yield stress", "of " + shown(yield_stress_pa) + " Pa predicts no reading with this mould",
+                      "a taller mould that is narrower at its top, or a reading, e.g. a slump"});
+    return;
+  }
+  const PredictedReading& one = predicted->back();
+  const std::string key(one.key);
+  lab["measurements"][key] = {{"value", rounded(one.value, 3)},
+                              {"standard_deviation", rounded(one.standard_deviation, 2)}};
+  add_note(lab, key + " was not measured: it is what " + std::string(one.formula) +
+                    " predicts of a fluid with a yield stress of " + shown(yield_stress_pa) +
+                    " Pa, with the formula's own error");
 }
 
 /// An angle of repose is measured of dry materials.
@@ -266,7 +319,8 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (!test.ok()) faults.insert(faults.end(), test.faults().begin(), test.faults().end());
   ordered_json measurements;
   if (test.ok()) measurements = measurements_of(sheet, test.value(), faults);
-  if (test.ok() && sheet.readings.empty())
+  const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);
+  if (test.ok() && sheet.readings.empty() && sheet.yield_stress.empty())
     faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
   if (!faults.empty()) return faults;
 
@@ -278,6 +332,10 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
                    {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
                    {"measurements", measurements}};
   if (!sheet.confirmed.empty()) lab["confirmed"] = sheet.confirmed;
+  if (!stresses_pa.empty()) add_yield_stress(lab, stresses_pa);
+  if (sheet.readings.empty()) predict_reading(lab, test.value(), stresses_pa, faults);
+  if (!faults.empty()) return faults;
+  measurements = lab["measurements"];
   if (const auto read = lab_from_json(json::parse(lab.dump()), folder); !read.ok()) return read.faults();
   const ordered_json study{{"format", "pastefit-study-1"},
                            {"title", sheet.title},

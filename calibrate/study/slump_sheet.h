@@ -20,8 +20,9 @@ struct Sheet {
   std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
   std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
   std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
-  std::string target = "lammps";                              ///< the program that the material is for
-  std::vector<std::string> confirmed;                         ///< places that look like a slip and are right
+  std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
+  std::string target = "lammps";       ///< the program that the material is for
+  std::vector<std::string> confirmed;  ///< places that look like a slip and are right
 };
 
 /// A laboratory file and a study for it, as text.
@@ -42,8 +43,10 @@ Result<std::vector<double>> written_readings(const std::string& where, const std
 /// The apparatus that the sheet names, with its default grains. `folder` is where the laboratory file will lie.
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder);
 
-/// Both files. Grains and deviations come from the mould, the free parameters from what the readings tell of, the laws
-/// from the target. Errors: every fault of the sheet, or of the laboratory file that it makes.
+/// Both files. A yield stress is written to be compared; where it is all that was measured, so is the reading that it
+/// predicts (`readings_of_fluid`), to be fitted, and the provenance says that it was not measured. Grains and
+/// deviations come from the mould, the free parameters from what the readings tell of, the laws from the target.
+/// Errors: every fault of the sheet, or of the laboratory file that it makes.
 Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder);
 
 }  // namespace pastefit

@@ -39,13 +39,14 @@ struct Lab {
   Provenance provenance;
   Test test;
   std::vector<Measurement> measurements;
-  Repeats repeats;                  ///< none made: it is not said
-  std::vector<MixVariable> mix;     ///< what the material was mixed of, in alphabetical order; not simulated
-  std::vector<std::string> stated;  ///< of what is often unstated (`FilePlace`): the places that the file gives
-  std::string content;              ///< what the file and the preset that it names say, as JSON text
-  std::string hash;                 ///< of the file's content, with the preset it names (64-bit, hexadecimal)
-  std::string note;                 ///< on the preset (`note_on_preset`); empty if there is nothing to say
-  std::vector<std::string> notes;   ///< on its numbers, before anything runs: a sentence each, without a full stop
+  std::optional<Measurement> yield_stress;  ///< by a vane or another rheometer [Pa]; compared, never fitted
+  Repeats repeats;                          ///< none made: it is not said
+  std::vector<MixVariable> mix;             ///< what the material was mixed of, in alphabetical order; not simulated
+  std::vector<std::string> stated;          ///< of what is often unstated (`FilePlace`): the places that the file gives
+  std::string content;                      ///< what the file and the preset that it names say, as JSON text
+  std::string hash;                         ///< of the file's content, with the preset it names (64-bit, hexadecimal)
+  std::string note;                         ///< on the preset (`note_on_preset`); empty if there is nothing to say
+  std::vector<std::string> notes;  ///< on its numbers, before anything runs: a sentence each, without a full stop
 };
 
 /// "1 of 4 heaps of the laboratory sheared off".

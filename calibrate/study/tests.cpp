@@ -174,7 +174,10 @@ std::string inputs_of(const Study& study) {
   }
   for (const StudyTest& test : study.tests) {
     json content = json::parse(test.lab.content.empty() ? "{}" : test.lab.content);
-    if (content.contains("laboratory")) content["laboratory"].erase("mix");  // of which no search knows
+    if (content.contains("laboratory")) {  // without what no search knows of
+      content["laboratory"].erase("mix");
+      content["laboratory"]["material"].erase("yield_stress_pa");
+    }
     inputs["laboratories"].push_back(std::move(content));
   }
   return inputs.dump();

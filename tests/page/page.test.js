@@ -360,6 +360,21 @@ test(
   },
 );
 
+test("yield stresses are the card's, and beside a measured one they are multiples of it", async () => {
+  const stresses = (await contentOf(page)).tests[0].yield_stress ?? {};
+  const rows = page.locator(".yield-stress tbody tr");
+  assert.equal(await rows.count(), Object.keys(stresses).length);
+  assert.ok((await rows.count()) > 0);
+  assert.equal(await page.locator(".yield-stress thead th").count(), 3);
+  const other = await openPage(browser, join(parts, "vane.html"));
+  await other.locator(".yield-stress").waitFor();
+  assert.match((await other.locator(".yield-stress caption").textContent()) ?? "", /measured 400 \u00b1 50 Pa/);
+  const { simulated } = stresses["step1.height_mm"];
+  const told = await other.locator(".yield-stress tbody tr").first().locator("td").last().textContent();
+  assert.match(told ?? "", new RegExp(`^\u00d7 ${Number((simulated / 400).toPrecision(2))} \\(`));
+  await other.context().close();
+});
+
 for (const name of existsSync(parts) ? readdirSync(parts).filter((one) => one.endsWith(".html")) : [])
   test(`a page of what is not whole says what is missing and shows the rest: ${name}`, async () => {
     const other = await openPage(browser, join(parts, name));

@@ -126,6 +126,11 @@ def make_parts(program, result, work):
     content["tests"][0]["lab"].update(source=HOSTILE, notes=HOSTILE + "<!--", licence="<script>alert(3)</script>")
     (hostile / card).write_text(json.dumps(content))
     report(program, hostile, work / "hostile.html")
+    vane = part_of(result, work / "6", card)
+    content = json.loads((vane / card).read_text())
+    content["tests"][0]["measured_yield_stress_pa"] = {"value": 400, "standard_deviation": 50, "repeats": 3}
+    (vane / card).write_text(json.dumps(content))
+    report(program, vane, work / "vane.html")
 
 
 def interrupted(program, study, place):

@@ -6,6 +6,7 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_format.h"
+#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/report/summary.h"
@@ -66,6 +67,31 @@ TEST_CASE("a card reads back as it was written, to the last bit") {
         std::bit_cast<std::uint64_t>(specimen_of(written.tests[0].test).contact.bridge.a_n_m2));
   CHECK(read.value().confirmation.packings == written.confirmation.packings);
   CHECK(read.value().tests[0].lab.twin);
+}
+
+TEST_CASE("a card keeps a measured yield stress, and holds what its readings say beside it") {
+  auto material = card();
+  auto& test = material.tests[0];
+  const auto none = with_yield_stresses(material);
+  CHECK_FALSE(none["tests"][0].contains("measured_yield_stress_pa"));
+  const auto& height = none["tests"][0]["yield_stress_pa"]["step1.height_mm"];
+  CHECK(height["formula"] == "Schowalter 1998");
+  CHECK(height["measured"] < height["simulated"]);  // 150.0 and 151.3 mm
+  CHECK_FALSE(height.contains("ratio"));
+  CHECK_FALSE(none["tests"][0]["yield_stress_pa"]["step1.spread_mm"].contains("measured"));
+
+  const double simulated_pa = height["simulated"];
+  test.yield_stress = Measurement{"yield_stress_pa", simulated_pa / 2, simulated_pa / 8, 3};
+  const auto document = with_yield_stresses(material);
+  const auto& beside = document["tests"][0]["yield_stress_pa"]["step1.height_mm"];
+  CHECK(beside["ratio"].get<double>() == Approx(2));
+  CHECK(beside["deviations"].get<double>() == Approx(4));
+  const auto read = card_from_json(text_and_back(document));
+  REQUIRE(read.ok());
+  CHECK(with_yield_stresses(read.value()).dump() == document.dump());
+  CHECK_FALSE(to_json(read.value())["tests"][0].contains("yield_stress_pa"));  // derived, not stored
+  CHECK_THAT(summary_of(material), Catch::Contains("by step1.height_mm: 2 times what was measured, +4 deviations") &&
+                                       Catch::Contains("by step1.spread_mm: "));
 }
 
 TEST_CASE("a card states differences and standard errors") {

@@ -7,6 +7,7 @@ import base64
 import contextlib
 import fcntl
 import json
+import math
 import os
 import re
 import resource
@@ -82,6 +83,20 @@ class CommandLine(Desk):
         photographed.write_text(json.dumps(document))
         again = json.loads(run("simulate", photographed, *arguments).stdout)["observables"]
         self.assertLess(again["step1.profile_mm"], 0.01)
+
+    def test_simulate_says_the_yield_stress_of_a_fluid_with_its_readings_and_the_formula(self):
+        arguments = ["--set", "grains.radius_mm=12", "--seed", "5", "--json"]
+        outcome = json.loads(run("simulate", LAB, *arguments).stdout)
+        height, spread = (outcome["yield_stress_pa"][f"step1.{one}_mm"] for one in ("height", "spread"))
+        self.assertEqual((height["formula"], spread["formula"]), ("Schowalter 1998", "Roussel 2005"))
+        self.assertGreater(height["simulated"], 0)
+        lab = json.loads(LAB.read_text())
+        preset = json.loads((SOURCE / f"data/apparatus/{lab['apparatus']['preset']}.json").read_text())["apparatus"]["mould"]
+        base, top = preset["base_diameter_mm"] / 2000, preset["top_diameter_mm"] / 2000
+        volume = math.pi * preset["height_mm"] / 3000 * (base * base + base * top + top * top)
+        radius = outcome["observables"]["step1.spread_mm"] / 2000
+        stress = 225 * lab["material"]["bulk_density_kg_m3"] * 9.81 * volume**2 / (128 * math.pi**2 * radius**5)
+        self.assertAlmostEqual(spread["simulated"] / stress, 1, places=6)
 
     def test_simulate_writes_a_series_that_a_reader_understands(self):
         result = run("simulate", APPARATUS, *COARSE, "--out", self.out, "--vtk", "0.25")

@@ -65,6 +65,7 @@ class Confirm(Desk):
 
     def test_the_readings_with_bias_and_cost_stand_on_the_card_which_is_otherwise_the_same(self):
         before = json.loads(run("show", self.card, "--json").stdout)
+        before["tests"][0].pop("yield_stress_pa")  # derived: printed, not stored
         result = self.confirm("well", "--radius", "13")
         self.assertEqual(result.returncode, 0, result.stderr)
         after = json.loads(self.card.read_text())

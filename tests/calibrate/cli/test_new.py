@@ -92,6 +92,27 @@ class New(Desk):
                          ["friction", "rolling_friction"])
         self.assertIn("Many pairs of sliding and rolling friction give one angle", said)
 
+    def test_a_yield_stress_alone_predicts_the_reading_that_is_fitted_and_the_file_says_so(self):
+        lab, study, said = self.files("--mould", "abrams", "--density", "1850", "--yield-stress", "0.61, 0.59, 0.6 kPa")
+        self.assertEqual(lab["material"]["yield_stress_pa"], {"repeats": [610, 590, 600]})
+        self.assertEqual(list(lab["measurements"]), ["step1.height_mm"])
+        self.assertGreater(lab["measurements"]["step1.height_mm"]["standard_deviation"], 30)
+        self.assertIn("was not measured: it is what Schowalter 1998 predicts", lab["provenance"]["notes"])
+        self.assertEqual(study["parameters"]["friction"], {"value": 0.15})
+        lab, _, _ = self.files("--mould", "abrams", "--density", "1850", "--yield-stress", "60", "--force")
+        self.assertEqual(list(lab["measurements"]), ["step1.spread_mm"])
+        self.assertEqual(lab["material"]["yield_stress_pa"], {"value": 60, "standard_deviation": 6})
+        self.assertIn("is assumed", lab["provenance"]["notes"])
+        lab, _, _ = self.files(*ABRAMS, "--yield-stress", "900, 950", "--force")
+        self.assertEqual(list(lab["measurements"]), ["step1.slump_mm", "step1.spread_mm"])
+        self.assertNotIn("notes", lab["provenance"])
+        ran = run("simulate", self.out / "lab.json", "--set", "grains.largest_mm=12")
+        self.assertIn("the yield stress of 925 Pa is compared, not fitted", ran.stderr)
+        for stress, words in (("0", "is not above 0"), ("soft", "no number"), ("60 mm", "is in mm"), ("90000", "predicts no reading")):
+            self.fails(run("new", self.folder / "other", "--mould", "abrams", "--density", "1850", "--yield-stress", stress), 2,
+                       "yield stress", words)
+        self.assertFalse((self.folder / "other").exists())
+
     def test_the_target_has_its_own_law(self):
         laws = {"lammps": ("hertz", "polynomial", "strength_pa"), "liggghts": ("sjkr", "none", "cohesion_energy_density_pa"),
                 "yade": ("hertz", "polynomial", "strength_pa"), "edem": ("jkr", "none", "adhesion_pa")}

@@ -70,9 +70,20 @@
  * @property {string} conditions lines
  * @property {string} remarks
  * @property {Reading[]} readings
+ * @property {Record<string, YieldStress>} [yield_stress] by the names of readings
+ * @property {{value: number, standard_deviation: number}} [measured_yield_stress] Pa
  * @property {Drawing[]} drawings
  * @property {FilmIndex} [film] its bytes are the text of the element film-INDEX
  * @property {{packing: number, program: string, same_as_card: boolean} | null} [run_shown]
+ */
+
+/**
+ * @typedef {object} YieldStress of a fluid that would have a reading [Pa] (calibrate/card/compared_yield_stress.h)
+ * @property {string} formula
+ * @property {number} simulated
+ * @property {number} [measured] by the laboratory's reading
+ * @property {number} [ratio] of the simulated to the one that was measured
+ * @property {number} [deviations]
  */
 
 /**

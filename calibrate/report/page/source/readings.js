@@ -3,6 +3,7 @@ import { element, pairs, section, table } from "./dom.js";
 import { fullName, wordsAndUnit } from "./names.js";
 import { errorWords, number, plusMinus, plusMinusSigned } from "./numbers.js";
 import { packingStrip } from "./strip.js";
+import { yieldStressTable } from "./yield_stress.js";
 
 /** @typedef {import("./content.js").CardContent} CardContent */
 /** @typedef {import("./content.js").Inference} Inference */
@@ -93,6 +94,7 @@ function testReadings(test, inference) {
     test.name ? element("h3", {}, heading) : null,
     measuredTable(test, inference),
     test.remarks ? element("p", { class: "notice" }, test.remarks) : null,
+    yieldStressTable(test),
     untaken(test.readings.filter((one) => !isMeasured(one))),
   ];
 }

@@ -1,0 +1,55 @@
+#include "calibrate/card/compared_yield_stress.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace pastefit {
+
+std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test) {
+  Observables measured, simulated;
+  for (const CardObservable& one : test.observables) {
+    simulated.set(one.name, one.simulated);
+    if (one.measured) measured.set(one.name, *one.measured);
+  }
+  const std::vector<YieldStress> of_laboratory = yield_stresses_of(test.test, measured);
+  std::vector<ComparedYieldStress> out;
+  for (const YieldStress& one : yield_stresses_of(test.test, simulated)) {
+    ComparedYieldStress compared{one.reading, one.formula, one.pa, {}, {}, {}};
+    const auto same = std::ranges::find(of_laboratory, one.reading, &YieldStress::reading);
+    if (same != of_laboratory.end()) compared.reading_pa = same->pa;
+    if (const auto& known = test.yield_stress) {
+      compared.ratio = one.pa / known->value;
+      compared.deviations = (one.pa - known->value) / known->standard_deviation;
+    }
+    out.push_back(std::move(compared));
+  }
+  return out;
+}
+
+nlohmann::ordered_json yield_stresses_json(const CardTest& test) {
+  nlohmann::ordered_json out;
+  for (const ComparedYieldStress& one : compared_yield_stresses(test)) {
+    auto& row = out[one.reading] = {{"formula", one.formula}, {"simulated", one.simulated_pa}};
+    if (one.reading_pa) row["measured"] = *one.reading_pa;
+    if (one.ratio) row["ratio"] = *one.ratio;
+    if (one.deviations) row["deviations"] = *one.deviations;
+  }
+  return out;
+}
+
+nlohmann::ordered_json with_yield_stresses(const Card& card) {
+  nlohmann::ordered_json out = to_json(card);
+  for (std::size_t i = 0; i < card.tests.size(); ++i)
+    if (auto stresses = yield_stresses_json(card.tests[i]); !stresses.empty())
+      out["tests"][i]["yield_stress_pa"] = std::move(stresses);
+  return out;
+}
+
+nlohmann::ordered_json yield_stresses_json(const Test& test, const Observables& readings) {
+  nlohmann::ordered_json out;
+  for (const YieldStress& one : yield_stresses_of(test, readings))
+    out[one.reading] = {{"formula", one.formula}, {"simulated", one.pa}};
+  return out;
+}
+
+}  // namespace pastefit
