@@ -51,8 +51,4 @@ def main(card, cache):
 
 if __name__ == "__main__":
     PASTEFIT = str(pathlib.Path(sys.argv[1]).resolve())
-    try:
-        sys.exit(main(sys.argv[2], str(pathlib.Path(sys.argv[3]).resolve())))
-    except engines.Missing as missing:
-        print(f"skipped: {missing} is not installed")
-        sys.exit(engines.SKIP)
+    engines.exit_with(main, sys.argv[2], str(pathlib.Path(sys.argv[3]).resolve()))

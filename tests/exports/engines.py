@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 SKIP = 77
 
@@ -60,3 +61,12 @@ def export(pastefit, card, target, deck, packing=None):
     choice = [] if packing is None else ["--packing", str(packing)]
     subprocess.run([pastefit, "export", card, "--to", target, "--out", deck, "--force", *choice], check=True,
                    stdout=subprocess.DEVNULL)
+
+
+def exit_with(main, *arguments):
+    """Ends the script with the status that `main` returns, or with SKIP where a program is missing."""
+    try:
+        sys.exit(main(*arguments))
+    except Missing as missing:
+        print(f"skipped: {missing} is not installed")
+        sys.exit(SKIP)

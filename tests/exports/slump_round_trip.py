@@ -20,7 +20,6 @@ import math
 import pathlib
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 
@@ -136,8 +135,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except engines.Missing as missing:
-        print(f"skipped: {missing} is not installed")
-        sys.exit(engines.SKIP)
+    engines.exit_with(main)

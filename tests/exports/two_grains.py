@@ -196,11 +196,7 @@ def main(program, card_file, target, law=None):
             card_file = pathlib.Path(name) / "card.json"
             card_file.write_text(json.dumps(card))
         engines.export(program, card_file, target, deck)
-        try:
-            command = engines.command_of(target, "two_grains", program, deck)
-        except engines.Missing as missing:
-            print(f"skipped: {missing} is not installed")
-            return engines.SKIP
+        command = engines.command_of(target, "two_grains", program, deck)
         run = subprocess.run(command, cwd=deck, capture_output=True, text=True, timeout=300, env=engines.environment())
         fit = fit_of(deck / "material.inc", test) if target == "liggghts" and not law else None
         if target.startswith("lammps"):
@@ -230,4 +226,4 @@ def main(program, card_file, target, law=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    engines.exit_with(main, *sys.argv[1:])
