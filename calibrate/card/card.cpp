@@ -6,6 +6,7 @@
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/card/card_changes.h"
 #include "calibrate/card/card_format.h"
 #include "calibrate/card/material_json.h"
 #include "calibrate/laboratory/names.h"
@@ -128,47 +129,6 @@ void add_inference(ordered_json& out, const CardInference& inference) {
   }
 }
 
-ordered_json rebaseline_to_json(const Rebaseline& change) {
-  ordered_json out{{"why", change.why},
-                   {"program_before", change.program_before},
-                   {"program_after", change.program_after},
-                   {"moved", ordered_json::object()}};
-  for (const auto& moved : change.moved)
-    out["moved"][moved.observable] = {{"before", moved.before}, {"after", moved.after}};
-  return out;
-}
-
-ordered_json rescaling_to_json(const Rescaling& step) {
-  ordered_json out{{"from_radius_m", step.from_radius_m}, {"bias", ordered_json::object()}};
-  for (const auto& bias : step.bias)
-    out["bias"][bias.observable] = {
-        {"before", bias.before}, {"after", bias.after}, {"standard_error", bias.standard_error}};
-  return out;
-}
-
-ordered_json further_confirmation_to_json(const FurtherConfirmation& one) {
-  ordered_json out{{"engine", one.engine}, {"program", one.program}};
-  if (!one.test.empty()) out["test"] = one.test;
-  out["radius_m"] = one.radius_m;
-  out["packings"] = one.packings;
-  out["accepted"] = one.accepted;
-  out["ranks"] = one.ranks;
-  out["wall_s"] = one.wall_s;
-  out["core_s"] = one.core_s;
-  if (one.misfit) out["misfit"] = *one.misfit;
-  out["meets_laboratory"] = one.meets_laboratory;
-  out["readings"] = ordered_json::object();
-  for (const auto& reading : one.readings) {
-    ordered_json& row = out["readings"][reading.observable];
-    row = {{"card", reading.card},
-           {"simulated", reading.simulated},
-           {"simulated_standard_deviation", reading.simulated_standard_deviation},
-           {"bias", reading.bias()}};
-    if (reading.standard_error) row["standard_error"] = *reading.standard_error;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::optional<double> standard_error(const CardObservable& observable) {
@@ -240,13 +200,7 @@ ordered_json to_json(const Card& card) {
   out["provenance"] = {
       {"study_file", provenance.study_file}, {"study_hash", provenance.study_hash}, {"program", provenance.program}};
   add_inference(out, card.inference);
-  for (const auto& change : card.rebaselined) out["rebaselined"].push_back(rebaseline_to_json(change));
-  for (const auto& step : card.rescaled) out["rescaled"].push_back(rescaling_to_json(step));
-  for (const auto& one : card.further_confirmations)
-    out["further_confirmations"].push_back(further_confirmation_to_json(one));
-  if (const auto& one = card.interpolated)
-    out["interpolated"] = {
-        {"variable", one->variable}, {"value", one->value}, {"model", one->model}, {"studies", one->studies}};
+  add_changes(out, card);
   return out;
 }
 

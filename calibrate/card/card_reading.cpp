@@ -5,7 +5,9 @@
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/card_changes.h"
 #include "calibrate/card/card_format.h"
+#include "calibrate/card/entries.h"
 #include "calibrate/card/material_json.h"
 #include "calibrate/card/two_forms.h"
 #include "calibrate/laboratory/names.h"
@@ -206,14 +208,6 @@ void read_card_provenance(ObjectReader& reader, CardProvenance& provenance) {
   reader.text("program", provenance.program, kRequired);
 }
 
-/// Calls `body(reader, name)` for every entry of an object whose keys are names of the card's own.
-template <class Body>
-void each_entry(ObjectReader& reader, const json& object, Body body) {
-  if (!object.is_object()) return;
-  for (const auto& [name, value] : object.items())
-    reader.object(name, kRequired, [&, key = name](ObjectReader& entry) { body(entry, key); });
-}
-
 void read_inference(ObjectReader& card, const json& document, CardInference& inference) {
   card.object("intervals", kOptional, [&](ObjectReader& intervals) {
     intervals.text("method", inference.method, kRequired);
@@ -265,24 +259,6 @@ void read_inference(ObjectReader& card, const json& document, CardInference& inf
   });
 }
 
-/// A list of objects, absent when it would be empty.
-template <class T, class Read>
-void read_list(ObjectReader& card, const json& document, const char* key, std::vector<T>& target, Read read) {
-  card.known(key);
-  const auto list = document.find(key);
-  if (list == document.end()) return;
-  if (!list->is_array()) return card.fault(key, "is no list", "a list of objects [ { ... } ]");
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const auto place = std::string(key) + "[" + std::to_string(i) + "]";
-    if (!(*list)[i].is_object()) {
-      card.fault(place, "is no object", "an object { ... }");
-      continue;
-    }
-    ObjectReader entry((*list)[i], place, card.faults());
-    read(entry, (*list)[i], target.emplace_back());
-  }
-}
-
 /// A card has a test; of several each has a name of its own.
 void check_names(ObjectReader& card, const json& document, const std::vector<CardTest>& tests) {
   const auto list = document.find("tests");
@@ -293,75 +269,6 @@ void check_names(ObjectReader& card, const json& document, const std::vector<Car
     if (tests[i].name.empty() || !names.insert(tests[i].name).second)
       card.fault("tests[" + std::to_string(i) + "].name", "is " + in_quotes(tests[i].name),
                  "of several tests each has a name of its own");
-}
-
-void read_rebaseline(ObjectReader& reader, const json& document, Rebaseline& change) {
-  reader.text("why", change.why, kRequired);
-  reader.text("program_before", change.program_before, kRequired);
-  reader.text("program_after", change.program_after, kRequired);
-  reader.object("moved", kRequired, [&](ObjectReader& readings) {
-    each_entry(readings, document["moved"], [&](ObjectReader& entry, const std::string& name) {
-      auto& moved = change.moved.emplace_back();
-      moved.observable = name;
-      entry.number("before", moved.before, kAny, kRequired);
-      entry.number("after", moved.after, kAny, kRequired);
-    });
-  });
-}
-
-void read_rescaling(ObjectReader& reader, const json& document, Rescaling& step) {
-  reader.number("from_radius_m", step.from_radius_m, {0, 1, true}, kRequired);
-  reader.object("bias", kRequired, [&](ObjectReader& readings) {
-    each_entry(readings, document["bias"], [&](ObjectReader& entry, const std::string& name) {
-      auto& bias = step.bias.emplace_back();
-      bias.observable = name;
-      entry.number("before", bias.before, kAny, kRequired);
-      entry.number("after", bias.after, kAny, kRequired);
-      entry.number("standard_error", bias.standard_error, kNotNegative, kRequired);
-    });
-  });
-}
-
-void read_further_confirmation(ObjectReader& reader, const json& document, FurtherConfirmation& one) {
-  constexpr int kMany = 1'000'000;
-  reader.text("engine", one.engine, kRequired);
-  reader.text("program", one.program, kRequired);
-  reader.text("test", one.test, kOptional);
-  reader.number("radius_m", one.radius_m, {0, 1, true}, kRequired);
-  reader.integers("packings", one.packings, kRequired);
-  reader.integer("accepted", one.accepted, 1, kMany, kRequired);
-  reader.integer("ranks", one.ranks, 1, kMany, kRequired);
-  reader.number("wall_s", one.wall_s, kNotNegative, kRequired);
-  reader.number("core_s", one.core_s, kNotNegative, kRequired);
-  if (double misfit = 0; reader.number("misfit", misfit, kNotNegative, kOptional)) one.misfit = misfit;
-  reader.flag("meets_laboratory", one.meets_laboratory, kRequired);
-  reader.object("readings", kRequired, [&](ObjectReader& readings) {
-    each_entry(readings, document["readings"], [&](ObjectReader& entry, const std::string& name) {
-      auto& reading = one.readings.emplace_back();
-      double derived = 0;
-      reading.observable = name;
-      entry.number("card", reading.card, kAny, kRequired);
-      entry.number("simulated", reading.simulated, kAny, kRequired);
-      entry.number("simulated_standard_deviation", reading.simulated_standard_deviation, kNotNegative, kRequired);
-      entry.number("bias", derived, kAny, kOptional);
-      if (double error = 0; entry.number("standard_error", error, kNotNegative, kOptional))
-        reading.standard_error = error;
-    });
-  });
-}
-
-void read_interpolation(ObjectReader& card, std::optional<Interpolation>& interpolated) {
-  if (!card.has("interpolated")) return card.known("interpolated");
-  card.object("interpolated", kOptional, [&](ObjectReader& reader) {
-    Interpolation& one = interpolated.emplace();
-    reader.text("variable", one.variable, kRequired);
-    reader.number("value", one.value, kAny, kRequired);
-    static constexpr std::array<Named<std::string_view>, 2> models{
-        {{"linear", "linear"}, {"gaussian_process", "gaussian_process"}}};
-    std::string_view model;
-    if (reader.choice("model", model, models, kRequired)) one.model = model;
-    reader.texts("studies", one.studies, kRequired);
-  });
 }
 
 }  // namespace
@@ -391,10 +298,7 @@ Result<Card> card_from_json(const json& document) {
     reader.object("provenance", kRequired,
                   [&](ObjectReader& provenance) { read_card_provenance(provenance, card.provenance); });
     read_inference(reader, document, card.inference);
-    read_list(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
-    read_list(reader, document, "rescaled", card.rescaled, read_rescaling);
-    read_list(reader, document, "further_confirmations", card.further_confirmations, read_further_confirmation);
-    read_interpolation(reader, card.interpolated);
+    read_changes(reader, document, card);
   }
   for (CardTest& test : card.tests)
     for (CardObservable& observable : test.observables)
