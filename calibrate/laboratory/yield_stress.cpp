@@ -12,7 +12,9 @@ namespace {
 
 constexpr double gravity = 9.81;  // as precise as the theories
 constexpr int halvings = 60;
-constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005";
+constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005",
+                           beyond_spread_formula = "Roussel 2005 (heap not flat)";
+constexpr double flat = 1.0 / 3;  // height over that of the mould up to which a heap counts as a flat cake
 
 /// Stress in the depth z below the top of a frustum, over rho g H; both in heights of the mould.
 double stress_at(double al, double z) {
@@ -66,7 +68,6 @@ double radius_of_cake_m(double volume_m3, double density_kg_m3, double yield_str
 }
 
 std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& test, double yield_stress_pa) {
-  constexpr double flat = 1.0 / 3;  // height over that of the mould
   const double density = test.bulk_density_kg_m3, volume = volume_m3(test.mould);
   std::vector<PredictedReading> out;
   const auto predict = [&](std::string_view key, std::string_view formula, const auto& reading_mm) {
@@ -87,12 +88,14 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& 
 std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings) {
   std::vector<YieldStress> out;
   const double density = test.bulk_density_kg_m3;
-  if (const auto height_mm = readings.find("step1.height_mm"))
+  const auto height_mm = readings.find("step1.height_mm");
+  if (height_mm)
     if (const auto pa = yield_stress_of_height_pa(test.mould, density, *height_mm / 1e3))
       out.push_back({"step1.height_mm", height_formula, *pa});
   const auto spread_mm = readings.find("step1.spread_mm");
+  const bool stands = height_mm && *height_mm > flat * mm * test.mould.height_m;
   if (spread_mm && *spread_mm > 0)
-    out.push_back({"step1.spread_mm", spread_formula,
+    out.push_back({"step1.spread_mm", stands ? beyond_spread_formula : spread_formula,
                    yield_stress_of_spread_pa(volume_m3(test.mould), density, *spread_mm / 2e3)});
   return out;
 }

@@ -46,7 +46,8 @@ inline constexpr double kFormulaFactor = 3;
 /// 300). No height that would be the mould's at both ends.
 std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& test, double yield_stress_pa);
 
-/// What height and spread after the lift say, each by its formula, as far as they were read.
+/// What height and spread after the lift say, each by its formula, as far as they were read. The formula of the spread
+/// is marked where the heap is known to be higher than a third of its mould: it is for flat cakes.
 std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings);
 
 }  // namespace pastefit

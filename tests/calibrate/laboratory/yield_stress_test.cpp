@@ -149,4 +149,15 @@ TEST_CASE("the heights that concretes keep are within two deviations of what the
     }
 }
 
+TEST_CASE("the formula of the spread is marked where the heap is no flat cake") {
+  const auto formula_at = [](double height_mm) {
+    Observables readings;
+    readings.set("step1.height_mm", height_mm);
+    readings.set("step1.spread_mm", 350);
+    return std::string(yield_stresses_of(abrams_cone(), readings).back().formula);
+  };
+  CHECK(formula_at(90) == "Roussel 2005");
+  CHECK(formula_at(110) == "Roussel 2005 (heap not flat)");
+}
+
 }  // namespace pastefit
