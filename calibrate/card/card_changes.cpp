@@ -134,9 +134,9 @@ void add_changes(ordered_json& out, const Card& card) {
 }
 
 void read_changes(ObjectReader& reader, const json& document, Card& card) {
-  read_list(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
-  read_list(reader, document, "rescaled", card.rescaled, read_rescaling);
-  read_list(reader, document, "further_confirmations", card.further_confirmations, read_further_confirmation);
+  read_objects(reader, document, "rebaselined", card.rebaselined, read_rebaseline);
+  read_objects(reader, document, "rescaled", card.rescaled, read_rescaling);
+  read_objects(reader, document, "further_confirmations", card.further_confirmations, read_further_confirmation);
   read_interpolation(reader, card.interpolated);
 }
 

@@ -282,10 +282,10 @@ Result<Card> card_from_json(const json& document) {
     reader.known("format");
     reader.text("title", card.title, kRequired);
     reader.object("material", kRequired, [&](ObjectReader& material) { read_card_material(material, card.material); });
-    read_list(reader, document, "tests", card.tests,
-              [material = object_in(document, "material")](ObjectReader& test, const json& entry, CardTest& target) {
-                read_card_test(test, entry, material, target);
-              });
+    read_objects(reader, document, "tests", card.tests,
+                 [material = object_in(document, "material")](ObjectReader& test, const json& entry, CardTest& target) {
+                   read_card_test(test, entry, material, target);
+                 });
     check_names(reader, document, card.tests);
     reader.object("confirmation", kRequired, [&](ObjectReader& confirmation) {
       confirmation.integers("packings", card.confirmation.packings, kRequired);

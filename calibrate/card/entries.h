@@ -19,7 +19,8 @@ void each_entry(ObjectReader& reader, const nlohmann::json& object, Body body) {
 
 /// A list of objects, absent when it would be empty.
 template <class T, class Read>
-void read_list(ObjectReader& card, const nlohmann::json& document, const char* key, std::vector<T>& target, Read read) {
+void read_objects(ObjectReader& card, const nlohmann::json& document, const char* key, std::vector<T>& target,
+                  Read read) {
   card.known(key);
   const auto list = document.find(key);
   if (list == document.end()) return;

@@ -56,6 +56,24 @@ class CalibrationResult:
         import pandas
         return pandas.DataFrame(self.evaluations)
 
+    def plot(self, axes: Any = None) -> Any:
+        """Draws with Matplotlib what each simulated reading differs from the laboratory, in tolerances: the mean and twice
+        its standard error, the band of the tolerance behind; returns the axes.
+
+        Errors: ImportError where there is no Matplotlib.
+        """
+        from matplotlib import pyplot
+        axes = axes or pyplot.gca()
+        judged = self.readings[self.readings["tolerance"] > 0]
+        rows = -np.arange(len(judged))  # the first on top
+        errors = 2 * np.nan_to_num(judged["standard_error"]) / judged["tolerance"]
+        axes.axvspan(-1, 1, color="#e6eef5")
+        axes.axvline(0, color="#888888", linewidth=1)
+        axes.errorbar(judged["difference"] / judged["tolerance"], rows, xerr=errors, fmt="o", color="#1b6ca8")
+        axes.set_yticks(rows, [f"{one['name']}: {one['simulated']:.4g} for {one['measured']:.4g}" for one in judged])
+        axes.set_xlabel("simulated less measured [tolerances]")
+        return axes
+
     def __repr__(self) -> str:
         return f"<CalibrationResult {self.status}: {self.reason}>"
 

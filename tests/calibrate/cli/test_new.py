@@ -81,7 +81,7 @@ class New(Desk):
                 self.assertEqual(ran.returncode, 0, ran.stderr)
                 self.assertEqual("has no strokes" in ran.stderr, preset == "haegermann")
         self.assertEqual(run("template", "lab", "--mould", "haegerman").returncode, 2)
-        self.assertIn("--mould", run("template", "study", "--mould", "abrams").stderr)
+        self.assertIn("haegerman", run("template", "study", "--mould", "haegerman").stderr)
 
     def test_an_angle_of_repose_is_that_of_dry_grains(self):
         lab, study, said = self.files("--mould", "lifted-cylinder", "--density", "780", "--angle", "26.1, 28, 26.9")

@@ -45,6 +45,15 @@ class Calibration(Desk):
         for part in ("<table>", "<svg", "strength_pa"):
             self.assertIn(part, result._repr_html_())
 
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "there is no Matplotlib")
+    def test_a_plot_has_a_point_for_each_reading_at_its_difference_in_tolerances(self):
+        from matplotlib.figure import Figure
+        result = pf.calibrate(pf.Study(coarse_study()))
+        axes = result.plot(Figure().subplots())
+        points, = [line for line in axes.lines if line.get_marker() == "o"]
+        self.assertEqual(list(points.get_xdata()), list(result.readings["difference"] / result.readings["tolerance"]))
+        self.assertTrue(axes.get_yticklabels()[0].get_text().startswith("step1.height_mm"))
+
     def test_a_bar_shows_how_far_it_is(self):
         with contextlib.redirect_stderr(io.StringIO()) as shown:
             pf.calibrate(pf.Study(coarse_study()), progress=True)
