@@ -17,7 +17,14 @@ bool ConfirmationPhase::confirm(bool whatever_it_does) {
   state_.history.enter("confirmation");
   state_.history.hold_back(0);
   const UnitPoint candidate = state_.ranking().best();
-  std::vector<std::uint64_t> fresh = state_.fresh_packings(first_packings());
+  if (!judge(candidate, state_.fresh_packings(first_packings()), whatever_it_does)) return false;
+  ++rounds_;
+  if (!confirmed_) state_.refuted.push_back(candidate);
+  state_.history.hold_back(state_.options.confirmation_packings);
+  return confirmed_;
+}
+
+bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint64_t> fresh, bool whatever_it_does) {
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
   const auto least = std::max<std::size_t>(all, 2);  // of a single packing the noise is not known
   Response confirmation;
@@ -36,12 +43,9 @@ bool ConfirmationPhase::confirm(bool whatever_it_does) {
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
   }
   if (state_.history.stop_requested()) return false;
-  ++rounds_;
   confirmed_ = verdict == Verdict::holds;
-  if (!confirmed_) state_.refuted.push_back(candidate);
   report(confirmation);
-  state_.history.hold_back(state_.options.confirmation_packings);
-  return confirmed_;
+  return true;
 }
 
 int ConfirmationPhase::first_packings() const {
@@ -67,16 +71,11 @@ void ConfirmationPhase::report(const Response& confirmation) {
 
 void ConfirmationPhase::finish() {
   state_.history.hold_back(0);
-  std::vector<std::uint64_t> fresh = confirmation_.packings;
-  const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
-  if (fresh.empty() || fresh.size() >= all || !state_.affordable(all - fresh.size()) || state_.history.stop_requested())
-    return;
-  const UnitPoint candidate = confirmation_.point;
-  std::ranges::copy(state_.fresh_packings(static_cast<int>(all - fresh.size())), std::back_inserter(fresh));
-  const Response confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
-  if (state_.history.stop_requested()) return;
-  confirmed_ = verdict_on(confirmation, state_.scoring().rejected_share()) == Verdict::holds;
-  report(confirmation);
+  if (confirmed_ || confirmation_.packings.empty() || state_.history.stop_requested()) return;
+  const bool broken_off =
+      confirmation_.packings.size() < static_cast<std::size_t>(state_.options.confirmation_packings);
+  if (!broken_off && verdict_on(confirmation_, state_.scoring().rejected_share()) != Verdict::undecided) return;
+  (void)judge(confirmation_.point, confirmation_.packings, true);
 }
 
 }  // namespace pastefit

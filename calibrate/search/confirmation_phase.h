@@ -15,8 +15,8 @@ class ConfirmationPhase {
   /// `whatever_it_does`. With `SearchOptions::max_pending`, when workers would be idle meanwhile, all are asked at
   /// once.
   bool confirm(bool whatever_it_does);
-  /// The confirmation that is reported was broken off: the rest of its packings, if the budget has them. They may prove
-  /// wrong what broke it off.
+  /// The confirmation that is reported was broken off, or left undecided: the rest of its packings, and as many again
+  /// while their noise hides the answer, if the budget has them. They may prove wrong what broke it off.
   void finish();
 
   bool confirmed() const { return confirmed_; }
@@ -27,6 +27,8 @@ class ConfirmationPhase {
 
  private:
   int first_packings() const;
+  /// Judges a candidate on these packings and as many again, and reports it; false if a stop was requested meanwhile.
+  bool judge(const UnitPoint& candidate, std::vector<std::uint64_t> fresh, bool whatever_it_does);
   /// The result is this candidate, judged on fresh packings, if no better one was.
   void report(const Response& confirmation);
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <functional>
 #include <set>
 
+#include "answered.h"
+#include "calibrate/search/confirmation_phase.h"
 #include "calibrate/search/search.h"
 #include "fake_slump.h"
 #include "laboratory.h"
@@ -253,4 +256,25 @@ TEST_CASE("a quarter of a confirmation is asked first, and all of it at once whe
     CHECK(asked_at_once == (max_pending == 0 ? 2 : 8));
     CHECK(search.result().status == CalibrationStatus::confirmed);
   }
+}
+
+TEST_CASE(
+    "a confirmation that was broken off for a heap that sheared is finished as far as its packings leave it open") {
+  const UnitPoint point = UnitPoint::Constant(5, 0.5);
+  Synthetic slump = fake_slump(mean_height(point), 1);
+  slump.allowed_share = 0.2;
+  slump.budget = 200;
+  slump.rejects = [](const UnitPoint&, std::uint64_t packing) { return packing == 1003; };  // the first fresh one
+  Answered answered(slump);
+  const SearchOptions options = generous_options(1);
+  const std::function<void(const Progress&)> unheard;
+  StrategyState state(answered.queue, options, {}, unheard);
+  state.history.evaluate({&point, 1}, {&state.common[0], 1});
+  ConfirmationPhase phase(state);
+  CHECK_FALSE(phase.confirm(false));
+  CHECK(phase.confirmation().packings.size() == 2);
+  phase.finish();
+  CHECK(phase.confirmed());
+  CHECK(phase.confirmation().rejected == 1);
+  CHECK(phase.confirmation().packings.size() == 16);
 }
