@@ -168,7 +168,7 @@ constexpr ReadingKind yield_stress_kind{
 std::string advice_without_readings(const Test& test, std::span<const ReadingKind> kinds,
                                     const std::optional<Measurement>& yield_stress) {
   const auto by_default = std::ranges::find_if(kinds, [](const auto& kind) { return kind.advised && !kind.lack; });
-  const std::string measure = "give at least one, e.g. " + in_quotes(std::string(by_default->key));
+  std::string measure = "give at least one, e.g. " + in_quotes(std::string(by_default->key));
   if (!yield_stress) return measure;
   const std::string predicted = predicted_in_words(test, yield_stress->value);
   if (predicted.empty()) return measure + "; no formula says what its yield stress predicts of this test";
