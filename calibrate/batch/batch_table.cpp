@@ -31,9 +31,9 @@ std::optional<double> sheared_share_of(const Card& card) {
   for (const CardTest& test : card.tests) {
     if (test.hold_out) continue;
     for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
-      if (const auto one = is_rejected(test.test, test.baseline.runs[i].observables)) {
+      if (const auto index = rejection_index(test.test, test.baseline.runs[i].observables)) {
         known = true;
-        if (*one) rejected[i] = true;
+        if (*index > 1) rejected[i] = true;
       }
   }
   if (!known) return std::nullopt;

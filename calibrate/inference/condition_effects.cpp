@@ -16,7 +16,7 @@ struct RunsAtEnds {
 };
 
 bool is_usable(const StudyTest& test, const StoredEvaluation& run) {
-  return !failure_of(test, run) && !is_rejected(test.lab.test, run.observables).value_or(false);
+  return !failure_of(test, run) && !is_rejected(test.lab.test, run.observables);
 }
 
 /// Means over the packings on which both heaps are accepted; returns how many those are.

@@ -44,14 +44,24 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
   find_shared();
   count_independent();
   take_conditions();
-  if (std::ranges::find(evidence_.rejected, true) != evidence_.rejected.end())
-    rejections_.emplace(evidence_.points, evidence_.rejected);
+  learn_rejections();
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
   Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size()));
   share.tail(static_cast<Eigen::Index>(evidence_.failed.size())).setOnes();
   failures_.emplace(all, share);
+}
+
+void ResponseModel::learn_rejections() {
+  std::vector<UnitPoint> points;
+  std::vector<double> indices;
+  for (std::size_t i = 0; i < evidence_.rejection_indices.size(); ++i) {
+    if (std::isnan(evidence_.rejection_indices[i])) continue;
+    points.push_back(evidence_.points[i]);
+    indices.push_back(evidence_.rejection_indices[i]);
+  }
+  if (!points.empty()) rejections_.emplace(points, indices);
 }
 
 void ResponseModel::learn_correlation(const std::vector<std::size_t>& sites) {

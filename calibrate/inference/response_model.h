@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/inference/training_data.h"
-#include "calibrate/models/classifier.h"
+#include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/reading_model.h"
 
@@ -59,6 +59,7 @@ class ResponseModel {
     double covariance = 0;  ///< of the noise of the two
   };
 
+  void learn_rejections();
   void learn_correlation(const std::vector<std::size_t>& sites);
   void count_independent();
   void find_shared();
@@ -75,7 +76,7 @@ class ResponseModel {
   double independent_ = 1;                                // n/N
   std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
   std::optional<GaussianProcess> failures_;
-  std::optional<Classifier> rejections_;
+  std::optional<Exceedance> rejections_;
 };
 
 }  // namespace pastefit

@@ -12,13 +12,13 @@ namespace pastefit {
 
 namespace {
 
-/// Which of the simulations a laboratory would reject; nothing if the study does not judge it.
-std::vector<bool> rejected_of(const Study& study, const std::vector<const StoredEvaluation*>& simulations) {
-  std::vector<bool> rejected;
-  if (rejected_share_of(study) >= 1) return rejected;
+/// How near each simulation is to one that a laboratory would reject; nothing if the study does not judge it.
+std::vector<double> rejection_indices_of(const Study& study, const std::vector<const StoredEvaluation*>& simulations) {
+  std::vector<double> indices;
+  if (rejected_share_of(study) >= 1) return indices;
   const auto tests = tests_of(study, false);
-  for (const StoredEvaluation* one : simulations) rejected.push_back(is_rejected(study, tests, *one));
-  return rejected;
+  for (const StoredEvaluation* one : simulations) indices.push_back(rejection_index(study, tests, *one));
+  return indices;
 }
 
 int most_repeats(const std::vector<StudyReading>& readings) {
@@ -51,9 +51,13 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
   }
   if (good.empty()) return evidence;
   const std::vector<StudyReading> fitted = readings_of(study);
-  evidence.rejected = rejected_of(study, good);
+  evidence.rejection_indices = rejection_indices_of(study, good);
   evidence.accepted_heaps = most_repeats(fitted);
-  const bool some_accepted = std::ranges::find(evidence.rejected, false) != evidence.rejected.end();
+  const auto is_rejected = [&](std::size_t i) {
+    return !evidence.rejection_indices.empty() && evidence.rejection_indices[i] > 1;
+  };
+  bool some_accepted = false;
+  for (std::size_t i = 0; i < good.size(); ++i) some_accepted = some_accepted || !is_rejected(i);
   const auto readings = [](const StoredEvaluation* one) { return one->observables.all().size(); };
   for (const Observable& reading : (*std::ranges::max_element(good, {}, readings))->observables.all()) {
     ReadingTrainingData one;
@@ -64,7 +68,7 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
       one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
     if ((one.simulated.array().isInf()).any()) continue;
     for (std::size_t i = 0; some_accepted && i < good.size(); ++i)
-      if (evidence.rejected[i]) one.simulated[static_cast<Eigen::Index>(i)] = std::nan("");
+      if (is_rejected(i)) one.simulated[static_cast<Eigen::Index>(i)] = std::nan("");
     if (one.simulated.array().isNaN().all()) continue;
     if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
       for (std::size_t i = 0; i < good.size(); ++i)

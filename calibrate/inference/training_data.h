@@ -37,8 +37,10 @@ struct TrainingData {
                                       ///< for each simulated value
   std::vector<UnitPoint> failed;      ///< of those that did not
   std::vector<ReadingTrainingData> readings;
-  std::vector<bool> rejected;  ///< by a laboratory, e.g. a heap that sheared off; one for each point; empty: not judged
-  int accepted_heaps = 0;      ///< of the laboratory: those that it reports, which it would not if it rejected them
+  /// How near each point is to one that a laboratory would reject, e.g. a heap that sheared off: it would beyond 1.
+  /// NaN: it was not read; empty: not judged.
+  std::vector<double> rejection_indices;
+  int accepted_heaps = 0;  ///< of the laboratory: those that it reports, which it would not if it rejected them
   std::vector<ConditionEffect> conditions;  ///< of which the laboratory says nothing
 };
 

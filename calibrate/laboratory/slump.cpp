@@ -248,8 +248,8 @@ std::string conditions_in_words(const SlumpTest& test) {
                 plain(largest_pressure_pa(test)).c_str());
 }
 
-std::optional<bool> is_rejected(const SlumpTest& test, const Observables& run) {
-  return has_sheared(test, run);
+std::optional<double> rejection_index(const SlumpTest& test, const Observables& run) {
+  return shear_index(test, run);
 }
 
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {

@@ -95,8 +95,8 @@ std::vector<Experience> experience_of(const SlumpTest& test);
 nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);
 
-/// The heap sheared off (`has_sheared`): EN 12350-2 and ASTM C143 have such a test repeated.
-std::optional<bool> is_rejected(const SlumpTest& test, const Observables& run);
+/// How far its top shifted (`shear_index`): EN 12350-2 and ASTM C143 have the test of a heap that sheared off repeated.
+std::optional<double> rejection_index(const SlumpTest& test, const Observables& run);
 
 /// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs);

@@ -147,13 +147,17 @@ std::string conditions_in_words(const Test& test) {
   return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
 }
 
-std::optional<bool> is_rejected(const Test& test, const Observables& run) {
-  return std::visit([&](const auto& one) { return is_rejected(one, run); }, test);
+std::optional<double> rejection_index(const Test& test, const Observables& run) {
+  return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
+}
+
+bool is_rejected(const Test& test, const Observables& run) {
+  return rejection_index(test, run).value_or(0) > 1;
 }
 
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs) {
   std::vector<bool> rejected;
-  for (const Observables& run : runs) rejected.push_back(is_rejected(test, run).value_or(false));
+  for (const Observables& run : runs) rejected.push_back(is_rejected(test, run));
   return accepted(rejected);
 }
 

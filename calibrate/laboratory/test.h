@@ -57,7 +57,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
-  { is_rejected(given, means) } -> std::same_as<std::optional<bool>>;
+  { rejection_index(given, means) } -> std::same_as<std::optional<double>>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
   { yield_stresses_of(given, means) } -> std::same_as<std::vector<YieldStress>>;
@@ -92,7 +92,9 @@ std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs
                                  std::span<const Measurement> measured);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
-std::optional<bool> is_rejected(const Test& test, const Observables& run);
+std::optional<double> rejection_index(const Test& test, const Observables& run);
+/// Whether the standards have a laboratory reject this run and repeat it.
+bool is_rejected(const Test& test, const Observables& run);
 /// The runs of a test that a laboratory would accept (`accepted.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);

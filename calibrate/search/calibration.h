@@ -40,7 +40,7 @@ struct Reach {
 /// What a search brought.
 struct Calibration {
   Response best;          ///< the reported candidate on every packing it was simulated on
-  Response search;        ///< the same on the common packings it was found with
+  Response search;        ///< the same on the packings it was found with
   Response confirmation;  ///< the same on fresh packings that the search had not used; no point if never confirmed
   CalibrationStatus status = CalibrationStatus::failed;
   std::string reason;             ///< one or more sentences for a person

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/binomial.hpp>
 #include <limits>
 
 #include "calibrate/search/response.h"
@@ -13,7 +12,7 @@ namespace {
 constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts what is known
 
 // A confirmation with these counts holds (`verdict_on`).
-constexpr double confirmed_heaps = 16, confirmed_rejected = 1;
+constexpr int confirmed_heaps = 16, confirmed_rejected = 1;
 
 constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger than any
 
@@ -56,17 +55,25 @@ double CandidateRanking::expected_margin(const Surrogate& model, const UnitPoint
 
 std::vector<double> CandidateRanking::chances_of(const Surrogate& model, const UnitPoint& point,
                                                  std::span<const double> tolerances) const {
+  std::vector<double> chances = chances_of_readings(model, point, tolerances);
+  if (history_.scoring().rejected_share() >= 1) return chances;
+  const double accepted = model.accepted(point, confirmed_rejected, confirmed_heaps);
+  for (double& chance : chances) chance *= accepted;
+  return chances;
+}
+
+double CandidateRanking::chance_of_readings(const UnitPoint& point, double tolerances) const {
+  return chances_of_readings(surrogate_, point, {&tolerances, 1}).front();
+}
+
+std::vector<double> CandidateRanking::chances_of_readings(const Surrogate& model, const UnitPoint& point,
+                                                          std::span<const double> tolerances) const {
   std::vector<Eigen::VectorXd> bounds;
   for (const double share : tolerances) {
     bounds.emplace_back(Eigen::VectorXd::Constant(history_.residuals(), far_from_prior));
     bounds.back().head(history_.readings()) = share * history_.allowances().head(history_.readings());
   }
-  std::vector<double> chances = model.within(bounds, point);
-  if (history_.scoring().rejected_share() >= 1) return chances;
-  const boost::math::binomial_distribution<> rejected(confirmed_heaps, std::clamp(model.rejecting(point), 0.0, 1.0));
-  const double accepted = boost::math::cdf(rejected, confirmed_rejected);
-  for (double& chance : chances) chance *= accepted;
-  return chances;
+  return model.within(bounds, point);
 }
 
 }  // namespace pastefit

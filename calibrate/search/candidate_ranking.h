@@ -36,6 +36,8 @@ class CandidateRanking {
   double chance_of(const UnitPoint& point, double tolerances) const {
     return chances_of(surrogate_, point, {&tolerances, 1}).front();
   }
+  /// The same whatever the heaps that a laboratory rejects.
+  double chance_of_readings(const UnitPoint& point, double tolerances) const;
 
   /// Expected margin of a candidate: the mean of max(0, 1 - w), where its worst fitted reading is off by w tolerances;
   /// nothing where the heaps or what is known beforehand speak against it (`chance_of`). The misfit prefers a candidate
@@ -47,6 +49,8 @@ class CandidateRanking {
  private:
   std::vector<double> chances_of(const Surrogate& model, const UnitPoint& point,
                                  std::span<const double> tolerances) const;
+  std::vector<double> chances_of_readings(const Surrogate& model, const UnitPoint& point,
+                                          std::span<const double> tolerances) const;
 
   const EvaluationHistory& history_;
   Surrogate surrogate_;

@@ -52,7 +52,7 @@ void CandidateSearch::propose_and_try() {
     while (!enough && state_.may_go_on() && std::ssize(state_.history.under_way()) <= state_.options.max_pending) {
       const std::optional<UnitPoint> proposal = proposals.next(known);
       if (!proposal) break;
-      state_.history.begin(*proposal, packing_for(*proposal));
+      state_.history.begin(*proposal, state_.fresh_packings(1));
     }
     if (state_.history.under_way().empty()) return;
     const Response response = state_.history.next_answer();
@@ -60,17 +60,6 @@ void CandidateSearch::propose_and_try() {
     if (is_feasible(response) && response.censored && response.misfit < known.misfit_of_best() && state_.may_go_on())
       (void)state_.history.evaluate({&response.point, 1}, response.packings);
   }
-}
-
-/// One of the common packings in turn; a fresh one for a point that has been simulated on all of them.
-std::vector<std::uint64_t> CandidateSearch::packing_for(const UnitPoint& point) {
-  const std::size_t turn = state_.history.responses().size() + state_.history.under_way().size();
-  for (std::size_t k = 0; k < state_.common.size(); ++k) {
-    const std::uint64_t packing = state_.common[(turn + k) % state_.common.size()];
-    const auto known = [&](const Response& one) { return one.point == point && one.packings.front() == packing; };
-    if (std::ranges::none_of(state_.history.singles(), known)) return {packing};
-  }
-  return state_.fresh_packings(1);
 }
 
 /// Misfit that the noise of the packings makes by itself on the common set, as far as it is known.
@@ -102,10 +91,11 @@ double CandidateSearch::probe_length() const {
   return noise_step(deviation, 4 * (most - least).maxCoeff());
 }
 
+/// Where only heaps that shear off speak against a candidate a descent on the readings is no help.
 void CandidateSearch::refine() {
   if (!state_.may_go_on() || noise() > state_.history.allowed_misfit()) return;
   const CandidateRanking known = state_.ranking();
-  if (StrategyState::goal_is_met(known)) return;
+  if (StrategyState::readings_will_do(known)) return;
   state_.history.enter("refinement");
   descend(TrustRegion::levenberg_marquardt, known.best(), CeresOptions{}.evaluations);
 }

@@ -14,7 +14,7 @@ class CandidateSearch {
  public:
   CandidateSearch(StrategyState& state, bool with_coarse) : state_(state), with_coarse_(with_coarse) {}
 
-  /// Brings candidates on the common packings; false if not a single one could be had.
+  /// Brings candidates; false if not a single one could be had.
   bool look_for_candidate();
   /// Descends where the surrogate sees no better candidate and none that will do, unless what is left is luck.
   void refine();
@@ -23,7 +23,6 @@ class CandidateSearch {
   int share_of_budget() const;
   void minimise_misfit();
   void propose_and_try();
-  std::vector<std::uint64_t> packing_for(const UnitPoint& point);
   double noise() const;
   double probe_length() const;
   void descend(TrustRegion trust_region, const UnitPoint& start, int evaluations);

@@ -19,7 +19,10 @@ enum class Verdict {
 ///     undecided  otherwise
 /// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected: with an even prior the
 /// share p has a beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 (for c = 0.2 none of 8,
-/// 1 of 16), and is refuted with P(p <= c) < 0.1 (3 of 8).
+/// 1 of 16), and is refuted with P(p <= c) < 0.1 (3 of 8). How near each heap came to being rejected tells more than
+/// that: its root (`Exceedance`) is taken as normal with unknown mean and deviation, which gives P(p <= c) by a
+/// noncentral t distribution (a one-sided tolerance limit: Hahn & Meeker, Statistical Intervals (1991), section 4.6).
+/// The lesser of both counts.
 /// Where only one of several heaps is left, the scatter is not known: undecided, unless it is refuted.
 /// Limit: of a single packing the noise is not known and counts as none.
 Verdict verdict_on(const Response& response, double rejected_share = 1);
@@ -29,5 +32,9 @@ Verdict verdict_on(double normalised_error, double noise);
 
 /// Packings of which the mean is likely to be known well enough to be judged, by the scatter of those that there are.
 double packings_to_decide(const Response& response);
+
+/// Whether so many packings would be enough to be sure of the share of rejected heaps, if they were like those that
+/// there are. A share that is nearly the allowed one would take any number.
+bool could_hold(const Response& response, double rejected_share, std::size_t most_packings);
 
 }  // namespace pastefit

@@ -1,5 +1,9 @@
 #include "calibrate/search/low_fidelity.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/models/exceedance.h"
 #include "calibrate/search/response.h"
 #include "calibrate/search/surrogate.h"
 
@@ -20,6 +24,33 @@ Study with_coarse_grains(Study study) {
   return study;
 }
 
+namespace {
+
+/// Coarse grains shear off more often than fine ones: how near they come to it is scaled by the mean ratio, as roots.
+void correct_rejections(std::vector<Response>& coarse, std::span<const Response> fine) {
+  const auto root = [](const Response& one) { return Exceedance::root(one.evaluations.front().rejection_index); };
+  std::vector<UnitPoint> points;
+  std::vector<double> roots;
+  for (const Response& one : coarse) {
+    if (one.censored || one.evaluations.empty() || std::isnan(one.evaluations.front().rejection_index)) continue;
+    points.push_back(one.point);
+    roots.push_back(root(one));
+  }
+  if (points.empty()) return;
+  const GaussianProcess of_coarse(points, Eigen::Map<const Eigen::VectorXd>(roots.data(), std::ssize(roots)));
+  double of_fine = 0, expected = 0;
+  for (const Response& one : fine) {
+    if (!is_whole(one) || one.evaluations.empty() || std::isnan(one.evaluations.front().rejection_index)) continue;
+    of_fine += root(one);
+    expected += of_coarse.predict(one.point).mean;
+  }
+  if (of_fine <= 0 || expected <= 0) return;
+  for (Response& one : coarse)
+    if (!one.evaluations.empty()) one.evaluations.front().rejection_index *= std::pow(of_fine / expected, 2);
+}
+
+}  // namespace
+
 std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine) {
   std::vector<Response> moved;
   for (const Response& one : coarse)
@@ -38,6 +69,7 @@ std::vector<Response> corrected(std::span<const Response> coarse, std::span<cons
     one.residuals += bias;
     one.misfit = 0.5 * one.residuals.squaredNorm();
   }
+  correct_rejections(moved, fine);
   return moved;
 }
 

@@ -53,7 +53,7 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
       continue;
     }
     out.censored = out.censored || evaluation.censored;
-    out.rejected += evaluation.rejected ? 1 : 0;
+    out.rejected += evaluation.is_rejected() ? 1 : 0;
   }
   const auto judged = accepted(evaluations);
   for (const Evaluation* one : judged)

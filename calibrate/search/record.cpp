@@ -114,19 +114,22 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
   return out;
 }
 
-bool is_rejected(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged) {
-  return !merged.failure && std::ranges::any_of(tests, [&](std::size_t index) {
+double rejection_index(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged) {
+  double highest = std::nan("");
+  if (merged.failure) return highest;
+  for (const std::size_t index : tests) {
     const StudyTest& test = study.tests[index];
     Observables run;
     for (const ReadingKind& kind : reading_kinds(test.lab.test))
       if (const auto value = merged.observables.find(reading_name(test, kind.name))) run.set(kind.name, *value);
-    return is_rejected(test.lab.test, run).value_or(false);
-  });
+    highest = std::fmax(highest, rejection_index(test.lab.test, run).value_or(std::nan("")));
+  }
+  return highest;
 }
 
 double rejected_share_of(const Study& study) {
   const auto fitted = tests_of(study, false);
-  const auto may_be = [&](std::size_t test) { return is_rejected(study.tests[test].lab.test, {}).has_value(); };
+  const auto may_be = [&](std::size_t test) { return rejection_index(study.tests[test].lab.test, {}).has_value(); };
   return std::ranges::any_of(fitted, may_be) ? study.search.rejected_share : 1;
 }
 

@@ -22,9 +22,9 @@ std::string key_of(const Study& study, std::size_t test, std::span<const double>
 /// not end early) or no number.
 std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation);
 
-/// Whether a laboratory would reject the run in some of these tests, e.g. a heap that sheared off. `merged`: as
-/// `merged` gives it; what it did not read is not rejected.
-bool is_rejected(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged);
+/// How near the run is to one that a laboratory would reject, e.g. a heap that sheared off: the highest of these tests
+/// (`rejection_index` of each). `merged`: as `merged` gives it. NaN: none of them read it.
+double rejection_index(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged);
 
 /// What share of a candidate's heaps may be rejected; 1 if no fitted test is of a kind of which runs are.
 double rejected_share_of(const Study& study);

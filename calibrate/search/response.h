@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,8 +22,11 @@ struct Evaluation {
   std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
   bool censored = false;  ///< see `Objective::try_out`
-  bool rejected = false;  ///< a laboratory would repeat it: the heap sheared off
   int simulations = 1;    ///< that were spent on it; 0: it was known, or cut off by a stop
+  /// How near it is to one that a laboratory would repeat, e.g. a heap that sheared off; NaN: not judged.
+  double rejection_index = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_rejected() const { return rejection_index > 1; }
 };
 
 /// What a candidate answers on a set of packings: the mean over those that a laboratory would accept (`accepted`),
@@ -67,7 +71,7 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
 /// Those that a laboratory would accept (`laboratory/accepted.h`).
 inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evaluations) {
   std::vector<bool> rejected;
-  for (const Evaluation& one : evaluations) rejected.push_back(one.rejected);
+  for (const Evaluation& one : evaluations) rejected.push_back(one.is_rejected());
   std::vector<const Evaluation*> out;
   for (const std::size_t i : accepted(rejected)) out.push_back(&evaluations[i]);
   return out;

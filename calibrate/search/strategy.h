@@ -14,14 +14,14 @@ namespace pastefit {
 ///      by the bias between the rungs (`low_fidelity.h`) and counts in the surrogate as a simulation; nothing else
 ///      does. They are outside of the budget, and `history` does not hold them.
 ///   2. Search. "default": a Gaussian process for each residual learns from all simulations so far; the point that
-///      promises most (`proposals.h`) is tried out on one packing, one of the common ones in turn
-///      (`Objective::try_out`, as the screening), and simulated to its end if the bound that this brings does not rule
-///      it out; until some candidate is more likely than not to do (`candidate_ranking.h`), or nothing promises enough.
+///      promises most (`proposals.h`) is tried out on a fresh packing (`Objective::try_out`, as the screening), and
+///      simulated to its end if the bound that this brings does not rule it out; until some candidate is more likely
+///      than not to do (`candidate_ranking.h`), or nothing promises enough.
 ///      Up to `max_pending` candidates are under way when the next one is proposed. An NLopt algorithm by name: that
 ///      algorithm on the simulations themselves, from the best screening point, on all common packings, with half of
 ///      what is left of the budget; "levenberg_marquardt" and "dogleg": Ceres likewise.
-///   3. Refinement: Ceres on the residuals on the common packings, if no candidate is likely to do and the noise of
-///      these packings is less than what is allowed.
+///   3. Refinement: Ceres on the residuals on the common packings, if no candidate's readings are likely to do and the
+///      noise of these packings is less than what is allowed.
 ///   4. Confirmation of the likely best candidate on fresh packings: a quarter of them first, and no more if it is
 ///      unlikely then that it will do, or with `max_pending` all at once; up to eight times as many as the options say
 ///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the

@@ -24,6 +24,12 @@ bool StrategyState::goal_is_met(const CandidateRanking& ranking) {
          ranking.chance_of(ranking.best(), 1) >= likely_to_hold;
 }
 
+bool StrategyState::readings_will_do(const CandidateRanking& ranking) {
+  if (ranking.best().size() == 0) return false;
+  return ranking.chance_of_readings(ranking.best(), goal_share) >= likely_enough ||
+         ranking.chance_of_readings(ranking.best(), 1) >= likely_to_hold;
+}
+
 double StrategyState::optimisers_goal() const {
   return scoring().residuals() > scoring().readings() ? 0 : goal_share;
 }

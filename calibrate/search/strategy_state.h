@@ -37,6 +37,8 @@ class StrategyState {
   CandidateRanking ranking() const { return {history, refuted}; }
   /// True if the best candidate is more likely than not to do.
   static bool goal_is_met(const CandidateRanking& ranking);
+  /// The same whatever the heaps that a laboratory rejects.
+  static bool readings_will_do(const CandidateRanking& ranking);
   /// The normalised error at which an optimiser may end by itself; none where what is known beforehand has a say.
   double optimisers_goal() const;
 };

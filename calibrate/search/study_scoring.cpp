@@ -32,7 +32,7 @@ Evaluation StudyScoring::evaluation_of(const UnitPoint& point, const StoredEvalu
   out.packing = stored.packing;
   out.failure = stored.failure;
   out.censored = !out.failure && stored.run.ended_early;
-  out.rejected = is_rejected(study_, fitted_, stored);
+  out.rejection_index = rejection_index(study_, fitted_, stored);
   if (!out.failure)
     for (const auto& reading : scored())
       out.observables.push_back(out.censored ? stored.observables.find(reading.name).value_or(std::nan(""))

@@ -4,9 +4,9 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/low_fidelity.h"
 #include "calibrate/search/response.h"
 
 namespace pastefit {
@@ -113,7 +113,7 @@ Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
 
 Surrogate::MisfitPosterior Surrogate::misfit_posterior(const UnitPoint& point) const {
   const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
-  double certain = rejected_misfit_ * std::pow(rejecting(point), 2), mean = odd + failing(point) * worst_, variance = 0;
+  double certain = 0, mean = odd + failing(point) * worst_, variance = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
     if (!models_[k]) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
@@ -122,23 +122,27 @@ Surrogate::MisfitPosterior Surrogate::misfit_posterior(const UnitPoint& point) c
     mean += 0.5 * (square + residual.variance);
     variance += residual.variance * (0.5 * residual.variance + square);
   }
-  return {certain, mean, variance};
+  MisfitPosterior::Rejections rejections{};
+  if (rejections_) {
+    rejections = rejections_->shares(point);
+    for (double& share : rejections) share *= rejected_misfit_ * share;
+  }
+  return {certain, rejections, mean, variance};
 }
 
-/// Coarse grains shear off otherwise than fine ones: only fine ones tell.
 void Surrogate::learn_rejections(std::span<const Response> seen, const Eigen::VectorXd& tolerances,
                                  double rejected_share) {
   if (rejected_share >= 1) return;
   std::vector<UnitPoint> points;
-  std::vector<bool> labels;
+  std::vector<double> indices;
   for (const Response& one : seen)
     for (const Evaluation& evaluation : one.evaluations) {
-      if (evaluation.failure || evaluation.censored || evaluation.packing >= coarse_packings) continue;
+      if (evaluation.failure || evaluation.censored || std::isnan(evaluation.rejection_index)) continue;
       points.push_back(one.point);
-      labels.push_back(evaluation.rejected);
+      indices.push_back(evaluation.rejection_index);
     }
-  if (std::ranges::none_of(labels, [](bool rejected) { return rejected; })) return;
-  rejections_.emplace(points, labels);
+  if (points.empty()) return;
+  rejections_.emplace(points, indices);
   const double judged = static_cast<double>((tolerances.array() > 0).count());
   const double allowed = judged > 0 ? tolerances.squaredNorm() / judged : 1;
   rejected_misfit_ = 0.5 * allowed / std::pow(std::max(rejected_share, least_share), 2);
@@ -146,6 +150,10 @@ void Surrogate::learn_rejections(std::span<const Response> seen, const Eigen::Ve
 
 double Surrogate::rejecting(const UnitPoint& point) const {
   return rejections_ ? rejections_->probability(point) : 0;
+}
+
+double Surrogate::accepted(const UnitPoint& point, int rejected, int heaps) const {
+  return rejections_ ? rejections_->probability_of_at_most(rejected, heaps, point) : 1;
 }
 
 double Surrogate::failing(const UnitPoint& point) const {
@@ -168,8 +176,18 @@ std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, c
   return probabilities;
 }
 
+double Surrogate::MisfitPosterior::mean() const {
+  return certain_ + std::accumulate(rejections_.begin(), rejections_.end(), 0.0) / Exceedance::nodes + mean_;
+}
+
 double Surrogate::MisfitPosterior::improvement(double bound) const {
-  bound -= certain_;
+  if (rejections_.front() == rejections_.back()) return improvement_of_readings(bound - certain_ - rejections_.front());
+  double sum = 0;
+  for (const double rejected : rejections_) sum += improvement_of_readings(bound - certain_ - rejected);
+  return sum / Exceedance::nodes;
+}
+
+double Surrogate::MisfitPosterior::improvement_of_readings(double bound) const {
   if (bound <= 0) return 0;
   if (variance_ <= 0) return std::max(0.0, bound - mean_);
   const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "calibrate/models/classifier.h"
+#include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/replicate_variance.h"
 #include "calibrate/search/objective.h"
@@ -35,14 +36,20 @@ class Surrogate {
   /// sum of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
   class MisfitPosterior {
    public:
-    MisfitPosterior(double certain, double mean, double variance)
-        : certain_(certain), mean_(mean), variance_(variance) {}
-    double mean() const { return certain_ + mean_; }
+    /// What a share of rejected heaps may equally well add to the misfit.
+    using Rejections = std::array<double, Exceedance::nodes>;
+    MisfitPosterior(double certain, const Rejections& rejections, double mean, double variance)
+        : certain_(certain), rejections_(rejections), mean_(mean), variance_(variance) {}
+    double mean() const;
     /// Mean of what lies below this bound: max(0, bound - misfit).
     double improvement(double bound) const;
 
    private:
-    double certain_, mean_, variance_;
+    double improvement_of_readings(double bound) const;
+
+    double certain_;
+    Rejections rejections_;
+    double mean_, variance_;
   };
   /// Certain is what a mean over some packings is off by where they variance. Its mean includes failures and what a
   /// point far from the middle of the bounds has to make up for (a weak prior).
@@ -59,6 +66,8 @@ class Surrogate {
 
   /// Likely share of heaps that a laboratory would reject, e.g. that shear off.
   double rejecting(const UnitPoint& point) const;
+  /// Probability that it would reject at most so many of some heaps.
+  double accepted(const UnitPoint& point, int rejected, int heaps) const;
 
   /// Misfit that the noise of one simulation is likely to cause: half the sum of the noise variances.
   double noise() const;
@@ -76,7 +85,7 @@ class Surrogate {
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
   std::vector<std::optional<ReplicateVariance>> replicate_variances_;  // likewise; none too where it does not matter
   std::optional<GaussianProcess> failures_;
-  std::optional<Classifier> rejections_;  // none: nothing was rejected, or it does not matter
+  std::optional<Exceedance> rejections_;  // none: no kind of test of which runs are rejected, or it does not matter
   double rejected_misfit_ = 0;            // of a share of 1
 };
 

@@ -83,7 +83,7 @@ std::string note_on_yield_stress(const Lab& lab) {
 
 /// "repeats": how many heaps were made, and how many of them sheared off.
 void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats) {
-  if (!is_rejected(lab.test, {})) {
+  if (!rejection_index(lab.test, {})) {
     document.refuse("repeats", "a " + std::string(kind_of(lab.test)) + " test has no heap that shears off",
                     "leave it out");
     return;

@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kCap = 0.6;    // [s] for the column to be enlarged
 constexpr double kLook = 0.02;  // [s] between two changes of size
-// [1/s]. The grains feel their cohesion all at once; without drag the column would swing like a jelly for seconds.
-constexpr double kDrag = 40;
-constexpr double kShare = 0.5;        // of the missing size that is made up for at once
 constexpr double kMostGrowth = 2e-3;  // in one look
 constexpr double kEven = 2e-4;        // missing size with which the column fits: 0.06 % of the volume
 
@@ -54,7 +51,7 @@ Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptio
   options.steps.energy_balance = false;  // the column is worked on from outside
   options.steps.fixed_step_s.reset();    // meant for the test
   World world = world_in_mould(test, packing);
-  world.drag = kDrag;
+  world.drag = kColumnDrag;  // the grains feel their cohesion all at once
   Runner runner(world, options, rest_measure_of_heap);
   Packing full = packing;
   const Mould& mould = test.mould;
@@ -71,7 +68,7 @@ Packing full_mould(const SlumpTest& test, const Packing& packing, const RunOptio
     const double missing = (missing_height + 2 * missing_width) / 3;
     even = std::fabs(missing) < kEven || waited > kCap ? even + 1 : 0;
     if (even > 0) continue;
-    const double growth = std::clamp(kShare * missing, -kMostGrowth, kMostGrowth);
+    const double growth = std::clamp(missing, -kMostGrowth, kMostGrowth);
     enlarge(world.particles, 1 + growth);
     runner.changed();
     size *= 1 + growth;

@@ -26,6 +26,8 @@ constexpr double kFillCap = 4.0;     // [s]
 constexpr double kScoopSpeed = 1.0;  // [m/s] at which grains sink
 constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
 constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
+// Grains that have landed are struck off while they still swing a little: what is left dies out under the lid.
+constexpr RestCriterion kLanded{.window_s = 0.02, .windows = 1, .speed_over_fall = 0.15, .change_over_radius = 0.1};
 
 // Frictions and steps of resting overlap at which moulds are filled; candidates between them share one.
 constexpr double kFrictions[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
@@ -153,7 +155,9 @@ void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing
   packing.centres =
       random_addition(test.mould, small, kLoosest * kStartSize * kStartSize * kStartSize, test.packing_seed);
   World world = filling_world(test, options, packing, highest(packing));
-  Runner runner(world, options, rest_measure_of_fill);
+  RunOptions landing = options;
+  landing.rest = kLanded;
+  Runner runner(world, landing, rest_measure_of_fill);
   packing.failure = grow(test, world, runner);
   world.drag = kGravity / sinking_speed(world);
   if (!packing.failure) packing.failure = runner.settle({"fill.sink"}, kFillCap);
@@ -176,6 +180,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   const double top = std::max(highest(packing), rim);
   World world = filling_world(test, options, packing, top);
   world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
+  world.drag = kColumnDrag;
   Runner runner(world, options, rest_measure_of_heap);
   world.walls.back().velocity = {0, 0, -kLidSpeed};
   packing.failure = runner.run({"fill.strike"}, (top - rim) / kLidSpeed);

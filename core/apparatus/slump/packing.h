@@ -21,6 +21,9 @@ struct Packing {
   std::optional<Failure> failure;
 };
 
+/// Drag on a column that comes to rest in its mould [1/s]: without it a soft one swings like a jelly for seconds.
+inline constexpr double kColumnDrag = 40;
+
 /// How a mould is filled for a candidate. Tests that differ in the material only, and whose fillings are equal, share
 /// their packings.
 ///

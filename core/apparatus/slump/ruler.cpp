@@ -90,6 +90,11 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".plateau_width_mm", 1e3 * plateau_width(side));
 }
 
+double shear_index(const SlumpTest& test, const Observables& readings) {
+  const auto shift_mm = readings.find("step1.lateral_shift_mm");
+  return shift_mm ? 1e-3 * *shift_mm / (kShearedShift * wider_radius_m(test.mould)) : std::nan("");
+}
+
 bool has_sheared(const SlumpTest& test, const Observables& readings) {
   const auto shift_mm = readings.find("step1.lateral_shift_mm");
   return shift_mm && 1e-3 * *shift_mm > kShearedShift * wider_radius_m(test.mould);

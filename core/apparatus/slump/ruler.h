@@ -55,6 +55,9 @@ inline constexpr double kShearedShift = 0.4;
 /// Whether the heap sheared off when the mould was lifted; not if its shift is unknown.
 bool has_sheared(const SlumpTest& test, const Observables& readings);
 
+/// How far the top shifted, over the shift beyond which a heap counts as sheared off; NaN: not read.
+double shear_index(const SlumpTest& test, const Observables& readings);
+
 /// The grains that have not left the table.
 Particles on_table(const Particles& grains);
 

@@ -284,7 +284,7 @@ TEST_CASE("readings of one heap that scatter against each other tell more togeth
 
 TEST_CASE("that a laboratory reports its heaps tells against materials of which most shear off") {
   TrainingData evidence = evidence_for({first_alone}, 60);
-  for (const UnitPoint& point : evidence.points) evidence.rejected.push_back(point[1] > 0.5);
+  for (const UnitPoint& point : evidence.points) evidence.rejection_indices.push_back(point[1] > 0.5 ? 1.5 : 0.5);
   const auto range = [&](int heaps) {
     evidence.accepted_heaps = heaps;
     const Inference inference = infer(evidence, middle);

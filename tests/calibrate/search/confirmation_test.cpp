@@ -1,7 +1,9 @@
 #include "calibrate/search/confirmation.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -197,9 +199,9 @@ TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, m
 
 TEST_CASE("the one heap that stands among many confirms nothing, whatever share may be rejected") {
   Response response = heaps_with(7, 8);
-  for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejected = true;
+  for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejection_index = 1.5;
   CHECK(verdict_on(response, 1) == Verdict::undecided);
-  response.evaluations[0].rejected = false;
+  response.evaluations[0].rejection_index = 0.5;
   CHECK(verdict_on(response, 1) == Verdict::holds);
 }
 
@@ -210,8 +212,9 @@ TEST_CASE("a material is confirmed for how its heaps stand, not for their mean a
     for (const double share : {0.2, 1.0}) {
       Synthetic slump = fake_slump(150, seed);
       slump.budget = 200;
-      slump.rejects = [&, seed](const UnitPoint& x, std::uint64_t packing) {
-        return uniform(hash_of(seed, digest(x)), packing) < chance(x);
+      slump.rejection_index = [&, seed](const UnitPoint& x, std::uint64_t packing) {
+        const double deviate = boost::math::quantile(boost::math::normal_distribution<>(), chance(x));
+        return std::pow(std::max(0.0, 1 + 0.2 * (deviate + normal(hash_of(seed, digest(x)), packing))), 2);
       };
       slump.allowed_share = share;
       SearchOptions options = options_with(seed);
@@ -264,7 +267,9 @@ TEST_CASE(
   Synthetic slump = fake_slump(mean_height(point), 1);
   slump.allowed_share = 0.2;
   slump.budget = 200;
-  slump.rejects = [](const UnitPoint&, std::uint64_t packing) { return packing == 1003; };  // the first fresh one
+  slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) {
+    return packing == 1003 ? 1.5 : 0.5;  // the first fresh one
+  };
   Answered answered(slump);
   const SearchOptions options = generous_options(1);
   const std::function<void(const Progress&)> unheard;

@@ -29,7 +29,7 @@ std::vector<Response> heaps_of_which_some_shear() {
     heap.point = point;
     heap.rejected = heaps.size() % 5 < 3 ? 1 : 0;
     heap.evaluations.resize(1);
-    heap.evaluations[0].rejected = heap.rejected > 0;
+    heap.evaluations[0].rejection_index = heap.rejected > 0 ? 1.3 : 0.6;
     heap.residuals = Eigen::VectorXd::Constant(1, slope(point) - 80 * heap.rejected);
     heap.misfit = 0.5 * heap.residuals.squaredNorm();
     heaps.push_back(heap);

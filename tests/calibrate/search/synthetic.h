@@ -49,10 +49,9 @@ class Synthetic : public Objective {
   std::function<bool(const UnitPoint&, std::uint64_t packing)> fails = [](const UnitPoint&, std::uint64_t) {
     return false;
   };
-  /// A laboratory would repeat the test.
-  std::function<bool(const UnitPoint&, std::uint64_t packing)> rejects = [](const UnitPoint&, std::uint64_t) {
-    return false;
-  };
+  /// A laboratory would repeat the test where this is more than 1.
+  std::function<double(const UnitPoint&, std::uint64_t packing)> rejection_index = [](const UnitPoint&,
+                                                                                      std::uint64_t) { return 0.0; };
   double allowed_share = 1;  ///< of rejected heaps; 1: not judged
   /// Residuals of what is known beforehand.
   std::function<std::vector<double>(const UnitPoint&)> known = [](const UnitPoint&) { return std::vector<double>{}; };
@@ -119,7 +118,7 @@ class Synthetic : public Objective {
         if (cut_off) evaluation.failure->reason = FailureReason::stopped;
       } else {
         evaluation.observables = observe(point, packing);
-        evaluation.rejected = rejects(point, packing);
+        evaluation.rejection_index = rejection_index(point, packing);
         if (tried) end_early(evaluation);
       }
       evaluation.simulations = known_.insert({digest(point), packing, evaluation.censored}).second ? 1 : 0;
@@ -139,7 +138,7 @@ class Synthetic : public Objective {
       response.packings.push_back(evaluation.packing);
       response.failed = response.failed || evaluation.failure;
       response.censored = response.censored || evaluation.censored;
-      response.rejected += evaluation.rejected ? 1 : 0;
+      response.rejected += evaluation.is_rejected() ? 1 : 0;
     }
     const auto judged = accepted(evaluations);
     for (const Evaluation* one : judged)

@@ -1,0 +1,64 @@
+#include "calibrate/models/exceedance.h"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <vector>
+
+namespace pastefit {
+namespace {
+
+// Of the root of a value over its limit: scatter below which nothing is certain though the values seen lie on a line.
+constexpr double least_scatter = 0.02;
+
+// Medians of the fifths of a standard normal variable, scaled to its variance.
+constexpr std::array<double, Exceedance::nodes> node_deviates{-1.4634, -0.5988, 0, 0.5988, 1.4634};
+
+constexpr double clip = 2.25;  // of a value over its limit
+
+Eigen::VectorXd roots(std::span<const double> values) {
+  Eigen::VectorXd out(std::ssize(values));
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out[i] = Exceedance::root(values[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+double scatter_of(const GaussianProcess& process) {
+  return std::max(process.noise_variance(), least_scatter * least_scatter);
+}
+
+double normal_cdf(double deviate) {
+  return 0.5 * std::erfc(-deviate / std::sqrt(2.0));
+}
+
+}  // namespace
+
+double Exceedance::root(double value) {
+  return std::sqrt(std::clamp(value, 0.0, clip));
+}
+
+Exceedance::Exceedance(std::span<const UnitPoint> points, std::span<const double> values)
+    : roots_(points, roots(values)) {}
+
+double Exceedance::probability(const UnitPoint& point) const {
+  const GaussianProcess::Prediction mean = roots_.predict(point);
+  return normal_cdf((mean.mean - 1) / std::sqrt(scatter_of(roots_) + mean.variance));
+}
+
+std::array<double, Exceedance::nodes> Exceedance::shares(const UnitPoint& point) const {
+  const GaussianProcess::Prediction mean = roots_.predict(point);
+  const double deviation = std::sqrt(mean.variance), scatter = std::sqrt(scatter_of(roots_));
+  std::array<double, nodes> out{};
+  for (std::size_t k = 0; k < out.size(); ++k)
+    out[k] = normal_cdf((mean.mean + node_deviates[k] * deviation - 1) / scatter);
+  return out;
+}
+
+double Exceedance::probability_of_at_most(int exceeding, int count, const UnitPoint& point) const {
+  double sum = 0;
+  for (const double share : shares(point))
+    sum += boost::math::cdf(boost::math::binomial_distribution<>(count, share), exceeding) / nodes;
+  return sum;
+}
+
+}  // namespace pastefit
