@@ -1,6 +1,7 @@
 #include "calibrate/models/exceedance.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <vector>
@@ -12,7 +13,7 @@ namespace {
 constexpr double least_scatter = 0.02;
 
 // Medians of the fifths of a standard normal variable, scaled to its variance.
-constexpr std::array<double, Exceedance::nodes> node_deviates{-1.4634, -0.5988, 0, 0.5988, 1.4634};
+constexpr std::array fifths{-1.4634, -0.5988, 0.0, 0.5988, 1.4634};
 
 constexpr double clip = 2.25;  // of a value over its limit
 
@@ -45,20 +46,15 @@ double Exceedance::probability(const UnitPoint& point) const {
   return normal_cdf((mean.mean - 1) / std::sqrt(scatter_of(roots_) + mean.variance));
 }
 
-std::array<double, Exceedance::nodes> Exceedance::shares(const UnitPoint& point) const {
+double Exceedance::probability_of_at_most(int exceeding, int count, const UnitPoint& point) const {
   const GaussianProcess::Prediction mean = roots_.predict(point);
   const double deviation = std::sqrt(mean.variance), scatter = std::sqrt(scatter_of(roots_));
-  std::array<double, nodes> out{};
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = normal_cdf((mean.mean + node_deviates[k] * deviation - 1) / scatter);
-  return out;
-}
-
-double Exceedance::probability_of_at_most(int exceeding, int count, const UnitPoint& point) const {
   double sum = 0;
-  for (const double share : shares(point))
-    sum += boost::math::cdf(boost::math::binomial_distribution<>(count, share), exceeding) / nodes;
-  return sum;
+  for (const double deviate : fifths) {
+    const double share = normal_cdf((mean.mean + deviate * deviation - 1) / scatter);
+    sum += boost::math::cdf(boost::math::binomial_distribution<>(count, share), exceeding);
+  }
+  return sum / static_cast<double>(fifths.size());
 }
 
 }  // namespace pastefit

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "calibrate/models/gaussian_process.h"
@@ -22,11 +21,6 @@ class Exceedance {
 
   /// That the next value exceeds the limit.
   double probability(const UnitPoint& point) const;
-
-  /// The same less the scatter: the share of values that exceed the limit may equally well be each of these, as little
-  /// is known of it.
-  static constexpr int nodes = 5;
-  std::array<double, nodes> shares(const UnitPoint& point) const;
 
   /// That of `count` values at most `exceeding` exceed the limit: the binomial distribution, averaged over what is not
   /// known of their common probability.

@@ -4,7 +4,6 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "calibrate/optimisers/nlopt.h"
 #include "calibrate/search/response.h"
@@ -113,7 +112,7 @@ Eigen::VectorXd Surrogate::expected_residuals(const UnitPoint& point) const {
 
 Surrogate::MisfitPosterior Surrogate::misfit_posterior(const UnitPoint& point) const {
   const double odd = 0.5 * weight_of_middle * (2 * point.array() - 1).square().sum();
-  double certain = 0, mean = odd + failing(point) * worst_, variance = 0;
+  double certain = rejected_misfit_ * std::pow(rejecting(point), 2), mean = odd + failing(point) * worst_, variance = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
     if (!models_[k]) continue;
     const GaussianProcess::Prediction residual = models_[k]->predict(point);
@@ -122,12 +121,7 @@ Surrogate::MisfitPosterior Surrogate::misfit_posterior(const UnitPoint& point) c
     mean += 0.5 * (square + residual.variance);
     variance += residual.variance * (0.5 * residual.variance + square);
   }
-  MisfitPosterior::Rejections rejections{};
-  if (rejections_) {
-    rejections = rejections_->shares(point);
-    for (double& share : rejections) share *= rejected_misfit_ * share;
-  }
-  return {certain, rejections, mean, variance};
+  return {certain, mean, variance};
 }
 
 void Surrogate::learn_rejections(std::span<const Response> seen, const Eigen::VectorXd& tolerances,
@@ -176,18 +170,8 @@ std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, c
   return probabilities;
 }
 
-double Surrogate::MisfitPosterior::mean() const {
-  return certain_ + std::accumulate(rejections_.begin(), rejections_.end(), 0.0) / Exceedance::nodes + mean_;
-}
-
 double Surrogate::MisfitPosterior::improvement(double bound) const {
-  if (rejections_.front() == rejections_.back()) return improvement_of_readings(bound - certain_ - rejections_.front());
-  double sum = 0;
-  for (const double rejected : rejections_) sum += improvement_of_readings(bound - certain_ - rejected);
-  return sum / Exceedance::nodes;
-}
-
-double Surrogate::MisfitPosterior::improvement_of_readings(double bound) const {
+  bound -= certain_;
   if (bound <= 0) return 0;
   if (variance_ <= 0) return std::max(0.0, bound - mean_);
   const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,20 +35,14 @@ class Surrogate {
   /// sum of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
   class MisfitPosterior {
    public:
-    /// What a share of rejected heaps may equally well add to the misfit.
-    using Rejections = std::array<double, Exceedance::nodes>;
-    MisfitPosterior(double certain, const Rejections& rejections, double mean, double variance)
-        : certain_(certain), rejections_(rejections), mean_(mean), variance_(variance) {}
-    double mean() const;
+    MisfitPosterior(double certain, double mean, double variance)
+        : certain_(certain), mean_(mean), variance_(variance) {}
+    double mean() const { return certain_ + mean_; }
     /// Mean of what lies below this bound: max(0, bound - misfit).
     double improvement(double bound) const;
 
    private:
-    double improvement_of_readings(double bound) const;
-
-    double certain_;
-    Rejections rejections_;
-    double mean_, variance_;
+    double certain_, mean_, variance_;
   };
   /// Certain is what a mean over some packings is off by where they variance. Its mean includes failures and what a
   /// point far from the middle of the bounds has to make up for (a weak prior).
