@@ -143,8 +143,8 @@ inline std::optional<std::vector<PredictedReading>> readings_of_fluid(const Spec
   return std::nullopt;
 }
 
-/// How near a run is to one that the standards have a laboratory reject and repeat: it is where this is more than 1. NaN:
-/// not read; nothing for a kind of which no run is rejected.
+/// How near a run is to one that the standards have a laboratory reject and repeat: it is where this is more than 1.
+/// NaN: not read; nothing for a kind of which no run is rejected.
 inline std::optional<double> rejection_index(const Specimen&, const Observables&) {
   return std::nullopt;
 }

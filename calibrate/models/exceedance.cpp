@@ -19,8 +19,7 @@ constexpr double clip = 2.25;  // of a value over its limit
 
 Eigen::VectorXd roots(std::span<const double> values) {
   Eigen::VectorXd out(std::ssize(values));
-  for (Eigen::Index i = 0; i < out.size(); ++i)
-    out[i] = Exceedance::root(values[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = Exceedance::root(values[static_cast<std::size_t>(i)]);
   return out;
 }
 

@@ -309,7 +309,8 @@ class HostileInput(Desk):
         return self.changed(STUDY, "study.json", change)
 
     def test_only_a_confirmed_material_ends_in_status_0(self):
-        result = run("calibrate", self.small_study(tolerance_mm=250), "--out", self.out)
+        result = run("calibrate", self.small_study(tolerance_mm=250, budget_simulations=8, confirmation_packings=4), "--out",
+                     self.out)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         verdict = " ".join((self.out / "summary.txt").read_text().split())  # as lines are broken
         self.assertIn("The material meets the laboratory", verdict)

@@ -50,7 +50,8 @@ TEST_CASE("the probability of an exceedance is learnt from values, of which few 
   CHECK(error_of(60) < 0.08);
 }
 
-TEST_CASE("where all is known, at most so many exceed as the binomial distribution says; where little is, it is less sure") {
+TEST_CASE(
+    "where all is known, at most so many exceed as the binomial distribution says; where little is, it is less sure") {
   const UnitPoint point = UnitPoint::Constant(2, 0.3);
   const double share = truth(point);
   const auto chance = [&](std::size_t answers) {

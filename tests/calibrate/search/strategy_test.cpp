@@ -186,9 +186,9 @@ TEST_CASE("a confirmation that disagrees teaches the search, which is confirmed 
     CAPTURE(seed);
     Synthetic objective = fake_slump(150, seed);
     const auto honest = objective.observe;
-    const std::uint64_t last_common = 1000 * seed + 2;  // the packings of the first round read too high
-    objective.observe = [honest, last_common](const UnitPoint& x, std::uint64_t packing) {
-      return std::vector<double>{honest(x, packing)[0] + (packing <= last_common ? 14 : 0)};
+    const std::uint64_t last_misleading = 1000 * seed + 10;  // the packings of the first round read too high
+    objective.observe = [honest, last_misleading](const UnitPoint& x, std::uint64_t packing) {
+      return std::vector<double>{honest(x, packing)[0] + (packing <= last_misleading ? 14 : 0)};
     };
     SearchOptions options = options_with(seed);
     options.confirmation_packings = 8;
@@ -201,7 +201,7 @@ TEST_CASE("a confirmation that disagrees teaches the search, which is confirmed 
       std::vector<UnitPoint> judged;
       for (const Response& one : calibration.history) {
         // A confirmation begins with a quarter of its packings; candidates are tried on one at a time.
-        if (one.packings.front() <= last_common || one.packings.size() != 2) continue;
+        if (one.packings.back() <= last_misleading || one.packings.size() != 2) continue;
         CHECK(std::ranges::count(judged, one.point) == 0);
         judged.push_back(one.point);
       }

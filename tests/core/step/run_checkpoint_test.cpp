@@ -108,7 +108,7 @@ TEST_CASE("a jolting table that is killed again and again, and goes on, has the 
   test.drop->motion = TableMotion::vertical;
   test.drop->lift_height_m = 0.01;
   test.drop->drops = 4;
-  check_resumed(test, 35, 2);
+  check_resumed(test, 28, 2);
 }
 
 TEST_CASE("a run with fixed waits that is killed again and again, and goes on, has the bits of one that was not") {
