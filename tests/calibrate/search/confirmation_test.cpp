@@ -152,24 +152,23 @@ TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit 
   }
 }
 
-TEST_CASE("packings are not asked for where their scatter says that no affordable number of them would do",
-          "[campaign]") {
-  double most = 0;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    Synthetic objective;
-    objective.dimension = 2;
-    objective.measured = {100};
-    objective.standard_deviations = {5};
-    // One heap stands and the next one shears off, whatever the candidate: their mean is the laboratory's.
-    objective.observe = [](const UnitPoint& x, std::uint64_t packing) {
-      return std::vector<double>{uniform(digest(x), packing) < 0.5 ? 10.0 : 190.0};
-    };
-    const Calibration calibration = search(objective, generous_options(seed));
-    CHECK(calibration.status == CalibrationStatus::unconfirmed);
-    CHECK(calibration.confirmation.packings.size() == 8);
-    most = std::max(most, packings_to_decide(calibration.confirmation));
-  }
-  CHECK(most > 64);
+TEST_CASE("packings are not asked for where their scatter says that no affordable number of them would do") {
+  const UnitPoint point = UnitPoint::Constant(5, 0.5);
+  Synthetic slump = fake_slump(100, 1);
+  slump.budget = 200;
+  // One heap stands and the next one shears off: their mean is the laboratory's.
+  slump.observe = [](const UnitPoint&, std::uint64_t packing) {
+    return std::vector<double>{packing % 2 == 0 ? 10.0 : 190.0};
+  };
+  Answered answered(slump);
+  const SearchOptions options = generous_options(1);
+  const std::function<void(const Progress&)> unheard;
+  StrategyState state(answered.queue, options, {}, unheard);
+  state.history.evaluate({&point, 1}, {&state.common[0], 1});
+  ConfirmationPhase phase(state);
+  CHECK_FALSE(phase.confirm(true));
+  CHECK(phase.confirmation().packings.size() == 8);
+  CHECK(packings_to_decide(phase.confirmation()) > 64);
 }
 
 namespace {

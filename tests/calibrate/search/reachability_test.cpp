@@ -202,7 +202,7 @@ TEST_CASE("a claim that a later simulation contradicts is withdrawn, and the sea
     if (told.find("is out of reach") == std::string::npos) continue;
     ++withdrawn;
     CHECK_THAT(told, Catch::Contains("the search goes on"));
-    CHECK(calibration.simulations > 34);
+    CHECK(calibration.simulations > 24);  // a claim that stands takes 18 to 22
   }
   CHECK(withdrawn >= 5);
 }

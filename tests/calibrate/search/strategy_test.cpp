@@ -186,7 +186,7 @@ TEST_CASE("a confirmation that disagrees teaches the search, which is confirmed 
     CAPTURE(seed);
     Synthetic objective = fake_slump(150, seed);
     const auto honest = objective.observe;
-    const std::uint64_t last_misleading = 1000 * seed + 10;  // the packings of the first round read too high
+    const std::uint64_t last_misleading = 1000 * seed + 4;  // the packings of the first round read too high
     objective.observe = [honest, last_misleading](const UnitPoint& x, std::uint64_t packing) {
       return std::vector<double>{honest(x, packing)[0] + (packing <= last_misleading ? 14 : 0)};
     };
@@ -199,9 +199,11 @@ TEST_CASE("a confirmation that disagrees teaches the search, which is confirmed 
       ++again;
       // The candidate that failed is not asked again.
       std::vector<UnitPoint> judged;
+      std::set<std::uint64_t> tried;
       for (const Response& one : calibration.history) {
-        // A confirmation begins with a quarter of its packings; candidates are tried on one at a time.
-        if (one.packings.back() <= last_misleading || one.packings.size() != 2) continue;
+        // A confirmation begins with a quarter of its packings; candidates are tried on one at a time, and recalled.
+        if (one.packings.size() == 1) tried.insert(one.packings.front());
+        if (one.packings.size() != 2 || tried.contains(one.packings.front())) continue;
         CHECK(std::ranges::count(judged, one.point) == 0);
         judged.push_back(one.point);
       }
