@@ -11,12 +11,12 @@
 namespace pastefit {
 
 /// What a simulation of any candidate is likely to read, learnt from the evidence: a model for each reading
-/// (`ReadingModel`), a Gaussian process for the share of failures, and a classifier for the share of heaps that a
-/// laboratory would reject, p: that it reports n heaps is worth n log(1 - p). Readings of one heap are correlated: a
-/// heap that happens to stay high is narrow. The correlation is learnt from the fillings of the same candidates, drawn
-/// towards none by three heaps' worth of predictive_variance. It is none between tests. The likelihood of a candidate
-/// follows: the laboratory's means are off the mean answers of the simulations by the laboratory's own errors and by
-/// what is not known of those answers, normal with
+/// (`ReadingModel`), a Gaussian process for the share of failures, and one of how near heaps come to being rejected
+/// (`Exceedance`): that a laboratory reports n heaps is worth n log(1 - p), p the probability that one is rejected.
+/// Readings of one heap are correlated: a heap that happens to stay high is narrow. The correlation is learnt from the
+/// fillings of the same candidates, drawn towards none by three heaps' worth of predictive_variance. It is none between
+/// tests. The likelihood of a candidate follows: the laboratory's means are off the mean answers of the simulations by
+/// the laboratory's own errors and by what is not known of those answers, normal with
 ///     C = L + M,   M_jk = (predictive_variance of the two means: that of j for j = k; else what the same heaps brought
 ///     into both), L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j
 ///     n_k);

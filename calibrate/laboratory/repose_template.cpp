@@ -64,7 +64,7 @@ constexpr std::string_view repose_study =
   "search": {
     "screening": 8,              // candidates spread over the bounds at the start
     "budget_simulations": 60,    // in all, confirmation included
-    "packings": 2,               // random packings on which candidates are tried in turn
+    "packings": 2,               // random packings of a candidate with coarse grains
     "confirmation_packings": 8,  // fresh packings for the best candidate
     "examination_simulations": 10,  // afterwards, of the same budget: which other materials fit as well
     "seed": 1

@@ -75,7 +75,7 @@ constexpr std::string_view shear_study =
   "search": {
     "screening": 6,              // candidates spread over the bounds at the start
     "budget_simulations": 40,    // in all, confirmation included
-    "packings": 2,               // random packings on which candidates are tried in turn
+    "packings": 2,               // random packings of a candidate with coarse grains
     "confirmation_packings": 6,  // fresh packings for the best candidate
     "examination_simulations": 6,
     "tolerance_mm": 1,           // good enough, for heights; for a stress the laboratory's deviation

@@ -100,7 +100,7 @@ constexpr std::string_view slump_study =
     "strategy": "default",
     "screening": 16,             // candidates spread over the bounds at the start
     "budget_simulations": 150,   // in all, confirmation included
-    "packings": 2,               // random packings on which candidates are tried in turn
+    "packings": 2,               // random packings of a candidate with coarse grains
     "max_pending": 0,            // candidates under way when the next is proposed; 1 saves time and costs simulations
     "confirmation_packings": 8,  // fresh packings for the best candidate
     // Of its heaps that shear off (the top shifts by more than 0.4 of the mould's wider radius): the standards repeat the test.

@@ -15,12 +15,16 @@ std::string tolerance_in_words(const MisfitUnit& unit) {
 std::string doubt_about(const Calibration& result, const MisfitUnit& unit, double rejected_share,
                         const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
-  if (told.rejected > 0 && verdict_on(told, rejected_share) != verdict_on(told))
-    return format("Of the best candidate's %zu heaps a laboratory would reject %d: ", told.evaluations.size(),
-                  told.rejected) +
-           (verdict_on(told, rejected_share) == Verdict::refuted
-                ? format("more than a share of %g", rejected_share) + spent
-                : format("a share of %g is not certain", rejected_share) + spent + " Allow more simulations.");
+  const Verdict verdict = verdict_on(told, rejected_share);
+  if (verdict != verdict_on(told)) {
+    const std::string heaps = format("Of the best candidate's %zu heaps a laboratory would reject %d",
+                                     told.evaluations.size(), told.rejected);
+    if (verdict == Verdict::refuted && told.rejected > 0)
+      return heaps + format(": more than a share of %g", rejected_share) + spent;
+    if (verdict == Verdict::refuted) return heaps + ", but all came near to it" + spent;
+    return heaps + format(": by how near they came to it a share of %g is not certain", rejected_share) + spent +
+           " Allow more simulations.";
+  }
   const std::string tolerance = tolerance_in_words(unit);
   std::string words = "The best candidate misses the laboratory by " + unit.words(told.normalised_error);
   if (told.normalised_error > 1) return words + ", more than " + tolerance + spent;

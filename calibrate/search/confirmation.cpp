@@ -14,7 +14,7 @@
 namespace pastefit {
 namespace {
 
-// Probabilities that the share of rejected heaps is no larger than it may be.
+// Probabilities that the share of rejected heaps is no larger than it may be, by their count and by how near they came.
 constexpr double hardly_within = 0.1, surely_within = 0.8;
 
 constexpr std::size_t least_heaps = 4;  // of which a scatter is worth something
@@ -41,9 +41,11 @@ double within_by_index(const Response& response, double allowed, double times) {
                           root_of_count * margin);
 }
 
-/// Probability that no larger a share of heaps than `allowed` is rejected, were there so many times as many like these.
-double within(const Response& response, double allowed, double times = 1) {
-  return std::min(within_by_count(response, allowed, times), within_by_index(response, allowed, times));
+/// Whether no larger a share of heaps than `allowed` is rejected, were there so many times as many like these.
+Verdict verdict_on_share(const Response& response, double allowed, double times = 1) {
+  const double within = std::min(within_by_count(response, allowed, times), within_by_index(response, allowed, times));
+  if (within < hardly_within) return Verdict::refuted;
+  return within >= surely_within ? Verdict::holds : Verdict::undecided;
 }
 
 }  // namespace
@@ -55,9 +57,8 @@ Verdict verdict_on(const Response& response, double rejected_share) {
   const Verdict of_readings = verdict_on(response.normalised_error, response.noise);
   const Verdict readings = known || of_readings == Verdict::refuted ? of_readings : Verdict::undecided;
   if (readings == Verdict::refuted || rejected_share >= 1) return readings;
-  const double chance = within(response, rejected_share);
-  if (chance < hardly_within) return Verdict::refuted;
-  return chance < surely_within ? Verdict::undecided : readings;
+  const Verdict share = verdict_on_share(response, rejected_share);
+  return share == Verdict::holds ? readings : share;
 }
 
 Verdict verdict_on(double normalised_error, double noise) {
@@ -74,7 +75,7 @@ double packings_to_decide(const Response& response) {
 bool could_hold(const Response& response, double rejected_share, std::size_t most_packings) {
   if (rejected_share >= 1) return true;
   const double times = static_cast<double>(most_packings) / static_cast<double>(response.evaluations.size());
-  return within(response, rejected_share, std::max(1.0, times)) >= surely_within;
+  return verdict_on_share(response, rejected_share, std::max(1.0, times)) == Verdict::holds;
 }
 
 }  // namespace pastefit

@@ -84,12 +84,12 @@ struct SearchOptions {
   std::string strategy = "default";  ///< name of a search strategy or of an NLopt algorithm
   int screening = 8;                 ///< space-filling points
   int budget_simulations = 60;       ///< simulations in all, confirmation included
-  int packings = 2;                  ///< random packings on which candidates are tried in turn
-  int max_pending = 0;               ///< candidates that may be under way when the next one is proposed; above 0 a
-                                     ///< confirmation asks for all its packings at once
-  int confirmation_packings = 4;     ///< fresh packings for the candidate that is reported
-  double rejected_share = 0.2;  ///< of heaps that a laboratory would reject, at most; 1: not judged. Not stated: as
-                                ///< many as the laboratory's own, if that is more
+  int packings = 2;     ///< random packings that an optimiser's candidates share, and those with coarse grains
+  int max_pending = 0;  ///< candidates that may be under way when the next one is proposed; above 0 a
+                        ///< confirmation asks for all its packings at once
+  int confirmation_packings = 4;  ///< fresh packings for the candidate that is reported
+  double rejected_share = 0.2;    ///< of heaps that a laboratory would reject, at most; 1: not judged. Not stated: as
+                                  ///< many as the laboratory's own, if that is more
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
   bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/low_fidelity.h`)
