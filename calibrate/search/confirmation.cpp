@@ -21,31 +21,24 @@ constexpr std::size_t least_heaps = 4;  // of which a scatter is worth something
 
 /// That the share of heaps beyond the limit is no larger than `allowed`, by how many of them are: with an even prior
 /// the share has a beta distribution.
-double within_by_count(const Response& response, double allowed, double times) {
-  const double rejected = times * response.rejected, heaps = times * static_cast<double>(response.evaluations.size());
+double within_by_count(const Response& response, double allowed) {
+  const double rejected = response.rejected, heaps = static_cast<double>(response.evaluations.size());
   return boost::math::cdf(boost::math::beta_distribution<>(rejected + 1, heaps - rejected + 1), allowed);
 }
 
 /// The same by how near each came to the limit: a normal variable of unknown mean and scatter is beyond it with at most
 /// that share (the one-sided tolerance limit, by a noncentral t distribution). 1 where it cannot be told.
-double within_by_index(const Response& response, double allowed, double times) {
+double within_by_index(const Response& response, double allowed) {
   std::vector<double> roots;
   for (const Evaluation& one : response.evaluations)
     if (!std::isnan(one.rejection_index)) roots.push_back(Exceedance::root(one.rejection_index));
   const Sample sample = sample_of(roots);
   if (roots.size() < least_heaps || sample.standard_deviation <= 0) return 1;
-  const double count = times * sample.count, root_of_count = std::sqrt(count), freedom = count - 1;
+  const double root_of_count = std::sqrt(sample.count), freedom = sample.count - 1;
   const double needed = boost::math::quantile(boost::math::normal_distribution<>(), 1 - allowed);
   const double margin = (1 - sample.mean) / sample.standard_deviation;
   return boost::math::cdf(boost::math::non_central_t_distribution<>(freedom, root_of_count * needed),
                           root_of_count * margin);
-}
-
-/// Whether no larger a share of heaps than `allowed` is rejected, were there so many times as many like these.
-Verdict verdict_on_share(const Response& response, double allowed, double times = 1) {
-  const double within = std::min(within_by_count(response, allowed, times), within_by_index(response, allowed, times));
-  if (within < hardly_within) return Verdict::refuted;
-  return within >= surely_within ? Verdict::holds : Verdict::undecided;
 }
 
 }  // namespace
@@ -57,8 +50,9 @@ Verdict verdict_on(const Response& response, double rejected_share) {
   const Verdict of_readings = verdict_on(response.normalised_error, response.noise);
   const Verdict readings = known || of_readings == Verdict::refuted ? of_readings : Verdict::undecided;
   if (readings == Verdict::refuted || rejected_share >= 1) return readings;
-  const Verdict share = verdict_on_share(response, rejected_share);
-  return share == Verdict::holds ? readings : share;
+  const double within = std::min(within_by_count(response, rejected_share), within_by_index(response, rejected_share));
+  if (within < hardly_within) return Verdict::refuted;
+  return within < surely_within ? Verdict::undecided : readings;
 }
 
 Verdict verdict_on(double normalised_error, double noise) {
@@ -70,12 +64,6 @@ double packings_to_decide(const Response& response) {
   constexpr double least = 1e-6;  // where no number of packings would tell
   const double left = std::abs(1 - response.normalised_error * response.normalised_error);
   return static_cast<double>(response.packings.size()) * response.noise * response.noise / std::max(left, least);
-}
-
-bool could_hold(const Response& response, double rejected_share, std::size_t most_packings) {
-  if (rejected_share >= 1) return true;
-  const double times = static_cast<double>(most_packings) / static_cast<double>(response.evaluations.size());
-  return verdict_on_share(response, rejected_share, std::max(1.0, times)) == Verdict::holds;
 }
 
 }  // namespace pastefit

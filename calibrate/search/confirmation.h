@@ -33,8 +33,4 @@ Verdict verdict_on(double normalised_error, double noise);
 /// Packings of which the mean is likely to be known well enough to be judged, by the scatter of those that there are.
 double packings_to_decide(const Response& response);
 
-/// Whether so many packings would be enough to be sure of the share of rejected heaps, if they were like those that
-/// there are. A share that is nearly the allowed one would take any number.
-bool could_hold(const Response& response, double rejected_share, std::size_t most_packings);
-
 }  // namespace pastefit

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double hardly_likely = 0.1;          // that a candidate will do: its confirmation is broken off
 constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
-// To so many for heaps that a laboratory may reject: another material is sooner found than a share of nearly what is
-// allowed is bounded.
+// To so many where only the share of rejected heaps is not told: another material is sooner found than a share of
+// nearly what is allowed is bounded.
 constexpr std::size_t worthwhile_confirmations = 4;
 
 }  // namespace
@@ -41,9 +41,8 @@ bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint6
       verdict = Verdict::refuted;
     if (asked >= least && packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
     if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested()) break;
-    if (asked >= least && !whatever_it_does &&
-        !could_hold(confirmation, state_.scoring().rejected_share(), worthwhile_confirmations * all))
-      break;
+    const bool by_share = verdict_on(confirmation) != Verdict::undecided;  // the readings are told
+    if (by_share && !whatever_it_does && asked >= worthwhile_confirmations * all) break;
     const std::size_t more = asked < all ? all - asked : asked;
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));

@@ -212,13 +212,6 @@ TEST_CASE("eight heaps that all but sheared off do not hold as eight that hardly
   CHECK(verdict_on(heaps(0.85, 0.14), 1) == Verdict::holds);
 }
 
-TEST_CASE("a share of rejected heaps that is nearly the allowed one is not asked for on and on") {
-  CHECK(could_hold(heaps_with(0, 4), 0.2, 32));
-  CHECK(could_hold(heaps_with(1, 8), 0.2, 32));         // 4 of 32: 0.82
-  CHECK_FALSE(could_hold(heaps_with(3, 16), 0.2, 32));  // 6 of 32: 0.52
-  CHECK(could_hold(heaps_with(3, 16), 1, 32));
-}
-
 TEST_CASE("the one heap that stands among many confirms nothing, whatever share may be rejected") {
   Response response = heaps_with(7, 8);
   for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejection_index = 1.5;
@@ -304,4 +297,21 @@ TEST_CASE(
   CHECK(phase.confirmed());
   CHECK(phase.confirmation().rejected == 1);
   CHECK(phase.confirmation().packings.size() == 16);
+}
+
+TEST_CASE("a share of rejected heaps that is nearly the allowed one is not asked for on and on") {
+  const UnitPoint point = UnitPoint::Constant(5, 0.5);
+  Synthetic slump = fake_slump(mean_height(point), 1);
+  slump.allowed_share = 0.2;
+  slump.budget = 200;
+  slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) { return packing % 5 == 0 ? 2.25 : 0.25; };
+  Answered answered(slump);
+  const SearchOptions options = generous_options(1);
+  const std::function<void(const Progress&)> unheard;
+  StrategyState state(answered.queue, options, {}, unheard);
+  state.history.evaluate({&point, 1}, {&state.common[0], 1});
+  ConfirmationPhase phase(state);
+  CHECK_FALSE(phase.confirm(false));
+  CHECK(phase.confirmation().packings.size() == 32);
+  CHECK(phase.confirmation().rejected == 6);
 }
