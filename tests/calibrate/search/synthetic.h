@@ -50,8 +50,9 @@ class Synthetic : public Objective {
     return false;
   };
   /// A laboratory would repeat the test where this is more than 1.
-  std::function<double(const UnitPoint&, std::uint64_t packing)> rejection_index = [](const UnitPoint&,
-                                                                                      std::uint64_t) { return 0.0; };
+  std::function<double(const UnitPoint&, std::uint64_t packing)> rejection_index = [](const UnitPoint&, std::uint64_t) {
+    return 0.0;
+  };
   double allowed_share = 1;  ///< of rejected heaps; 1: not judged
   /// Residuals of what is known beforehand.
   std::function<std::vector<double>(const UnitPoint&)> known = [](const UnitPoint&) { return std::vector<double>{}; };
