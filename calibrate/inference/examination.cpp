@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "calibrate/search/record.h"
+#include "calibrate/search/strategy_state.h"
 
 namespace pastefit {
 
 namespace {
-
-constexpr std::uint64_t first_packing = 900;  // beyond any the search of the same seed uses
 
 std::vector<UnitPoint> predicted_members(const Inference& inference) {
   std::vector<UnitPoint> points;
@@ -36,7 +35,7 @@ std::optional<Inference> examine(const std::function<TrainingData(std::span<cons
   const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
   const auto simulate = [&](std::vector<UnitPoint> points, std::uint64_t round) {
     points.resize(std::min(points.size(), static_cast<std::size_t>(affordable())));
-    const std::uint64_t packing = seed * 1000 + first_packing + round;
+    const std::uint64_t packing = seed * 1000 + first_examination_packing + round;
     for (Response& response : objective.evaluate(points, {&packing, 1})) history.push_back(std::move(response));
     left -= static_cast<int>(points.size());
   };

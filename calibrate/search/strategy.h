@@ -27,7 +27,7 @@ namespace pastefit {
 ///      while their noise hides whether it meets the laboratory (`confirmation.h`). If it does not for certain, the
 ///      candidate is out and the search goes on from 2 with what all of them taught. Limit: a mean that is looked at up
 ///      to four times is a little kinder than one that is looked at once.
-/// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with the common
+/// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with its
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, scoring.parameters(),
 /// scoring.simulations_each())` is empty. The way depends on the answers only: the same answers, the same calibration.

@@ -10,24 +10,29 @@ constexpr double likely_enough = 0.5;  // and with which it is begun
 /// and a search that waited to be all but certain (0.97) simulated mix 79 two hundred times more; to ask takes 8.
 constexpr double likely_to_hold = 0.75;
 
+template <class Chance>
+bool is_likely(const Chance& chance_within, const CandidateRanking& ranking) {
+  if (ranking.best().size() == 0) return false;
+  return chance_within(goal_share) >= likely_enough || chance_within(1) >= likely_to_hold;
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> StrategyState::fresh_packings(int count) {
   std::vector<std::uint64_t> packings;
-  for (int k = 0; k < count; ++k) packings.push_back(options.seed * 1000 + ++packings_used_);
+  for (int k = 0; k < count; ++k) {
+    if (++packings_used_ == first_examination_packing) packings_used_ = 1000;
+    packings.push_back(options.seed * 1000 + packings_used_);
+  }
   return packings;
 }
 
 bool StrategyState::goal_is_met(const CandidateRanking& ranking) {
-  if (ranking.best().size() == 0) return false;
-  return ranking.chance_of(ranking.best(), goal_share) >= likely_enough ||
-         ranking.chance_of(ranking.best(), 1) >= likely_to_hold;
+  return is_likely([&](double tolerances) { return ranking.chance_of(ranking.best(), tolerances); }, ranking);
 }
 
 bool StrategyState::readings_will_do(const CandidateRanking& ranking) {
-  if (ranking.best().size() == 0) return false;
-  return ranking.chance_of_readings(ranking.best(), goal_share) >= likely_enough ||
-         ranking.chance_of_readings(ranking.best(), 1) >= likely_to_hold;
+  return is_likely([&](double tolerances) { return ranking.chance_of_readings(ranking.best(), tolerances); }, ranking);
 }
 
 double StrategyState::optimisers_goal() const {

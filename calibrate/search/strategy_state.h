@@ -11,8 +11,12 @@
 
 namespace pastefit {
 
-/// What the phases of a strategy share: all answers, the packings on which every candidate is compared, and the
-/// candidates that a confirmation has judged.
+/// A search of seed s draws packings from 1000 s on and leaves out a hundred from here: those of the examination
+/// (`inference/examination.h`).
+inline constexpr std::uint64_t first_examination_packing = 900;
+
+/// What the phases of a strategy share: all answers, the packings on which an optimiser's candidates are compared, and
+/// the candidates that a confirmation has judged.
 class StrategyState {
   std::uint64_t packings_used_ = 0;  // first: `common` uses some
 
@@ -23,7 +27,7 @@ class StrategyState {
 
   const SearchOptions& options;
   EvaluationHistory history;
-  const std::vector<std::uint64_t> common;  ///< every candidate is compared on these
+  const std::vector<std::uint64_t> common;  ///< an optimiser's candidates are compared on these
   std::vector<UnitPoint> refuted;           ///< by a confirmation
 
   const Scoring& scoring() const { return history.scoring(); }

@@ -96,8 +96,7 @@ double shear_index(const SlumpTest& test, const Observables& readings) {
 }
 
 bool has_sheared(const SlumpTest& test, const Observables& readings) {
-  const auto shift_mm = readings.find("step1.lateral_shift_mm");
-  return shift_mm && 1e-3 * *shift_mm > kShearedShift * wider_radius_m(test.mould);
+  return shear_index(test, readings) > 1;
 }
 
 Particles on_table(const Particles& grains) {

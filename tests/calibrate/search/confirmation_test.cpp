@@ -36,6 +36,20 @@ SearchOptions generous_options(std::uint64_t seed) {
   return options;
 }
 
+/// A confirmation phase of a search that knows one candidate, tried on one packing.
+struct Judged {
+  Judged(Synthetic& objective, const UnitPoint& candidate)
+      : answered(objective), state(answered.queue, options, {}, unheard), phase(state) {
+    state.history.evaluate({&candidate, 1}, {&state.common[0], 1});
+  }
+
+  const SearchOptions options = generous_options(1);
+  const std::function<void(const Progress&)> unheard;
+  Answered answered;
+  StrategyState state;
+  ConfirmationPhase phase;
+};
+
 }  // namespace
 
 TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
@@ -160,12 +174,8 @@ TEST_CASE("packings are not asked for where their scatter says that no affordabl
   slump.observe = [](const UnitPoint&, std::uint64_t packing) {
     return std::vector<double>{packing % 2 == 0 ? 10.0 : 190.0};
   };
-  Answered answered(slump);
-  const SearchOptions options = generous_options(1);
-  const std::function<void(const Progress&)> unheard;
-  StrategyState state(answered.queue, options, {}, unheard);
-  state.history.evaluate({&point, 1}, {&state.common[0], 1});
-  ConfirmationPhase phase(state);
+  Judged judged(slump, point);
+  ConfirmationPhase& phase = judged.phase;
   CHECK_FALSE(phase.confirm(true));
   CHECK(phase.confirmation().packings.size() == 8);
   CHECK(packings_to_decide(phase.confirmation()) > 64);
@@ -285,12 +295,8 @@ TEST_CASE(
   slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) {
     return packing == 1003 ? 2.25 : 0.25;  // the first fresh one
   };
-  Answered answered(slump);
-  const SearchOptions options = generous_options(1);
-  const std::function<void(const Progress&)> unheard;
-  StrategyState state(answered.queue, options, {}, unheard);
-  state.history.evaluate({&point, 1}, {&state.common[0], 1});
-  ConfirmationPhase phase(state);
+  Judged judged(slump, point);
+  ConfirmationPhase& phase = judged.phase;
   CHECK_FALSE(phase.confirm(false));
   CHECK(phase.confirmation().packings.size() == 2);
   phase.finish();
@@ -305,12 +311,8 @@ TEST_CASE("a share of rejected heaps that is nearly the allowed one is not asked
   slump.allowed_share = 0.2;
   slump.budget = 200;
   slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) { return packing % 5 == 0 ? 2.25 : 0.25; };
-  Answered answered(slump);
-  const SearchOptions options = generous_options(1);
-  const std::function<void(const Progress&)> unheard;
-  StrategyState state(answered.queue, options, {}, unheard);
-  state.history.evaluate({&point, 1}, {&state.common[0], 1});
-  ConfirmationPhase phase(state);
+  Judged judged(slump, point);
+  ConfirmationPhase& phase = judged.phase;
   CHECK_FALSE(phase.confirm(false));
   CHECK(phase.confirmation().packings.size() == 32);
   CHECK(phase.confirmation().rejected == 6);
