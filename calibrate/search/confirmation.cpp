@@ -5,6 +5,7 @@
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "calibrate/base/statistics.h"
@@ -58,6 +59,13 @@ Verdict verdict_on(const Response& response, double rejected_share) {
 Verdict verdict_on(double normalised_error, double noise) {
   if (std::hypot(1, noise) < normalised_error) return Verdict::refuted;
   return std::hypot(normalised_error, noise) <= 1 ? Verdict::holds : Verdict::undecided;
+}
+
+double shortfall(const Response& response, double rejected_share) {
+  if (!is_whole(response)) return std::numeric_limits<double>::infinity();
+  if (response.rejected == 0 || rejected_share >= 1) return response.normalised_error;
+  const double share = static_cast<double>(response.rejected) / static_cast<double>(response.evaluations.size());
+  return std::max(response.normalised_error, share / rejected_share);
 }
 
 double packings_to_decide(const Response& response) {

@@ -30,6 +30,11 @@ Verdict verdict_on(const Response& response, double rejected_share = 1);
 /// The same by the numbers.
 Verdict verdict_on(double normalised_error, double noise);
 
+/// How far a candidate is from being confirmed, 1 at the limit: what it misses the laboratory by, in tolerances, or the
+/// share of its heaps that a laboratory would reject over the share that may be, whichever is more. Infinite if some
+/// packing failed or ended early.
+double shortfall(const Response& response, double rejected_share);
+
 /// Packings of which the mean is likely to be known well enough to be judged, by the scatter of those that there are.
 double packings_to_decide(const Response& response);
 

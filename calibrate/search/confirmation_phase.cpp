@@ -68,7 +68,8 @@ void ConfirmationPhase::report(const Response& confirmation) {
   std::ranges::copy(confirmation.packings, std::back_inserter(joined));
   const Response evidence = state_.history.recall(confirmation.point, joined);
   const bool first = confirmation_.point.size() == 0 || confirmation_.point == confirmation.point;
-  if (!confirmed_ && !first && !is_better(evidence, best_)) return;
+  const double share = state_.scoring().rejected_share();
+  if (!confirmed_ && !first && shortfall(evidence, share) >= shortfall(best_, share)) return;
   best_ = evidence;
   search_ = state_.history.recall(confirmation.point, tried);
   confirmation_ = confirmation;

@@ -29,7 +29,8 @@ class ConfirmationPhase {
   int first_packings() const;
   /// Judges a candidate on these packings and as many again, and reports it; false if a stop was requested meanwhile.
   bool judge(const UnitPoint& candidate, std::vector<std::uint64_t> fresh, bool whatever_it_does);
-  /// The result is this candidate, judged on fresh packings, if no better one was.
+  /// The result is this candidate, judged on fresh packings, if none was that came nearer to being confirmed
+  /// (`shortfall`). Misfits would not do: they are weighed by noise that is known better later.
   void report(const Response& confirmation);
 
   StrategyState& state_;

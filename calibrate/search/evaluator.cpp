@@ -199,6 +199,7 @@ std::vector<Response> SimulationObjective::earlier() const {
 
 void SimulationObjective::run(Task& task) {
   if (stop_requested()) return;
+  const double core_start = thread_seconds();
   RunOptions options = options_.run;
   const auto& values = task.evaluation.values;
   const auto test = test_with(study_.tests[task.index].lab.test, values, task.evaluation.packing);
@@ -211,7 +212,6 @@ void SimulationObjective::run(Task& task) {
 
   bool by_user = false;
   const auto start = Clock::now();
-  const double core_start = thread_seconds();
   watch(options, start, task.look, &by_user);
   Sketcher sketcher;
   options.watch = [&, goes_on = std::move(options.watch)](const Snapshot& snapshot) {

@@ -210,6 +210,22 @@ TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, m
   CHECK(verdict_on(off, 0.2) == Verdict::refuted);
 }
 
+TEST_CASE("of candidates that are not confirmed the one whose worst trouble is least is reported") {
+  Response off = heaps_with(0, 8), sheared = heaps_with(6, 32);
+  off.normalised_error = 1.9;
+  off.misfit = 0.1;  // by weights of a noise that was not known yet
+  sheared.normalised_error = 0.6;
+  sheared.misfit = 0.2;
+  CHECK(shortfall(off, 0.2) == Approx(1.9));
+  CHECK(shortfall(sheared, 0.2) == Approx(6.0 / 32 / 0.2));
+  CHECK(shortfall(sheared, 0.1) == Approx(6.0 / 32 / 0.1));
+  CHECK(shortfall(sheared, 1) == Approx(0.6));
+  CHECK(shortfall(heaps_with(0, 8), 0) == 0);
+  CHECK(std::isinf(shortfall(heaps_with(1, 8), 0)));
+  off.censored = true;
+  CHECK(std::isinf(shortfall(off, 0.2)));
+}
+
 TEST_CASE("eight heaps that all but sheared off do not hold as eight that hardly shifted do") {
   const auto heaps = [](double mean_root, double deviation) {
     Response response = heaps_with(0, 8);
