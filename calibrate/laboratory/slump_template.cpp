@@ -85,7 +85,7 @@ constexpr std::string_view slump_study =
     "curvature": {"value": -0.5},                // decay: -1 flat at touch, 0 straight, 1 flat at rupture
     "rupture_gap_ratio": {"free": [0.4, 1], "scale": "log"},  // gap at rupture over R; small ones scatter, or shear off
     "formation_ratio": {"value": 0.3},           // gap at which a bridge forms over the one at which it ruptures
-    "friction": {"free": [0.05, 0.8], "scale": "log"},  // between grains; where the spread is not fitted: {"value": 0.15}
+    "friction": {"free": [0.05, 0.3], "scale": "log"},  // between grains; heaps with more shear off. Spread not fitted: {"value": 0.15}
     "rolling_friction": {"free": [0, 0.5]}       // the same: {"value": 0.02}
     // "table_rolling_friction": {"value": 0.1}  // decides the heap where grains are dry or weak
     // "adhesion_pa": {"free": [100, 10000]}  // of jkr: surface energy over R

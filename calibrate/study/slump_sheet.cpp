@@ -242,7 +242,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
     out["rupture_gap_ratio"] = {{"free", {both ? 0.4 : 0.15, 1}}, {"scale", "log"}};
     out["formation_ratio"] = fixed(both ? 0.3 : 1);
   }
-  out["friction"] = both ? ordered_json{{"free", {0.05, 0.8}}, {"scale", "log"}} : fixed(0.15);
+  out["friction"] = both ? ordered_json{{"free", {0.05, 0.3}}, {"scale", "log"}} : fixed(0.15);
   out["rolling_friction"] = both ? free(0, 0.5) : fixed(0.02);
   return out;
 }

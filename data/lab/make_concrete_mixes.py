@@ -92,7 +92,7 @@ def study_file(row, kind, both):
             "curvature": {"value": -0.5} if both else {"free": [-0.5, 1]},
             "rupture_gap_ratio": {"free": [0.4, 1.0], "scale": "log"} if both else {"free": [0.3, 1.0]},
             "formation_ratio": {"value": 0.3} if both else {"free": [0, 1]},
-            "friction": {"free": [0.05, 0.8], "scale": "log"} if both else {"value": 0.15},
+            "friction": {"free": [0.05, 0.3], "scale": "log"} if both else {"value": 0.15},
             "rolling_friction": {"free": [0, 0.5]} if both else {"value": 0.02},
         },
         "weights": {"step1.height_mm": 1, "step1.spread_mm": int(both)}

@@ -5,7 +5,8 @@ usage: reach.py EVALUATIONS.sqlite...
 
 Takes every whole simulation of an Abrams cone that the searches stored (`standing_heaps.py --keep`), whatever they were looking for. For each mix: of
 the heaps whose height is within the tolerance, how many sheared off, and the quantiles of the spread of those that stand. A mix is in
-reach where its spread, less or more its tolerance, lies between them.
+reach where its spread, less or more its tolerance, lies between them. Then, of the heaps near both readings of some mix, the share
+that sheared off, by their sliding friction.
 """
 import json
 import sqlite3
@@ -15,15 +16,21 @@ from standing_heaps import MIXES, SHEARED_MM
 
 HEIGHT_TOLERANCE_MM, SPREAD_TOLERANCE_MM = 7.5, 25
 FEWEST_GRAINS = 1000  # coarse grains are another test
+FRICTIONS = [0.05, 0.08, 0.12, 0.18, 0.25, 0.4, 0.8]
 
 
 def heaps(paths):
+    seen = set()
     for path in paths:
         store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-        for observables, run in store.execute("SELECT observables, run FROM evaluations WHERE failure = 'null'"):
-            heap, run = json.loads(observables), json.loads(run)
+        rows = store.execute("SELECT observables, run, parameter_values, packing FROM evaluations WHERE failure = 'null'")
+        for observables, run, values, packing in rows:
+            if (observables, values, packing) in seen:
+                continue
+            seen.add((observables, values, packing))
+            heap, run, values = map(json.loads, (observables, run, values))
             if run["particles"] >= FEWEST_GRAINS and not run["ended_early"] and "step2.height_mm" not in heap:
-                yield heap["step1.height_mm"], heap["step1.spread_mm"], heap["step1.lateral_shift_mm"] > SHEARED_MM
+                yield heap["step1.height_mm"], heap["step1.spread_mm"], heap["step1.lateral_shift_mm"] > SHEARED_MM, values["friction"]
 
 
 def quantile(values, share):
@@ -34,7 +41,7 @@ if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     found = list(heaps(sys.argv[1:]))
-    print(f"{len(found)} heaps, {sum(sheared for *_, sheared in found)} sheared off\n")
+    print(f"{len(found)} heaps, {sum(sheared for _, _, sheared, _ in found)} sheared off\n")
     print("| mix | height | heaps | sheared off | spread needed | spread of the others: smallest, 5 %, median, 95 %, largest | in reach |")
     print("|---|---|---|---|---|---|---|")
     for mix, (height, spread) in MIXES.items():
@@ -46,3 +53,12 @@ if __name__ == "__main__":
         reached = sum(abs(value - spread) <= SPREAD_TOLERANCE_MM for value in spreads)
         print(f"| {mix} | {height} | {len(near)} | {len(near) - len(spreads)} | {spread} ± {SPREAD_TOLERANCE_MM} |",
               ", ".join(f"{value:.0f}" for value in quantiles), f"| {reached} of {len(spreads)} |")
+
+    print("\n| mix | friction | heaps near both readings | sheared off |\n|---|---|---|---|")
+    for mix, (height, spread) in MIXES.items():
+        near = [heap for heap in found
+                if abs(heap[0] - height) <= 3 * HEIGHT_TOLERANCE_MM and abs(heap[1] - spread) <= SPREAD_TOLERANCE_MM]
+        for lower, upper in zip(FRICTIONS, FRICTIONS[1:]):
+            band = [sheared for _, _, sheared, friction in near if lower <= friction < upper or friction == upper == FRICTIONS[-1]]
+            if band:
+                print(f"| {mix} | {lower} to {upper} | {len(band)} | {100 * sum(band) / len(band):.0f} % |")
