@@ -2,7 +2,7 @@
 """Calibrations of concretes, and what becomes of their materials on packings that no search has seen.
 
 usage: standing_heaps.py PROGRAM TABLE.csv [--mixes 79,57] [--seeds 1,2] [--grains mono|spread] [--shape free|fixed]
-                         [--shift] [--core-budget 400] [--keep DIR]
+                         [--shift] [--unexamined] [--core-budget 400] [--keep DIR]
        standing_heaps.py --report TABLE.csv
 
 The study of mix 79 (data/studies) with the readings of other mixes. Grains: 8 mm, or evenly from 6 to 10 mm. Shape: all eight
@@ -52,6 +52,8 @@ def write_study(folder, mix, seed, options):
     if options.shape == "free":
         study["parameters"] |= FREE
     study["search"]["seed"] = seed
+    if options.unexamined:
+        study["search"]["examination_simulations"] = 0
     study["lab"] = "lab.json"
     (folder / "lab.json").write_text(json.dumps(lab))
     (folder / "study.json").write_text(json.dumps(study))
@@ -135,6 +137,7 @@ if __name__ == "__main__":
     parser.add_argument("--grains", choices=GRAINS, default="spread")
     parser.add_argument("--shape", choices=("free", "fixed"), default="free")
     parser.add_argument("--shift", action="store_true")
+    parser.add_argument("--unexamined", action="store_true", help="without what follows the confirmation")
     parser.add_argument("--rejected-share", type=float)
     parser.add_argument("--core-budget", type=float, default=400)
     parser.add_argument("--keep", type=Path, metavar="DIR", help="where to put each search's evaluations")
