@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a spread of grain sizes does to heaps: share that shears off, scatter, reach and cost.
 
-usage: grain_sizes.py PROGRAM TABLE.csv [--packings 24]
+usage: grain_sizes.py PROGRAM TABLE.csv [--packings 24] [--sizes "6 to 10" ...] [--materials "card of mix 79" ...]
 
 Simulates each material with each distribution of radii on packings 1, 2, ... in the mould of mix 79 (data/lab), and appends a row for
 each simulation to TABLE.csv. Rows that stand there are not run again. `grain_sizes.py --report TABLE.csv` prints the table.
@@ -35,6 +35,12 @@ SIZES = {
     "6 to 10": {"distribution": "uniform", "smallest_mm": 6, "largest_mm": 10},
     "5 to 11": {"distribution": "uniform", "smallest_mm": 5, "largest_mm": 11},
 }
+# What a smaller error costs: the same spread about another mean.
+OTHER_MEANS = {
+    "9 to 15": {"distribution": "uniform", "smallest_mm": 9, "largest_mm": 15},
+    "4.5 to 7.5": {"distribution": "uniform", "smallest_mm": 4.5, "largest_mm": 7.5},
+    "3 to 5": {"distribution": "uniform", "smallest_mm": 3, "largest_mm": 5},
+}
 READINGS = ["step1.height_mm", "step1.spread_mm", "step1.lateral_shift_mm"]
 SHEARED_MM = 40  # 0.4 of the mould's base radius
 
@@ -67,7 +73,7 @@ def simulate(program, study, parameters, packing):
     return [readings.get(name, math.nan) for name in READINGS] + [seconds]
 
 
-def measure(program, table, packings):
+def measure(program, table, packings, sizes_of, materials):
     known = set()
     if os.path.exists(table):
         with open(table) as file:
@@ -76,10 +82,10 @@ def measure(program, table, packings):
         rows = csv.writer(file)
         if not known:
             rows.writerow(["material", "radii_mm", "packing", *READINGS, "core_s"])
-        for material, parameters in MATERIALS.items():
-            parameters = parameters or material_of_card()
-            for sizes, grains in SIZES.items():
-                study = study_of(Path(folder), grains)
+        for material in materials:
+            parameters = MATERIALS[material] or material_of_card()
+            for sizes in sizes_of:
+                study = study_of(Path(folder), (SIZES | OTHER_MEANS)[sizes])
                 for packing in range(1, packings + 1):
                     if (material, sizes, packing) not in known:
                         rows.writerow([material, sizes, packing, *simulate(program, study, parameters, packing)])
@@ -114,6 +120,11 @@ if __name__ == "__main__":
     options.add_argument("program", nargs="?")
     options.add_argument("table")
     options.add_argument("--packings", type=int, default=24)
+    options.add_argument("--sizes", nargs="+", choices=SIZES | OTHER_MEANS, default=list(SIZES))
+    options.add_argument("--materials", nargs="+", choices=MATERIALS, default=list(MATERIALS))
     options.add_argument("--report", action="store_true")
     chosen = options.parse_args()
-    report(chosen.table) if chosen.report else measure(chosen.program, chosen.table, chosen.packings)
+    if chosen.report:
+        report(chosen.table)
+    else:
+        measure(chosen.program, chosen.table, chosen.packings, chosen.sizes, chosen.materials)
