@@ -17,23 +17,29 @@ constexpr int kWidth = PASTEFIT_WIDTH, kHalf = kWidth / 2;
 using Real = Singles<kWidth>;
 using Vector = BasicVec3<Real>;
 
-/// Rows of the lanes' grains. The lists of grains are read once: a compiler cannot know that no load is written there.
+/// Rows of the lanes' grains.
 class Lanes {
  public:
   PASTEFIT_INLINE explicit Lanes(const std::int32_t* grain) {
-    for (int lane = 0; lane < kWidth; ++lane) offset_[lane] = std::int64_t{grain[lane]} * kRow;
+    *reinterpret_cast<Integers*>(offset_) = *reinterpret_cast<const Integers*>(grain) * kRow;
   }
   PASTEFIT_INLINE const Motion& motion(const KernelTask& task, int lane) const {
-    return *reinterpret_cast<const Motion*>(reinterpret_cast<const char*>(task.motion) + 2 * offset_[lane]);
+    return *reinterpret_cast<const Motion*>(reinterpret_cast<const char*>(task.motion) + 2 * offset(lane));
   }
   PASTEFIT_INLINE Load& load(const KernelTask& task, int lane) const {
-    return *reinterpret_cast<Load*>(reinterpret_cast<char*>(task.load) + offset_[lane]);
+    return *reinterpret_cast<Load*>(reinterpret_cast<char*>(task.load) + offset(lane));
   }
 
  private:
-  static constexpr std::int64_t kRow = sizeof(Load);
+  using Integers = LaneTypes<float, kWidth>::Mask;
+  static constexpr int kRow = sizeof(Load);
   static_assert(sizeof(Motion) == 2 * kRow);
-  std::int64_t offset_[kWidth];
+  /// Read again wherever it is needed: a compiler that takes them all into registers has too few, and computes and
+  /// stores each of them (5 % of a slump).
+  PASTEFIT_INLINE std::uint64_t offset(int lane) const {
+    return static_cast<const volatile std::uint32_t&>(offset_[lane]);
+  }
+  alignas(4 * kWidth) std::uint32_t offset_[kWidth];  ///< in the list of loads, of up to 67 million grains [bytes]
 };
 
 /// Where the lanes' pairs are to each other. Places are doubles and so are their differences, which are rounded then;
@@ -226,7 +232,7 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
   Real spent;
   const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
   alive.store(c.bridge + lane);
-  tally.count(EnergySums::bridges, lane, spent);
+  if (task.energies != Energies::none) tally.count(EnergySums::bridges, lane, spent);
   if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
   // Written like the normal of a contact times the pull: the bits do not depend on which of the two a pair is taken
@@ -299,6 +305,13 @@ PASTEFIT_INLINE void fetch_grains(const KernelTask& task, const ContactBatch& ba
   }
 }
 
+/// Batches that the kernel soon comes to, and their grains.
+PASTEFIT_INLINE void fetch_ahead(const KernelTask& task, std::int32_t k) {
+  fetch(task.contacts + k + kAhead);
+  const std::int32_t soon = k + kGrainsAhead;
+  if (soon < task.stretch.end) fetch_grains(task, task.contacts[soon], soon < task.stretch.near);
+}
+
 template <class Normal, class Attraction, class Rolling, bool viscous>
 void pair_kernel(const KernelTask& task) {
   const ConstantsOf<Real> pair = in_lanes<Real>(task.pair);
@@ -306,9 +319,7 @@ void pair_kernel(const KernelTask& task) {
   Tally tally;
   for (std::int32_t k = task.stretch.begin; k < task.stretch.end; ++k) {
     ContactBatch& batch = task.contacts[k];
-    fetch(task.contacts + k + kAhead);
-    const std::int32_t soon = k + kGrainsAhead;
-    if (soon < task.stretch.end) fetch_grains(task, task.contacts[soon], soon < task.stretch.near);
+    if (task.fetches_ahead) fetch_ahead(task, k);
     for (int lane = 0; lane < kBatch; lane += kWidth) {
       const Lanes i(batch.i + lane), j(batch.j + lane);
       const Pairing p = pairing(task, i, j);

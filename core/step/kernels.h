@@ -45,6 +45,7 @@ struct KernelTask {
   double dt;
   EnergySums* energy;
   Energies energies;
+  bool fetches_ahead;  ///< memory that it soon comes to: worth its instructions where grains and lists leave the cache
 };
 
 constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it

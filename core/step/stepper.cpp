@@ -11,6 +11,7 @@ namespace pastefit {
 namespace {
 
 constexpr double kSmallestShare = 1e-4;  // of the first step; a healthy run stays within a factor of ten
+constexpr int kGrainsInCache = 4000;     // with their contacts some 300 bytes each: a megabyte
 
 double speed_of(const Wall& wall) {
   // The farthest point of a turning wall is not known here; walls that turn are plates of at most a few metres.
@@ -138,6 +139,7 @@ KernelTask Stepper::task(const PairConstants& pair, int block) {
   task.dt = dt_;
   task.energy = &energy_[block];
   task.energies = looks_at_energy() ? Energies::all : options_.energy_balance ? Energies::dissipation : Energies::none;
+  task.fetches_ahead = world_.particles.count() > kGrainsInCache;
   return task;
 }
 
