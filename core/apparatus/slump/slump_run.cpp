@@ -74,13 +74,13 @@ class MouldLift {
                        : runner_.run_until_rest({"step1.lift", time_flow(), clear}, 1.5 * own_height, untouched);
     if (problem) return problem;
     const double rim_m = std::get<Shell>(mould.shape).base.z;
+    const bool holds = norm(mould.force) > 0;
     runner_.take_away_last_wall();
-    const bool upside_down = test_.mould.top_radius_m > test_.mould.base_radius_m;
-    return upside_down && highest_point(world_.particles) > rim_m ? let_down(rim_m) : std::nullopt;
+    return holds && highest_point(world_.particles) > rim_m ? let_down(rim_m) : std::nullopt;
   }
 
-  /// What hangs in a mould upside down when it has been lifted is let down at the same speed, as a person shakes it
-  /// out: a free fall would crush it.
+  /// What hangs in a mould that has been lifted, upside down or sticky, is let down at the same speed, as a person
+  /// shakes it out: a free fall would crush it.
   std::optional<Failure> let_down(double height_m) {
     world_.drag = kGravity / test_.lift_velocity_m_s;
     auto problem =

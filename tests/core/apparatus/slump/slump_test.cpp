@@ -172,12 +172,16 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("a mould that is taken away from what sticks to it creates no energy") {
-  SlumpTest test = small_test(10);
-  test.mould_wall.cohesion_factor = 2;
-  const Outcome outcome = simulate(test);
-  REQUIRE_FALSE(outcome.failure);
-  CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+TEST_CASE("what a sticky mould has lifted is let down without being crushed, and no energy is created") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SlumpTest test = small_test(10);
+    test.packing_seed = seed;
+    test.mould_wall.cohesion_factor = 2;
+    const Outcome outcome = simulate(test);
+    INFO("packing " << seed);
+    REQUIRE_FALSE(outcome.failure);
+    CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+  }
 }
 
 TEST_CASE("grains that resist rolling strongly come to rest, and do not hum on the spot") {
