@@ -1,7 +1,5 @@
 #include "core/step/kernels.h"
 
-#include <cmath>
-
 namespace pastefit {
 
 std::vector<const KernelTable*> kernels_this_processor_runs() {
@@ -17,13 +15,6 @@ std::vector<const KernelTable*> kernels_this_processor_runs() {
 const KernelTable& kernels_of_this_processor() {
   static const KernelTable& widest = *kernels_this_processor_runs().front();
   return widest;
-}
-
-bool EnergySums::is_finite() const {
-  for (const auto& lanes : lane)
-    for (const double value : lanes)
-      if (!std::isfinite(value)) return false;
-  return true;
 }
 
 double total(std::span<const EnergySums> shares, EnergySums::Kind kind) {

@@ -29,7 +29,6 @@ struct alignas(64) EnergySums {
   void forget(Kind kind) {
     for (double& value : lane[kind]) value = 0;
   }
-  bool is_finite() const;
 };
 double total(std::span<const EnergySums> shares, EnergySums::Kind kind);
 

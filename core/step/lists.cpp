@@ -61,6 +61,9 @@ void Lists::check_state() const {
          "the lists are of another number of grains");
   for (const DisplacementBound& bound : bounds_.bounds)
     demand(bound.distance <= 0.5 * skin_ * kRoundedUp, "a grain has more room than its skin");
+  for (const float own : bounds_.own)
+    demand(own >= 0 && own <= kLargestBound * world_.reference_radius * kRoundedUp,
+           "a grain would be given more room than any");
   for (const char exceeded : exceeded_) demand(exceeded == 0 || exceeded == 1, "a yes or no is neither");
 }
 

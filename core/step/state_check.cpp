@@ -206,6 +206,12 @@ bool is_in_laboratory(const float (&place)[3]) {
   return std::all_of(place, place + 3, [](float value) { return std::fabs(value) <= kFarthest; });
 }
 
+bool are_possible(const EnergySums& energies) {
+  return std::ranges::all_of(energies.lane, [](const auto& lanes) {
+    return std::ranges::all_of(lanes, [](double value) { return is_possible(value); });
+  });
+}
+
 bool is_finite(const std::vector<CurvePoint>& points) {
   return std::ranges::all_of(points,
                              [](const CurvePoint& point) { return std::isfinite(point.x) && std::isfinite(point.y); });

@@ -8,6 +8,8 @@
 
 namespace pastefit {
 
+struct EnergySums;
+
 // What a step relies on, of a state that was read (`StateReader`): every index leads to a grain, every list has its
 // length, every number is finite and possible. Errors of all: throw `BadState`.
 
@@ -36,6 +38,9 @@ void check_pairs(const World& world, bool listed);
 
 /// Whether a grain can be there [m].
 bool is_in_laboratory(const float (&place)[3]);
+
+/// Whether every one of the sums is an energy that there can be.
+bool are_possible(const EnergySums& energies);
 
 /// Whether every point of a curve is.
 bool is_finite(const std::vector<CurvePoint>& points);

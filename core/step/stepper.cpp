@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/step/state.h"
+#include "core/step/state_check.h"
 
 namespace pastefit {
 
@@ -83,7 +84,7 @@ void Stepper::check_state() const {
   demand(dt_ >= 0 && fastest_ >= 0 && fastest_ <= kRunawaySpeed && stiffest_ >= 0 && time_step_.is_sound(),
          "a time step, a speed or a stiffness is below nothing, or beyond any");
   demand(pierced_ == -1 && runaway_ == -1, "the run has failed");
-  for (const EnergySums& energy : energy_) demand(energy.is_finite(), "an energy is not finite");
+  for (const EnergySums& energy : energy_) demand(are_possible(energy), "an energy is larger than any can be");
 }
 
 std::optional<Failure> Stepper::maintain_lists() {
