@@ -13,7 +13,7 @@ namespace pastefit {
 namespace {
 
 constexpr double kCap = 0.6;          // [s] for the column to be enlarged
-constexpr double kLook = 0.02;        // [s] between two changes of size
+constexpr double kLook = 0.01;        // [s] between two changes of size
 constexpr double kMostGrowth = 2e-3;  // in one look
 constexpr double kEven = 2e-4;        // missing size with which the column fits: 0.06 % of the volume
 

@@ -190,7 +190,7 @@ Answer answer_to(const std::string& state) {
 }
 
 TEST_CASE("a state that lacks something, or has more than the run, is refused") {
-  const std::string state = state_in_the_midst(40);
+  const std::string state = state_in_the_midst(25);
   REQUIRE(answer_to(state) == Answer::went_on);
   CHECK(answer_to(state + "x") == Answer::refused);
   for (const double share : {0.001, 0.1, 0.5, 0.9, 0.999})
@@ -215,7 +215,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
                                  0xc1cdcd6500000000,   // -1e9
                                  0x7fc000007fc00000,   // two of single precision that are none
                                  0x7fffffff7fffffff};  // two whole numbers, the largest
-  const std::string state = state_in_the_midst(50);
+  const std::string state = state_in_the_midst(30);
   const RandomStream random(1, "forged states");
   int refused = 0;
   constexpr int kForged = 120;
@@ -232,7 +232,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
 }
 
 TEST_CASE("a stretch of impossible numbers is refused wherever in a state it stands") {
-  const std::string state = state_in_the_midst(50);
+  const std::string state = state_in_the_midst(30);
   constexpr std::size_t kStretch = 512;
   for (std::size_t place = 0; place + kStretch <= state.size(); place += kStretch) {
     std::string forged = state;

@@ -85,10 +85,16 @@ TEST_CASE(
 TEST_CASE("JKR in a crowd: sticking grains that fill a mould under their own laws lie looser than dry ones") {
   RunOptions own;
   own.own_fill = true;
-  const auto fraction = [&](double pull_off) {
-    const auto packing = fill_mould(sticking(pull_off), own);
-    REQUIRE_FALSE(packing->failure);
-    return packing->solid_volume_m3 / volume_m3(Mould{});
+  const auto mean_fraction = [&](double pull_off) {
+    constexpr int kPackings = 8;
+    SlumpTest test = sticking(pull_off);
+    double sum = 0;
+    for (test.packing_seed = 1; test.packing_seed <= kPackings; ++test.packing_seed) {
+      const auto packing = fill_mould(test, own);
+      REQUIRE_FALSE(packing->failure);
+      sum += packing->solid_volume_m3 / volume_m3(test.mould);
+    }
+    return sum / kPackings;
   };
-  CHECK(fraction(3) < 0.98 * fraction(0));
+  CHECK(mean_fraction(3) < 0.98 * mean_fraction(0));
 }
