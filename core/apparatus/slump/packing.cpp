@@ -23,6 +23,7 @@ constexpr double kGrowthSpeed = 0.04;  // [m/s] of a grain's surface; nothing si
 constexpr int kGrowthSteps = 20;
 constexpr double kOverfill = 1.12;  // solid volume of all grains over that of a mould packed to kSolidFraction
 constexpr double kSolidFraction = 0.62;
+constexpr double kHighestThrow = 1;  // [m] of a stiff grain, by those that growth presses against it
 constexpr double kLidSpeed = 0.2;    // [m/s]
 constexpr double kFillCap = 4.0;     // [s]
 constexpr double kScoopSpeed = 1.0;  // [m/s] at which grains sink
@@ -91,24 +92,24 @@ void take_grains(const World& world, Packing& packing) {
   }
 }
 
-/// Mould, floor and a hopper of the mould's upper width that reaches to `top`.
-World filling_world(const SlumpTest& test, const RunOptions& options, const Packing& packing, double top) {
+double highest(const Packing& packing) {
+  double top = 0;
+  for (std::size_t i = 0; i < packing.centres.size(); ++i) top = std::max(top, packing.centres[i].z + packing.radii[i]);
+  return top;
+}
+
+/// Mould, floor and a hopper of the mould's upper width, so high that no grain is thrown out of it.
+World filling_world(const SlumpTest& test, const RunOptions& options, const Packing& packing) {
   const Mould& mould = test.mould;
   World world;
   world.particles = make_particles(packing.centres, packing.radii, test.bulk_density_kg_m3 / kSolidFraction);
   set_contact_model(world, filling_model(test, options), test.grains.radius_m);
-  const double hopper = std::max(top - mould.height_m, 0.0) + 2 * test.grains.radius_m;
+  const double hopper = std::max(highest(packing) - mould.height_m, 0.0) + kHighestThrow;
   world.walls = {make_wall("floor", Plane{}, test, options),
                  make_wall("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test, options),
                  make_wall("hopper", Shell{{0, 0, mould.height_m}, mould.top_radius_m, mould.top_radius_m, hopper},
                            test, options)};
   return world;
-}
-
-double highest(const Packing& packing) {
-  double top = 0;
-  for (std::size_t i = 0; i < packing.centres.size(); ++i) top = std::max(top, packing.centres[i].z + packing.radii[i]);
-  return top;
 }
 
 void take_work(Packing& packing, const RunSummary& run) {
@@ -160,7 +161,7 @@ void let_sink(const SlumpTest& test, const RunOptions& options, Packing& packing
   for (double& radius : small) radius *= kStartSize;
   packing.centres =
       random_addition(test.mould, small, kLoosest * kStartSize * kStartSize * kStartSize, test.packing_seed);
-  World world = filling_world(test, options, packing, highest(packing));
+  World world = filling_world(test, options, packing);
   Runner runner(world, options, rest_measure_of_fill);
   packing.failure = grow(test, world, runner);
   world.drag = kGravity / sinking_speed(world);
@@ -182,7 +183,7 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   packing.radii.resize(kept);
 
   const double top = std::max(highest(packing), rim);
-  World world = filling_world(test, options, packing, top);
+  World world = filling_world(test, options, packing);
   world.walls.push_back(make_wall("lid", Plane{{0, 0, top}, {0, 0, -1}}, test, options));
   world.drag = kColumnDrag;
   Runner runner(world, options, rest_measure_of_heap);

@@ -10,7 +10,7 @@ TEST_CASE("the sketch of a slump test is its heap as it came to rest") {
   SlumpTest slump;
   slump.grains.radius_m = 0.014;
   slump.contact.rolling = RollingModel::spring_dashpot;  // so that no grain rolls away, which the spread leaves out
-  slump.contact.rolling_friction = 0.5;
+  slump.contact.rolling_friction = slump.table_wall.rolling_friction = 0.5;
   const Test test = slump;
   Sketcher sketcher;
   RunOptions options;

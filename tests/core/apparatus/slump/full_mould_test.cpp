@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/apparatus/slump/packing.h"
+#include "core/apparatus/slump/random_addition.h"
 #include "core/observe/heap.h"
 #include "core/world/world.h"
 
@@ -148,4 +149,21 @@ TEST_CASE(
   CHECK(least > 0.002);
   CHECK(most < 0.0055);
   CHECK(most - least < 0.002);
+}
+
+TEST_CASE("no grain is thrown out of a mould while it is filled, however stiff it is") {
+  for (const double youngs_modulus_pa : {2e6, 3e8, 1e11})
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      SlumpTest test;
+      test.mould = {0.050, 0.035, 0.060};
+      test.grains.radius_m = 0.009;
+      test.packing_seed = seed;
+      test.contact.youngs_modulus_pa = youngs_modulus_pa;
+      test.contact.friction = 2;
+      const auto packing = fill_mould(test);
+      INFO("Young's modulus " << youngs_modulus_pa << " Pa, packing " << seed);
+      REQUIRE_FALSE(packing->failure);
+      for (const Vec3& centre : packing->centres)
+        CHECK(std::hypot(centre.x, centre.y) < inner_radius(test.mould, centre.z));
+    }
 }
