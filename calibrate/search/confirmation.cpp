@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "calibrate/base/statistics.h"
@@ -16,7 +17,7 @@ namespace pastefit {
 namespace {
 
 // Probabilities that the share of rejected heaps is no larger than it may be, by their count and by how near they came.
-constexpr double hardly_within = 0.1, surely_within = 0.8;
+constexpr double hardly_within = 0.1, likely_within = 0.5, surely_within = 0.8;
 
 constexpr std::size_t least_heaps = 4;  // of which a scatter is worth something
 
@@ -28,13 +29,13 @@ double within_by_count(const Response& response, double allowed) {
 }
 
 /// The same by how near each came to the limit: a normal variable of unknown mean and scatter is beyond it with at most
-/// that share (the one-sided tolerance limit, by a noncentral t distribution). 1 where it cannot be told.
-double within_by_index(const Response& response, double allowed) {
+/// that share (the one-sided tolerance limit, by a noncentral t distribution). None where it cannot be told.
+std::optional<double> within_by_index(const Response& response, double allowed) {
   std::vector<double> roots;
   for (const Evaluation& one : response.evaluations)
     if (!std::isnan(one.rejection_index)) roots.push_back(Exceedance::root(one.rejection_index));
   const Sample sample = sample_of(roots);
-  if (roots.size() < least_heaps || sample.standard_deviation <= 0) return 1;
+  if (roots.size() < least_heaps || sample.standard_deviation <= 0) return {};
   const double root_of_count = std::sqrt(sample.count), freedom = sample.count - 1;
   const double needed = boost::math::quantile(boost::math::normal_distribution<>(), 1 - allowed);
   const double margin = (1 - sample.mean) / sample.standard_deviation;
@@ -51,9 +52,10 @@ Verdict verdict_on(const Response& response, double rejected_share) {
   const Verdict of_readings = verdict_on(response.normalised_error, response.noise);
   const Verdict readings = known || of_readings == Verdict::refuted ? of_readings : Verdict::undecided;
   if (readings == Verdict::refuted || rejected_share >= 1) return readings;
-  const double within = std::min(within_by_count(response, rejected_share), within_by_index(response, rejected_share));
-  if (within < hardly_within) return Verdict::refuted;
-  return within < surely_within ? Verdict::undecided : readings;
+  const double by_count = within_by_count(response, rejected_share);
+  const double by_index = within_by_index(response, rejected_share).value_or(by_count);
+  if (std::min(by_count, by_index) < hardly_within) return Verdict::refuted;
+  return by_index >= surely_within && by_count >= likely_within ? readings : Verdict::undecided;
 }
 
 Verdict verdict_on(double normalised_error, double noise) {

@@ -17,12 +17,13 @@ enum class Verdict {
 ///     holds      m^2 + s^2 <= 1: what it may truly miss, its error included
 ///     refuted    m^2 - s^2 > 1; the mean of m^2 over fillings is that of a mean without noise, plus s^2
 ///     undecided  otherwise
-/// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected: with an even prior the
-/// share p has a beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 (for c = 0.2 none of 8,
-/// 1 of 16), and is refuted with P(p <= c) < 0.1 (3 of 8). How near each heap came to being rejected tells more than
-/// that: its root (`Exceedance`) is taken as normal with unknown mean and deviation, which gives P(p <= c) by a
-/// noncentral t distribution (a one-sided tolerance limit: Hahn & Meeker, Statistical Intervals (1991), section 4.6).
-/// The lesser of both counts.
+/// Besides, a laboratory would reject k of the n heaps, and a share c of them may be rejected. How near each heap came
+/// to being rejected tells more than how many were: its root (`Exceedance`) is taken as normal with unknown mean and
+/// deviation, which gives the probability that the share p is no larger by a noncentral t distribution (a one-sided
+/// tolerance limit: Hahn & Meeker, Statistical Intervals (1991), section 4.6). By count p has, with an even prior, a
+/// beta distribution of k + 1 and n - k + 1. It holds only with P(p <= c) >= 0.8 by how near they came and >= 0.5 by
+/// count, or >= 0.8 by count where it is not known how near they came (for c = 0.2 none of 8, 1 of 16); it is refuted
+/// with P(p <= c) < 0.1 by either (3 of 8).
 /// Where only one of several heaps is left, the scatter is not known: undecided, unless it is refuted.
 /// Limit: of a single packing the noise is not known and counts as none.
 Verdict verdict_on(const Response& response, double rejected_share = 1);

@@ -238,6 +238,16 @@ TEST_CASE("eight heaps that all but sheared off do not hold as eight that hardly
   CHECK(verdict_on(heaps(0.85, 0.14), 1) == Verdict::holds);
 }
 
+TEST_CASE("one of eight heaps that sheared off does not hide that the others hardly shifted; two of them do") {
+  const auto heaps = [](int sheared) {
+    Response response = heaps_with(sheared, 8);
+    for (int i = 0; i < 8; ++i) response.evaluations[i].rejection_index = i < sheared ? 1.05 : i % 2 == 0 ? 0.2 : 0.4;
+    return response;
+  };
+  CHECK(verdict_on(heaps(1), 0.2) == Verdict::holds);
+  CHECK(verdict_on(heaps(2), 0.2) == Verdict::undecided);
+}
+
 TEST_CASE("the one heap that stands among many confirms nothing, whatever share may be rejected") {
   Response response = heaps_with(7, 8);
   for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejection_index = 1.5;
