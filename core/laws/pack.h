@@ -67,6 +67,7 @@ PASTEFIT_INLINE Pack<Number, W> select(typename Pack<Number, W>::Mask mask, Pack
 template <class Number, int W>
 PASTEFIT_INLINE Pack<Number, W> square_root(Pack<Number, W> a) {
 #ifdef __AVX512F__
+  if constexpr (sizeof(a) == 64 && sizeof(Number) == 8) return Pack<Number, W>(_mm512_sqrt_pd(a.v));
   if constexpr (sizeof(a) == 64 && sizeof(Number) == 4) return Pack<Number, W>(_mm512_sqrt_ps(a.v));
 #endif
 #ifdef __AVX__
@@ -100,6 +101,13 @@ PASTEFIT_INLINE Pack<Number, W> smaller(Pack<Number, W> a, Pack<Number, W> b) {
   return Pack<Number, W>(a.v < b.v ? a.v : b.v);
 }
 
+/// The largest whole number that is not larger, of doubles below 2^51: a sum with 1.5 2^52 has no room for fractions.
+template <int W>
+PASTEFIT_INLINE Doubles<W> rounded_down(Doubles<W> a) {
+  const Doubles<W> no_fraction(6755399441055744.0), nearest = (a + no_fraction) - no_fraction;
+  return nearest - select(nearest > a, Doubles<W>(1.0), Doubles<W>(0.0));
+}
+
 /// True in some lane.
 template <class Mask>
 PASTEFIT_INLINE bool any(Mask mask) {
@@ -124,6 +132,9 @@ PASTEFIT_INLINE bool any(bool mask) {
 }
 PASTEFIT_INLINE double square_root(double a) {
   return std::sqrt(a);
+}
+PASTEFIT_INLINE double rounded_down(double a) {
+  return std::floor(a);
 }
 PASTEFIT_INLINE double larger(double a, double b) {
   return a > b ? a : b;

@@ -125,8 +125,8 @@ struct Columns {
 };
 
 /// Vectors from the first of two rows to the second, and the sums of what is beside them, in columns.
-template <int W, class Row>
-PASTEFIT_INLINE void read_differences(Row from, Row to, Doubles<W> (&columns)[4]) {
+template <int W, class From, class To>
+PASTEFIT_INLINE void read_differences(From from, To to, Doubles<W> (&columns)[4]) {
 #ifdef __AVX512F__
   if constexpr (W == 8) {
     const Doubles<8> sign(_mm512_set_pd(1, -1, -1, -1, 1, -1, -1, -1));

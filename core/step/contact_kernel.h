@@ -8,6 +8,7 @@
 #include "core/laws/transpose.h"
 #include "core/step/kernels.h"
 #include "core/step/motion_kernel.h"
+#include "core/step/nearest_kernel.h"
 
 namespace pastefit::PASTEFIT_ISA {
 
@@ -431,6 +432,7 @@ constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction..
           {LawTriple<at>::template pair<true>()...},
           {LawTriple<at>::template wall<true>()...},
           {bridge_kernel_of<Attraction>()...},
+          {find_on_wall<Plane>, find_on_wall<Plate>, find_on_wall<Shell>, find_on_wall<Ribs>},
           move_grains,
           PASTEFIT_ISA_NAME};
 }

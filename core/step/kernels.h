@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/laws/contact.h"
@@ -11,6 +12,7 @@
 #include "core/world/batches.h"
 #include "core/world/domain.h"
 #include "core/world/particles.h"
+#include "core/world/walls.h"
 
 namespace pastefit {
 
@@ -48,6 +50,20 @@ struct KernelTask {
 };
 
 constexpr double kRunawaySpeed = 100;  // [m/s]; nothing in a laboratory test comes near it
+
+/// Grains near a wall, which are to be found on it.
+struct WallTask {
+  const Motion* motion;
+  const ContactBatch* contacts;
+  WallBatch* batches;  ///< where they are, how the wall moves there, and the overlap: written
+  std::int32_t count;  ///< contacts, without the padding
+  const Wall* wall;
+  double overlap_limit;  ///< over the radius of a grain
+};
+
+/// Finds them; returns one that is deeper in the wall than the limit, or -1. `shape`: the wall's.
+template <class Shape>
+using FindOnWall = std::int32_t (*)(const WallTask&, const Shape& shape);
 
 /// The grains of a block, to be moved by a step.
 struct MoveTask {
@@ -87,6 +103,7 @@ struct KernelTable {
   Kernels pair, wall;
   Kernels viscous_pair, viscous_wall;  ///< of bridges that have a viscosity; no other pairs attract each other
   std::array<Kernel, Attractions::size> bridge;  ///< pairs that cannot touch; empty where there is no attraction
+  std::tuple<FindOnWall<Plane>, FindOnWall<Plate>, FindOnWall<Shell>, FindOnWall<Ribs>> find_on_wall;
   Moved (*move)(const MoveTask&);
   std::string_view instruction_set;
 };

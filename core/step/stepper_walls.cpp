@@ -3,19 +3,12 @@
 #include <variant>
 
 #include "core/step/stepper.h"
-#include "core/world/nearest.h"
 
 // What a step does with walls: the kernels on their contacts, the loads on them, and the work they do.
 
 namespace pastefit {
 
 namespace {
-
-void put(const Vec3& v, float (&rows)[3][kBatch], int lane) {
-  rows[0][lane] = static_cast<float>(v.x);
-  rows[1][lane] = static_cast<float>(v.y);
-  rows[2][lane] = static_cast<float>(v.z);
-}
 
 Vec3 taken(const float (&rows)[3][kBatch], int lane) {
   return {rows[0][lane], rows[1][lane], rows[2][lane]};
@@ -64,26 +57,12 @@ void Stepper::add_up_walls() {
 /// Where the wall is and how it moves there; a grain that is too deep in it, or -1.
 std::int32_t Stepper::find_wall(const Wall& wall, const WallContacts& touching, Column<WallBatch>& batches) const {
   batches.resize(std::max<std::size_t>(batches.size(), touching.contacts.batch_count()));
-  WallBatch& padded = batches[touching.contacts.batch_count() - 1];
-  padded = {};
-  for (float& overlap : padded.overlap) overlap = -1;
-  std::int32_t pierced = -1;
-  const auto find = [&](const auto& shape) {
-    for (std::int32_t k = 0; k < touching.count; ++k) {
-      WallBatch& batch = batches[k / kBatch];
-      const int lane = k % kBatch;
-      const Motion& grain = world_.particles.motion[touching.contacts.first(k)];
-      const Nearest point = nearest_on(shape, grain.position);
-      const double overlap = grain.radius - point.distance;
-      if (overlap > options_.overlap_limit * grain.radius) pierced = touching.contacts.first(k);
-      const Vec3 arm = grain.position + point.distance * point.direction - wall.pivot;
-      put(point.direction, batch.normal, lane);
-      put(wall.velocity_before + cross(wall.angular_velocity_before, arm), batch.wall_velocity, lane);
-      batch.overlap[lane] = static_cast<float>(overlap);
-    }
-  };
-  std::visit(find, wall.shape);
-  return pierced;
+  const WallTask task{
+      world_.particles.motion.data(), touching.contacts.batches.data(), batches.data(), touching.count, &wall,
+      options_.overlap_limit};
+  return std::visit(
+      [&]<class Shape>(const Shape& shape) { return std::get<FindOnWall<Shape>>(kernels_.find_on_wall)(task, shape); },
+      wall.shape);
 }
 
 /// What the kernel found, on the grains, and summed up on the wall.

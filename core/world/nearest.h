@@ -3,51 +3,79 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/laws/pack.h"
 #include "core/world/walls.h"
 
 namespace pastefit {
 
-// One shape each: whoever asks for many grains visits the wall's shape once, and the answer is inlined.
+// One shape each: whoever asks for many grains visits the wall's shape once, and the answer is inlined. On packs as on
+// numbers.
 
 inline constexpr double kOnSurface =
     1e-12;  // [m]; closer than this the direction is taken from the shape, not from the point
 
-inline Nearest towards(const Vec3& from, const Vec3& to, const Vec3& fallback) {
-  const Vec3 between = to - from;
-  const double distance = norm(between);
-  if (distance < kOnSurface) return {fallback, distance};
-  return {(1 / distance) * between, distance};
+template <class Real>
+PASTEFIT_INLINE BasicVec3<Real> in_lanes(const Vec3& v) {
+  return {Real(v.x), Real(v.y), Real(v.z)};
 }
 
-inline Nearest nearest_on(const Plane& plane, const Vec3& p) {
-  return {-plane.normal, dot(p - plane.point, plane.normal)};
+template <class Real>
+PASTEFIT_INLINE BasicNearest<Real> towards(const BasicVec3<Real>& between, const BasicVec3<Real>& fallback) {
+  const Real distance = square_root(dot(between, between));
+  const auto apart = distance >= Real(kOnSurface);
+  const Real inverse = Real(1.0) / select(apart, distance, Real(1.0));
+  return {{select(apart, inverse * between.x, fallback.x), select(apart, inverse * between.y, fallback.y),
+           select(apart, inverse * between.z, fallback.z)},
+          distance};
 }
 
-inline Nearest nearest_on(const Plate& plate, const Vec3& p) {
-  const Vec3 from_centre = p - plate.centre;
-  const double u = std::clamp(dot(from_centre, plate.along), -plate.half_length, plate.half_length);
-  const double v = std::clamp(dot(from_centre, plate.across), -plate.half_width, plate.half_width);
-  return towards(p, plate.centre + u * plate.along + v * plate.across, -cross(plate.along, plate.across));
+template <class Real>
+PASTEFIT_INLINE Real clamped(Real value, Real low, Real high) {
+  return smaller(larger(value, low), high);
+}
+
+template <class Real>
+PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Plane& plane, const BasicVec3<Real>& p) {
+  return {in_lanes<Real>(-plane.normal), dot(p - in_lanes<Real>(plane.point), in_lanes<Real>(plane.normal))};
+}
+
+template <class Real>
+PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Plate& plate, const BasicVec3<Real>& p) {
+  const BasicVec3<Real> along = in_lanes<Real>(plate.along), across = in_lanes<Real>(plate.across);
+  const BasicVec3<Real> from_centre = p - in_lanes<Real>(plate.centre);
+  const Real u = clamped(dot(from_centre, along), Real(-plate.half_length), Real(plate.half_length));
+  const Real v = clamped(dot(from_centre, across), Real(-plate.half_width), Real(plate.half_width));
+  return towards(u * along + v * across - from_centre, in_lanes<Real>(-cross(plate.along, plate.across)));
 }
 
 /// In the plane of axis and grain the shell is a straight line from the lower rim to the upper one.
-inline Nearest nearest_on(const Shell& shell, const Vec3& p) {
-  const Vec3 q = p - shell.base;
-  const double rho = std::sqrt(q.x * q.x + q.y * q.y);
-  const Vec3 outward = rho > kOnSurface ? Vec3{q.x / rho, q.y / rho, 0} : Vec3{1, 0, 0};
+template <class Real>
+PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Shell& shell, const BasicVec3<Real>& p) {
+  const BasicVec3<Real> q = p - in_lanes<Real>(shell.base);
+  const Real rho = square_root(q.x * q.x + q.y * q.y);
+  const auto beside_axis = rho > Real(kOnSurface);
+  const Real divisor = select(beside_axis, rho, Real(1.0));
+  const BasicVec3<Real> outward{select(beside_axis, q.x / divisor, Real(1.0)),
+                                select(beside_axis, q.y / divisor, Real(0.0)), Real(0.0)};
   const double run = shell.top_radius - shell.base_radius;
-  const double share = std::clamp(
-      ((rho - shell.base_radius) * run + q.z * shell.height) / (run * run + shell.height * shell.height), 0.0, 1.0);
-  const double reach = shell.base_radius + share * run;
-  return towards(p, shell.base + reach * outward + Vec3{0, 0, share * shell.height}, outward);
+  const Real base_radius(shell.base_radius), height(shell.height);
+  const Real share =
+      clamped(((rho - base_radius) * Real(run) + q.z * height) / Real(run * run + shell.height * shell.height),
+              Real(0.0), Real(1.0));
+  const Real reach = base_radius + share * Real(run);
+  const BasicVec3<Real> there{reach * outward.x, reach * outward.y, share * height};
+  return towards(there - q, outward);
 }
 
-inline Nearest nearest_on(const Ribs& ribs, const Vec3& p) {
-  const Vec3 q = p - ribs.base;
-  const double x = q.x - ribs.pitch * std::floor(q.x / ribs.pitch + 0.5);  // from the middle of the nearest bar
-  const double half = 0.5 * ribs.thickness, low = std::min(ribs.height, 0.0), high = std::max(ribs.height, 0.0);
-  const Vec3 way{std::clamp(x, -half, half) - x, 0, std::clamp(q.z, low, high) - q.z};
-  return towards({}, way, {x > 0 ? -1.0 : 1.0, 0, 0});
+template <class Real>
+PASTEFIT_INLINE BasicNearest<Real> nearest_on(const Ribs& ribs, const BasicVec3<Real>& p) {
+  const BasicVec3<Real> q = p - in_lanes<Real>(ribs.base);
+  const Real pitch(ribs.pitch);
+  const Real x = q.x - pitch * rounded_down(q.x / pitch + Real(0.5));  // from the middle of the nearest bar
+  const Real half(0.5 * ribs.thickness);
+  const Real low(std::min(ribs.height, 0.0)), high(std::max(ribs.height, 0.0));
+  const BasicVec3<Real> way{clamped(x, -half, half) - x, Real(0.0), clamped(q.z, low, high) - q.z};
+  return towards(way, {select(x > Real(0.0), Real(-1.0), Real(1.0)), Real(0.0), Real(0.0)});
 }
 
 /// True only if no point of the shape is within `range` of the point; cheaper than to look for the nearest one.

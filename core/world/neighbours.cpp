@@ -10,8 +10,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr std::int32_t kGrainsPerBlock =
-    2000;  // at least; enough work to be handed to a thread, small enough for a cache
+constexpr std::int32_t kGrainsPerBlock = 600;  // at least; few are chosen for again because one of them has strayed
 
 double largest_of(const Particles& particles) {
   double largest = 0;

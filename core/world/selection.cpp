@@ -96,11 +96,14 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
   ContactList& chosen = selection.at_wall;
   chosen.clear();
   std::int32_t old = 0;
+  const double farthest = std::max({wall.pair.rupture_gap, wall.pair.formation_gap, wall.pair.pull_off_gap, 0.0});
+  const double slope = 1 + farthest / reach.reference_radius, least = farthest + wall_bound;
   const auto choose = [&](const auto& shape) {
     for (std::int32_t i = block.grains; i < block.grains_end; ++i) {
+      const Motion& grain = particles.motion[i];
+      if (is_surely_beyond(shape, grain.position, slope * grain.radius + bounds.way[i] + least)) continue;
       while (old < touching.count && contacts.first(old) < i) ++old;
       const bool known = old < touching.count && contacts.first(old) == i;
-      const Motion& grain = particles.motion[i];
       const double scale = grain.radius / reach.reference_radius;
       const bool bridged = known && contacts.bridge(old) > 0;
       const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);

@@ -43,10 +43,12 @@ using Shape = std::variant<Plane, Plate, Shell, Ribs>;
 
 /// The nearest point of a wall as a grain sees it: unit vector from the grain's centre to it, and its distance.
 /// Behind a one-sided plane the distance is negative.
-struct Nearest {
-  Vec3 direction;
-  double distance = 0;
+template <class Real>
+struct BasicNearest {
+  BasicVec3<Real> direction;
+  Real distance{};
 };
+using Nearest = BasicNearest<double>;
 Nearest nearest(const Shape& shape, const Vec3& centre);
 
 /// A boundary: shape, surface, rigid motion, and what the grains do to it.

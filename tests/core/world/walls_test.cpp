@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "core/random.h"
+#include "core/step/kernels.h"
+#include "core/world/contacts.h"
 #include "tests/core/scene.h"
 
 using namespace pastefit;
@@ -113,4 +116,85 @@ TEST_CASE("the nearest point of ribs is on the nearest bar: beside it, above it 
   CHECK(below.distance == Approx(0.01));
   CHECK(below.direction.z == Approx(1));
   CHECK(nearest(hanging, {0.02, 0, 0.095}).distance == Approx(0.018));
+}
+
+namespace {
+
+/// A wall that moves and turns, and 37 grains about it: more than two batches, with padding.
+struct NearWall {
+  explicit NearWall(const Shape& shape) {
+    wall.shape = shape;
+    wall.pivot = {-0.3, 0, 0.1};
+    wall.velocity_before = {0, 0, 0.1};
+    wall.angular_velocity_before = {0, -0.2, 0};
+    const RandomStream random(1, "grains near a wall");
+    std::vector<Vec3> centres;
+    std::vector<double> radii;
+    for (std::uint64_t i = 0; i < 37; ++i) {
+      const auto at = [&](std::uint64_t k) { return 0.4 * random.uniform(4 * i + k) - 0.2; };
+      centres.push_back({at(0), at(1), at(2)});
+      radii.push_back(0.005 + 0.01 * random.uniform(4 * i + 3));
+    }
+    grains = make_particles(centres, radii, 2500);
+    for (std::int32_t i = 0; i < grains.count(); ++i) contacts.add(i, i, new_contact(grains, i, i));
+    contacts.pad(grains.count());
+  }
+
+  std::int32_t found_by(const KernelTable& kernels, Column<WallBatch>& batches) const {
+    batches.resize(static_cast<std::size_t>(contacts.batch_count()));
+    const WallTask task{grains.motion.data(), contacts.batches.data(), batches.data(), grains.count(), &wall, 0.5};
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) { return std::get<FindOnWall<Shape>>(kernels.find_on_wall)(task, shape); },
+        wall.shape);
+  }
+
+  Wall wall;
+  Particles grains;
+  ContactList contacts;
+};
+
+}  // namespace
+
+TEST_CASE("every instruction set finds grains on a wall of any shape where one after the other they are") {
+  Plate plate;
+  plate.half_length = plate.half_width = 0.15;
+  const Shape shapes[] = {Plane{{0, 0, -0.25}, {0, 0, 1}}, plate, Shell{{0, 0, -0.15}, 0.1, 0.05, 0.3},
+                          Ribs{{0.01, 0, 0}, 0.002, 0.02, 0.05}};
+  for (const KernelTable* kernels : kernels_this_processor_runs())
+    for (const Shape& shape : shapes) {
+      CAPTURE(kernels->instruction_set, shape.index());
+      const NearWall near(shape);
+      Column<WallBatch> batches;
+      const std::int32_t pierced = near.found_by(*kernels, batches);
+      bool some_pierced = false;
+      for (std::int32_t k = 0; k < near.grains.count(); ++k) {
+        const WallBatch& batch = batches[k / kBatch];
+        const int lane = k % kBatch;
+        const Motion& grain = near.grains.motion[k];
+        const Nearest there = nearest(shape, grain.position);
+        const Vec3 arm = grain.position + there.distance * there.direction - near.wall.pivot;
+        const Vec3 moving = near.wall.velocity_before + cross(near.wall.angular_velocity_before, arm);
+        const auto row = [&](const float(&rows)[3][kBatch]) {
+          return Vec3{rows[0][lane], rows[1][lane], rows[2][lane]};
+        };
+        CHECK(norm(row(batch.normal) - there.direction) < 3e-7);
+        CHECK(norm(row(batch.wall_velocity) - moving) < 3e-8);
+        CHECK(batch.overlap[lane] == Approx(grain.radius - there.distance).margin(3e-8));
+        some_pierced = some_pierced || grain.radius - there.distance > 0.5 * grain.radius;
+      }
+      CHECK((pierced >= 0) == some_pierced);
+      if (pierced >= 0)
+        CHECK(nearest(shape, near.grains.motion[pierced].position).distance < 0.5 * near.grains.motion[pierced].radius);
+      for (std::int32_t k = near.grains.count(); k < near.contacts.count; ++k)
+        CHECK(batches[k / kBatch].overlap[k % kBatch] == -1);
+    }
+}
+
+TEST_CASE("a grain in the middle of a wall's edge or on its axis has a direction") {
+  Plate plate;
+  plate.half_length = plate.half_width = 0.5;
+  CHECK(std::fabs(nearest(plate, {0.1, 0.1, 0}).direction.z) == Approx(1));
+  const Nearest on_axis = nearest(Shell{{0, 0, 0}, 0.1, 0.1, 0.2}, {0, 0, 0.1});
+  CHECK(on_axis.distance == Approx(0.1));
+  CHECK(norm(on_axis.direction) == Approx(1));
 }
