@@ -43,7 +43,7 @@ bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint6
     if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested()) break;
     const bool by_share = verdict_on(confirmation) != Verdict::undecided;  // the readings are told
     if (by_share && !whatever_it_does && asked >= worthwhile_confirmations * all) break;
-    const std::size_t more = asked < all ? all - asked : asked;
+    const std::size_t more = asked < all ? all - asked : further_packings();
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
   }
@@ -56,6 +56,11 @@ bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint6
 int ConfirmationPhase::first_packings() const {
   const int all = state_.options.confirmation_packings;
   return state_.options.max_pending > 0 ? all : (all + 3) / 4;
+}
+
+std::size_t ConfirmationPhase::further_packings() const {
+  const int all = state_.options.confirmation_packings;
+  return static_cast<std::size_t>(state_.options.max_pending > 0 ? all : (all + 1) / 2);
 }
 
 void ConfirmationPhase::report(const Response& confirmation) {

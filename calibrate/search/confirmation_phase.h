@@ -10,13 +10,13 @@ class ConfirmationPhase {
  public:
   explicit ConfirmationPhase(StrategyState& state) : state_(state) {}
 
-  /// Asks the candidate on fresh packings, and on as many again while their noise hides the answer; true if it holds. A
-  /// quarter of them is asked first: if it is unlikely then that it will do, the others are saved, but for
+  /// Asks the candidate on fresh packings, and on half as many more while their noise hides the answer; true if it
+  /// holds. A quarter of them is asked first: if it is unlikely then that it will do, the others are saved, but for
   /// `whatever_it_does`. With `SearchOptions::max_pending`, when workers would be idle meanwhile, all are asked at
   /// once.
   bool confirm(bool whatever_it_does);
-  /// The confirmation that is reported was broken off, or left undecided: the rest of its packings, and as many again
-  /// while their noise hides the answer, if the budget has them. They may prove wrong what broke it off.
+  /// The confirmation that is reported was broken off, or left undecided: the rest of its packings, and half as many
+  /// more while their noise hides the answer, if the budget has them. They may prove wrong what broke it off.
   void finish();
 
   bool confirmed() const { return confirmed_; }
@@ -27,7 +27,8 @@ class ConfirmationPhase {
 
  private:
   int first_packings() const;
-  /// Judges a candidate on these packings and as many again, and reports it; false if a stop was requested meanwhile.
+  std::size_t further_packings() const;
+  /// Judges a candidate on these packings and further ones, and reports it; false if a stop was requested meanwhile.
   bool judge(const UnitPoint& candidate, std::vector<std::uint64_t> fresh, bool whatever_it_does);
   /// The result is this candidate, judged on fresh packings, if none was that came nearer to being confirmed
   /// (`shortfall`). Misfits would not do: they are weighed by noise that is known better later.

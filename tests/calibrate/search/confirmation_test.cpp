@@ -98,7 +98,7 @@ TEST_CASE("where packings scatter, more of them are asked until luck cannot conf
     const Calibration calibration = search(objective, generous_options(seed));
     CHECK(calibration.simulations <= 200);
     const auto fresh = std::ssize(calibration.confirmation.packings);
-    CHECK((fresh == 8 || fresh == 16 || fresh == 32 || fresh == 64));
+    CHECK((fresh >= 8 && fresh <= 64 && fresh % 4 == 0));
     CHECK(std::set(calibration.confirmation.packings.begin(), calibration.confirmation.packings.end()).size() ==
           calibration.confirmation.packings.size());
     if (calibration.status != CalibrationStatus::confirmed) {
@@ -313,13 +313,13 @@ TEST_CASE("a quarter of a confirmation is asked first, and all of it at once whe
 }
 
 TEST_CASE(
-    "a confirmation that was broken off for a heap that sheared is finished as far as its packings leave it open") {
+    "a confirmation that was broken off for heaps that sheared is finished as far as its packings leave it open") {
   const UnitPoint point = UnitPoint::Constant(5, 0.5);
   Synthetic slump = fake_slump(mean_height(point), 1);
   slump.allowed_share = 0.2;
   slump.budget = 200;
   slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) {
-    return packing == 1003 ? 2.25 : 0.25;  // the first fresh one
+    return packing == 1003 || packing == 1004 ? 2.25 : 0.25;  // the first fresh ones
   };
   Judged judged(slump, point);
   ConfirmationPhase& phase = judged.phase;
@@ -327,8 +327,8 @@ TEST_CASE(
   CHECK(phase.confirmation().packings.size() == 2);
   phase.finish();
   CHECK(phase.confirmed());
-  CHECK(phase.confirmation().rejected == 1);
-  CHECK(phase.confirmation().packings.size() == 16);
+  CHECK(phase.confirmation().rejected == 2);
+  CHECK(phase.confirmation().packings.size() == 20);
 }
 
 TEST_CASE("a share of rejected heaps that is nearly the allowed one is not asked for on and on") {
