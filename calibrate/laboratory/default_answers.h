@@ -143,6 +143,16 @@ inline std::optional<std::vector<PredictedReading>> readings_of_fluid(const Spec
   return std::nullopt;
 }
 
+/// Between which values a parameter is likely to be, in its unit.
+struct LikelyRange {
+  double lowest = 0, highest = 0;
+};
+
+/// The strengths [Pa] (`strength_pa`) with which a test is likely to have these readings; nothing if nothing is known.
+inline std::optional<LikelyRange> likely_strength_pa(const Specimen&, const Observables&) {
+  return std::nullopt;
+}
+
 /// How near a run is to one that the standards have a laboratory reject and repeat: it is where this is more than 1.
 /// NaN: not read; nothing for a kind of which no run is rejected.
 inline std::optional<double> rejection_index(const Specimen&, const Observables&) {

@@ -98,7 +98,7 @@ constexpr std::string_view slump_study =
 
   "search": {
     "strategy": "default",
-    "screening": 16,             // candidates spread over the bounds at the start
+    "screening": 8,              // candidates spread over the bounds at the start; of the strength where the slump says
     "budget_simulations": 150,   // in all, confirmation included
     "packings": 2,               // random packings of a candidate with coarse grains
     "max_pending": 0,            // candidates under way when the next is proposed; 1 saves time and costs simulations

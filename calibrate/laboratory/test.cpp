@@ -177,6 +177,10 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test,
   return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
 }
 
+std::optional<LikelyRange> likely_strength_pa(const Test& test, const Observables& readings) {
+  return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
+}
+
 double default_tolerance(const Test& test, const Measurement& measured) {
   return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
 }

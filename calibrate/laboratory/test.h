@@ -62,6 +62,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
   { yield_stresses_of(given, means) } -> std::same_as<std::vector<YieldStress>>;
   { readings_of_fluid(given, double{}) } -> std::same_as<std::optional<std::vector<PredictedReading>>>;
+  { likely_strength_pa(given, means) } -> std::same_as<std::optional<LikelyRange>>;
   { unseen_by(given, names, names) } -> std::same_as<std::string>;
   { experience_of(given) } -> std::same_as<std::vector<Experience>>;
   { default_tolerance(given, Measurement{}) } -> std::same_as<double>;
@@ -101,6 +102,7 @@ std::string remarks_on(const Test& test, std::span<const Observables> runs);
 ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);
 std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& means);
 std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test, double yield_stress_pa);
+std::optional<LikelyRange> likely_strength_pa(const Test& test, const Observables& readings);
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);

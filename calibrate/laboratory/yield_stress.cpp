@@ -12,6 +12,7 @@ namespace {
 
 constexpr double gravity = 9.81;  // as precise as the theories
 constexpr int halvings = 60;
+constexpr double largest_strength = 16;  // over the yield stress of the height
 constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005",
                            beyond_spread_formula = "Roussel 2005 (heap not flat)";
 constexpr double flat = 1.0 / 3;  // height over that of the mould up to which a heap counts as a flat cake
@@ -98,6 +99,15 @@ std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observab
     out.push_back({"step1.spread_mm", stands ? beyond_spread_formula : spread_formula,
                    yield_stress_of_spread_pa(volume_m3(test.mould), density, *spread_mm / 2e3)});
   return out;
+}
+
+std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Observables& readings) {
+  const auto height_mm = readings.find("step1.height_mm");
+  if (!height_mm) return {};
+  const auto stress_pa = yield_stress_of_height_pa(test.mould, test.bulk_density_kg_m3, *height_mm / mm);
+  if (!stress_pa || *stress_pa <= 0) return {};
+  const bool stands = *height_mm > flat * mm * test.mould.height_m;
+  return LikelyRange{stands ? *stress_pa : 0, largest_strength * *stress_pa};
 }
 
 }  // namespace pastefit

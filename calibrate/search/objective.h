@@ -10,6 +10,11 @@
 
 namespace pastefit {
 
+/// A part of the unit cube, from corner to corner.
+struct UnitBox {
+  UnitPoint lower, upper;
+};
+
 /// How simulations of a study are judged: shapes, tolerances, and residuals. Simulates nothing.
 class Scoring {
  public:
@@ -26,6 +31,9 @@ class Scoring {
   virtual MisfitUnit misfit_unit() const { return {}; }
   /// What share of a candidate's heaps a laboratory may reject; 1: it is not judged.
   virtual double rejected_share() const { return 1; }
+  /// Where a screening looks, by what is known before anything was simulated; a search goes beyond where that promises
+  /// more.
+  virtual UnitBox likely_box() const { return {UnitPoint::Zero(parameters()), UnitPoint::Ones(parameters())}; }
   /// Simulations behind a point on one packing: one for each test that is fitted.
   virtual int simulations_each() const { return 1; }
   /// What one candidate answers on the packings of these evaluations. Requirement: at least one.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,16 @@
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
+
+namespace {
+
+std::optional<LikelyRange> strength_by_readings(const StudyTest& test) {
+  Observables measured;
+  for (const Measurement& one : test.lab.measurements) measured.set(one.observable, one.value);
+  return likely_strength_pa(test.lab.test, measured);
+}
+
+}  // namespace
 
 StudyScoring::StudyScoring(const Study& study)
     : ReadingScoring(readings_of(study), study.parameters), study_(study), fitted_(tests_of(study, false)) {
@@ -24,6 +35,27 @@ double StudyScoring::largest_error(const StudyReading& reading) const {
 
 bool StudyScoring::is_bound(const StudyReading& reading, double value) const {
   return is_upper_bound(study_, reading.test, reading.measurement.observable, value);
+}
+
+UnitBox StudyScoring::likely_box() const {
+  UnitBox box = ReadingScoring::likely_box();
+  Eigen::Index coordinate = 0;
+  for (const Parameter& parameter : study_.parameters) {
+    if (!parameter.free) continue;
+    double lower = 0, upper = 1;
+    for (const std::size_t test : fitted_) {
+      const auto likely = parameter.name == "strength_pa" ? strength_by_readings(study_.tests[test]) : std::nullopt;
+      if (!likely) continue;
+      if (likely->lowest > parameter.lower) lower = std::max(lower, unit_of(parameter, likely->lowest));
+      upper = std::min(upper, unit_of(parameter, likely->highest));
+    }
+    if (lower < upper) {
+      box.lower[coordinate] = lower;
+      box.upper[coordinate] = upper;
+    }
+    ++coordinate;
+  }
+  return box;
 }
 
 Evaluation StudyScoring::evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const {

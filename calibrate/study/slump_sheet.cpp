@@ -343,7 +343,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
                            {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(*laws)},
                            {"parameters", parameters_for(*laws, measurements)},
                            {"search",
-                            {{"screening", 16},
+                            {{"screening", 8},
                              {"budget_simulations", 150},
                              {"packings", 2},
                              {"confirmation_packings", 8},

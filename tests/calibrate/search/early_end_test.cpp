@@ -23,6 +23,8 @@ struct TwoSteps : Laboratory {
   std::atomic<int> ended = 0;
 
   TwoSteps() {
+    // Upside down: no formula says which strengths are likely, and a screening goes through all.
+    std::get<SlumpTest>(study.tests[0].lab.test).mould = {0.065, 0.1, 0.2};
     study.tests[0].lab.measurements = {
         {"step1.height_mm", 100, 4, 3}, {"step1.spread_mm", 400, 10, 1}, {"step2.height_mm", 80, 4, 3}};
     study.tests[0].targets = {{"step1.height_mm", 1}, {"step1.spread_mm", 0}, {"step2.height_mm", 1}};
