@@ -12,7 +12,7 @@ namespace {
 
 constexpr double gravity = 9.81;  // as precise as the theories
 constexpr int halvings = 60;
-constexpr double largest_strength = 16;  // over the yield stress of the height
+constexpr double largest_strength = 100;  // over the yield stress of the height
 constexpr std::string_view height_formula = "Schowalter 1998", spread_formula = "Roussel 2005",
                            beyond_spread_formula = "Roussel 2005 (heap not flat)";
 constexpr double flat = 1.0 / 3;  // height over that of the mould up to which a heap counts as a flat cake

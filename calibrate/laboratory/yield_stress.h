@@ -51,11 +51,12 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& 
 std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings);
 
 /// The attraction at touch over R^2 with which grains are likely to keep the height that was read, by the yield stress
-/// of that height: from this to 16 times as much, or, of a heap no higher than a third of its mould, which friction may
-/// hold up without any, no lower end. Rumpf (Agglomeration, 1962) has the tensile strength of a packing of solid
-/// fraction 0.6 with six bridges a grain at 0.3 of the attraction over R^2, and the shear stress of a yielding fluid is
-/// half of that: seven times. Of 4,504 heaps above a third of an Abrams cone, friction 0.05 to 0.3, 95 % had 2.9 to 7.5
-/// times (tests/results/search.md). Nothing where the formula has no answer.
+/// of that height: from this to a hundred times as much, or, of a heap no higher than a third of its mould, which
+/// friction may hold up without any, no lower end. Rumpf (Agglomeration, 1962) has the tensile strength of a packing of
+/// solid fraction 0.6 with six bridges a grain at 0.3 of the attraction over R^2, and the shear stress of a yielding
+/// fluid is half of that: seven times. Of 4,504 heaps above a third of an Abrams cone with a tough bridge 95 % had 2.9
+/// to 7.5 times (tests/results/search.md); a weak bridge, which falls straight to 0, needs up to 30 times. Nothing
+/// where the formula has no answer.
 std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Observables& readings);
 
 }  // namespace pastefit
