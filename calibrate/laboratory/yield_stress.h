@@ -55,7 +55,7 @@ std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observab
 /// friction may hold up without any, no lower end. Rumpf (Agglomeration, 1962) has the tensile strength of a packing of
 /// solid fraction 0.6 with six bridges a grain at 0.3 of the attraction over R^2, and the shear stress of a yielding
 /// fluid is half of that: seven times. Of 4,504 heaps above a third of an Abrams cone with a tough bridge 95 % had 2.9
-/// to 7.5 times (tests/results/search.md); a weak bridge, which falls straight to 0, needs up to 30 times. Nothing
+/// to 7.5 times (tests/results/search.md); a weak bridge, which falls straight to 0, needs 7 to 17 times. Nothing
 /// where the formula has no answer.
 std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Observables& readings);
 
