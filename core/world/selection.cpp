@@ -110,7 +110,6 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
       const double hold = known && contacts.touched(old) ? longest_hold(wall.pair.pull_off_gap, scale) : 0.0;
       const double margin = bounds.way[i] + wall_bound;
       const double range = grain.radius + std::max(gap * scale, hold) + margin;
-      if (is_surely_beyond(shape, grain.position, range)) continue;
       if (nearest_on(shape, grain.position).distance >= range) continue;
       chosen.add(i, i, known ? contacts.contact(old) : new_contact(particles, i, i));
     }
