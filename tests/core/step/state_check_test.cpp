@@ -159,14 +159,17 @@ TEST_CASE("a world that was forged is refused, in whatever it is not that of the
   }
 }
 
-/// The state of a heap in the midst of its test, as bytes.
-std::string state_in_the_midst(int pulses) {
+/// The state of a heap whose mould is being lifted, as bytes.
+std::string state_in_the_midst() {
   RunOptions options;
   std::string kept;
-  int seen = 0;
-  options.checkpoint = std::make_shared<RunCheckpoint>([&] { return seen == pulses - 1; },
-                                                       [&](const std::string& state) { kept = state; });
-  options.pulse = [&](const Snapshot&) { return ++seen < pulses; };
+  int lifting = 0;
+  options.checkpoint =
+      std::make_shared<RunCheckpoint>([&] { return lifting == 2; }, [&](const std::string& state) { kept = state; });
+  options.pulse = [&](const Snapshot& snapshot) {
+    if (snapshot.phase == "step1.lift") ++lifting;
+    return lifting < 3;
+  };
   (void)simulate(heap(), options);
   REQUIRE(kept.size() > 10'000);
   return kept;
@@ -190,7 +193,7 @@ Answer answer_to(const std::string& state) {
 }
 
 TEST_CASE("a state that lacks something, or has more than the run, is refused") {
-  const std::string state = state_in_the_midst(25);
+  const std::string state = state_in_the_midst();
   REQUIRE(answer_to(state) == Answer::went_on);
   CHECK(answer_to(state + "x") == Answer::refused);
   for (const double share : {0.001, 0.1, 0.5, 0.9, 0.999})
@@ -215,7 +218,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
                                  0xc1cdcd6500000000,   // -1e9
                                  0x7fc000007fc00000,   // two of single precision that are none
                                  0x7fffffff7fffffff};  // two whole numbers, the largest
-  const std::string state = state_in_the_midst(30);
+  const std::string state = state_in_the_midst();
   const RandomStream random(1, "forged states");
   int refused = 0;
   constexpr int kForged = 120;
@@ -232,7 +235,7 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
 }
 
 TEST_CASE("a stretch of impossible numbers is refused wherever in a state it stands") {
-  const std::string state = state_in_the_midst(30);
+  const std::string state = state_in_the_midst();
   constexpr std::size_t kStretch = 512;
   for (std::size_t place = 0; place + kStretch <= state.size(); place += kStretch) {
     std::string forged = state;
