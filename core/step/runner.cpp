@@ -215,7 +215,10 @@ Runner::Wait Runner::wait_for_rest(const Phase& phase, double cap_s, bool midway
     const bool is_calm = mean_speed(world_.particles) < slow && wait.change < criterion.change_over_radius * radius;
     progress_.calm = is_calm ? progress_.calm + 1 : 0;
     wait.rested = progress_.calm >= criterion.windows;
-    if (wait.rested && (!free || free(world_))) return wait;
+    if (wait.rested && (!free || free(world_))) {
+      progress_.rested = true;
+      return wait;
+    }
     progress_.before = now;
   }
   return wait;

@@ -45,6 +45,9 @@ class Runner {
   /// not.
   std::optional<Failure> settle(const Phase& phase, double cap_s, double moved_s = 0);
 
+  /// Whether the last wait was for rest, and ended because it had come.
+  bool rests() const { return progress_.rested; }
+
   /// Calls the watch now, whatever its interval: a phase has ended that a picture should show.
   std::optional<Failure> show(std::string_view phase);
 
@@ -88,9 +91,10 @@ class Runner {
     int calm = 0;                  ///< windows in a row
     std::vector<double> before{};  ///< rest measure at the beginning of the window
     double cap = 0;                ///< of a wait for rest [s]; 0: the wait is not for rest
+    bool rested = false;           ///< a wait for rest has ended with it
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(end, waited, calm, before, cap);
+      archive(end, waited, calm, before, cap, rested);
     }
   };
   /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before

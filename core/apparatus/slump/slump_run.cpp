@@ -75,6 +75,7 @@ class MouldLift {
     if (problem) return problem;
     const double rim_m = std::get<Shell>(mould.shape).base.z;
     const bool holds = norm(mould.force) > 0;
+    rests_ = runner_.rests();
     runner_.take_away_last_wall();
     return holds && highest_point(world_.particles) > rim_m ? let_down(rim_m) : std::nullopt;
   }
@@ -90,8 +91,9 @@ class MouldLift {
     return problem;
   }
 
-  /// The heap comes to rest on the table, unless it is lost before.
+  /// The heap comes to rest on the table, unless it did so under the mould, or is lost before.
   std::optional<Failure> rest_on_table() {
+    if (rests_) return {};
     return runner_.settle({"step1.rest", time_flow(), look_whether_lost()}, kRestCap);
   }
 
@@ -112,6 +114,7 @@ class MouldLift {
   Runner runner_;
   Ruler ruler_;
   SpreadSeries spreads_;
+  bool rests_ = false;     ///< before the mould was gone, and untouched by it
   double lost_below_ = 0;  ///< highest point [m]
 };
 
