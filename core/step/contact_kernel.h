@@ -7,6 +7,7 @@
 #include "core/laws/pack.h"
 #include "core/laws/transpose.h"
 #include "core/step/kernels.h"
+#include "core/step/list_kernel.h"
 #include "core/step/motion_kernel.h"
 #include "core/step/nearest_kernel.h"
 
@@ -433,6 +434,8 @@ constexpr KernelTable table_of(std::index_sequence<at...>, TypeList<Attraction..
           {LawTriple<at>::template wall<true>()...},
           {bridge_kernel_of<Attraction>()...},
           {find_on_wall<Plane>, find_on_wall<Plate>, find_on_wall<Shell>, find_on_wall<Ribs>},
+          find_near,
+          find_nearness,
           move_grains,
           PASTEFIT_ISA_NAME};
 }

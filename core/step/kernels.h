@@ -12,6 +12,7 @@
 #include "core/world/batches.h"
 #include "core/world/domain.h"
 #include "core/world/particles.h"
+#include "core/world/selection.h"
 #include "core/world/walls.h"
 
 namespace pastefit {
@@ -104,6 +105,8 @@ struct KernelTable {
   Kernels viscous_pair, viscous_wall;  ///< of bridges that have a viscosity; no other pairs attract each other
   std::array<Kernel, Attractions::size> bridge;  ///< pairs that cannot touch; empty where there is no attraction
   std::tuple<FindOnWall<Plane>, FindOnWall<Plate>, FindOnWall<Shell>, FindOnWall<Ribs>> find_on_wall;
+  FindNear find_near;
+  FindNearness find_nearness;
   Moved (*move)(const MoveTask&);
   std::string_view instruction_set;
 };

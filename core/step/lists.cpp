@@ -19,8 +19,8 @@ constexpr float kLeastShare = 0.5;  // of the displacement bound a grain would b
 
 }  // namespace
 
-Lists::Lists(World& world, double skin, ThreadPool& pool, StageClock* clock)
-    : world_(world), skin_(skin), pool_(pool), clock_(clock) {
+Lists::Lists(World& world, double skin, ThreadPool& pool, const KernelTable& kernels, StageClock* clock)
+    : world_(world), skin_(skin), pool_(pool), kernels_(kernels), clock_(clock) {
   selections_.resize(pool.size());
 }
 
@@ -89,7 +89,7 @@ void Lists::take_along() {
 
 void Lists::list_candidates() {
   Particles& particles = world_.particles;
-  rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_);
+  rebuild(particles, world_.domain, world_.pairs, world_.walls.size(), world_.reach(), skin_, kernels_.find_near);
   listed_.resize(particles.count());
   for (std::int32_t i = 0; i < particles.count(); ++i) put_rounded(particles.motion[i].position, listed_[i].at);
   bounds_.bounds.resize(particles.count());
@@ -165,7 +165,7 @@ Deepest Lists::select_pairs() {
     const bool next_strayed = b + 1 < static_cast<int>(blocks.size()) && exceeded_[b + 1];
     if (!exceeded_[b] && !next_strayed) return;
     deepest[b] = pastefit::select_pairs(world_.particles, world_.domain, blocks[b], world_.particles.count() + b,
-                                        selections_[member], world_.reach(), bounds_);
+                                        selections_[member], world_.reach(), bounds_, kernels_.find_nearness);
   });
   return *std::max_element(deepest.begin(), deepest.end(),
                            [](const Deepest& a, const Deepest& b) { return a.overlap < b.overlap; });

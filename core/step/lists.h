@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/step/kernels.h"
 #include "core/step/stage_clock.h"
 #include "core/thread_pool.h"
 #include "core/world/selection.h"
@@ -14,7 +15,7 @@ namespace pastefit {
 class Lists {
  public:
   /// `skin`: of the candidates [m].
-  Lists(World& world, double skin, ThreadPool& pool, StageClock* clock = nullptr);
+  Lists(World& world, double skin, ThreadPool& pool, const KernelTable& kernels, StageClock* clock = nullptr);
 
   /// To be called after the world was changed from outside.
   void forget() { valid_ = false; }
@@ -57,6 +58,7 @@ class Lists {
   World& world_;
   double skin_;
   ThreadPool& pool_;
+  const KernelTable& kernels_;
   StageClock* clock_;
   std::vector<Selection> selections_;  ///< one for each member of the pool
   DisplacementBounds bounds_;

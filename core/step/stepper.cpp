@@ -36,7 +36,7 @@ Stepper::Stepper(World& world, const StepOptions& options)
       options_(options),
       kernels_(options.kernels ? *options.kernels : kernels_of_this_processor()),
       pool_(options.threads),
-      lists_(world, options.skin * world.reference_radius, pool_, options.clock),
+      lists_(world, options.skin * world.reference_radius, pool_, kernels_, options.clock),
       wall_batches_(pool_.size()) {
   smallest_radius_ = smallest_mass_ = 1e300;
   for (std::int32_t i = 0; i < world.particles.count(); ++i) {

@@ -1,6 +1,7 @@
 #include "core/world/contacts.h"
 
 #include <cmath>
+#include <cstddef>
 
 namespace pastefit {
 
@@ -8,6 +9,9 @@ namespace {
 
 /// Size of padding: the dummy pair sits on one spot, so it would form a bridge; this makes its energy vanish.
 constexpr float kNoSize = 1e-12F;
+
+/// Rows of numbers in a batch, one behind the other from `sqrt_radius` on.
+constexpr int kRows = (sizeof(ContactBatch) - offsetof(ContactBatch, sqrt_radius)) / sizeof(float[kBatch]);
 
 }  // namespace
 
@@ -29,10 +33,37 @@ Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j) 
   return contact;
 }
 
-void ContactList::pad(std::int32_t dummy) {
+/// Row by row: what lies side by side is written side by side.
+void ContactList::add(std::span<const ChosenPair> pairs, const ContactList& before, const ContactList& fresh,
+                      std::int32_t dummy) {
+  const ChosenPair kNone{0, NeighbourList::Pair(0), -1};
+  for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
+    ContactBatch& batch = next();
+    count += kBatch - 1;
+    const float* from[kBatch];
+    for (int lane = 0; lane < kBatch; ++lane) {
+      const bool padded = first + lane >= pairs.size();
+      const ChosenPair& pair = padded ? kNone : pairs[first + lane];
+      batch.i[lane] = padded ? dummy : pair.i;
+      batch.j[lane] = padded ? dummy : pair.other.grain();
+      const ContactList& list = pair.place < 0 ? fresh : before;
+      const std::int32_t place = pair.place < 0 ? -1 - pair.place : pair.place;
+      from[lane] = list.batches[place / kBatch].sqrt_radius + place % kBatch;
+    }
+    float* const to = batch.sqrt_radius;
+    for (int row = 0; row < kRows; ++row)
+      for (int lane = 0; lane < kBatch; ++lane) to[row * kBatch + lane] = from[lane][row * kBatch];
+  }
+}
+
+Contact padding() {
   Contact nothing;
   nothing.sqrt_radius = std::sqrt(kNoSize);
-  while (count % kBatch != 0) add(dummy, dummy, nothing);
+  return nothing;
+}
+
+void ContactList::pad(std::int32_t dummy) {
+  while (count % kBatch != 0) add(dummy, dummy, padding());
 }
 
 void BridgeList::pad(std::int32_t dummy) {

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "core/world/aligned.h"
 #include "core/world/batches.h"
+#include "core/world/neighbour_list.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
@@ -19,6 +21,9 @@ struct Contact {
   /// The same seen from the other grain: vectors change their sign.
   Contact turned() const;
 };
+
+/// What padding is in a list.
+Contact padding();
 
 /// Two grains that have met only now, or (i = j) a grain and a wall.
 Contact new_contact(const Particles& particles, std::int32_t i, std::int32_t j);
@@ -65,12 +70,23 @@ class BatchList {
   }
 };
 
+/// A pair chosen for a list, and where what it remembers stands: at `place` of the list that kept it until now; among
+/// the new contacts at `-1 - place`.
+struct ChosenPair {
+  std::int32_t i;
+  NeighbourList::Pair other;  ///< as it was kept until now
+  std::int32_t place;
+};
+
 /// Contacts; those that touched when they were chosen first, then from `near` on those that may touch.
 class ContactList : public BatchList<ContactBatch> {
  public:
   std::int32_t near = 0;  ///< a multiple of kBatch, as `count` is of a padded list
 
   void add(std::int32_t i, std::int32_t j, const Contact& contact);
+  /// Adds the pairs, and padding behind them. Requirement: the list is padded. `fresh`: the new contacts, the first of
+  /// them for the padding.
+  void add(std::span<const ChosenPair> pairs, const ContactList& before, const ContactList& fresh, std::int32_t dummy);
   void pad(std::int32_t dummy);
   template <class Archive>
   void serialize(Archive& archive) {

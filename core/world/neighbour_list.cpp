@@ -1,8 +1,7 @@
 #include "core/world/neighbour_list.h"
 
+#include <algorithm>
 #include <numeric>
-
-#include "core/laws/pack.h"
 
 namespace pastefit {
 
@@ -16,8 +15,20 @@ bool NeighbourList::is_of(std::int32_t grains) const {
   return ends_.empty() ? pairs_.empty() : ends_.front() >= 0 && ends_.back() == std::ssize(pairs_);
 }
 
-Vicinity::Vicinity(const Particles& particles, const Domain& domain, double farthest, double skin)
-    : domain_(domain), gap_(2 * farthest) {
+/// A grain's are written over by those of the next: mostly no loop.
+void NeighbourList::first_grains(std::int32_t first, std::vector<std::int32_t>& grains) const {
+  constexpr std::size_t kAtOnce = 16;
+  if (grains.size() < pairs_.size() + kAtOnce) grains.resize(pairs_.size() + pairs_.size() / 8 + kAtOnce);
+  std::int32_t begin = 0;
+  for (const std::int32_t end : ends_) {
+    for (std::int32_t k = begin; k < end; k += kAtOnce) std::fill_n(grains.begin() + k, kAtOnce, first);
+    begin = end;
+    ++first;
+  }
+}
+
+Vicinity::Vicinity(const Particles& particles, const Domain& domain, double farthest, double skin, FindNear find_near)
+    : domain_(domain), gap_(2 * farthest), find_near_(find_near) {
   constexpr double kRounding = 1e-6;  // several times that of differences and squares in single precision
   const std::int32_t n = particles.count();
   Vec3 low = particles.motion[0].position, high = low;
@@ -43,7 +54,7 @@ Vicinity::Vicinity(const Particles& particles, const Domain& domain, double fart
 
 void Vicinity::gather(std::int32_t begin, std::int32_t end) {
   const std::int32_t count = count_ + end - begin;
-  const auto room = static_cast<std::size_t>(count) + kLanes;  // the last lanes are read, not looked at
+  const auto room = static_cast<std::size_t>(count) + SphereColumns::kBeyond;
   if (grain_.size() < room) {
     for (std::vector<float>& column : gathered_) column.resize(2 * room, 1.0F);
     grain_.resize(2 * room);
@@ -55,28 +66,16 @@ void Vicinity::gather(std::int32_t begin, std::int32_t end) {
   count_ = count;
 }
 
-/// No jumps: whether a pair is near is as good as random.
-void Vicinity::find_lanes(std::int32_t i, std::int32_t from) {
-  using Four = Singles<kLanes>;
-  const auto four = [&](Column column, std::int32_t at) { return Four(_mm_loadu_ps(gathered_[column].data() + at)); };
-  const BasicVec3<Four> place{all_[x][i], all_[y][i], all_[z][i]};
-  const Four own(all_[radius][i]), gap = Four(gap_) * own, skin(skin_);
-  const std::int32_t* const grain = grain_.data();
-  std::int32_t *const near = near_.data(), found = 0;
-  for (std::int32_t at = from; at < count_; at += kLanes) {
-    BasicVec3<Four> way{four(x, at) - place.x, four(y, at) - place.y, four(z, at) - place.z};
-    if (domain_.repeats()) way = domain_.shortest(way);
-    const Four other = four(radius, at), touch = own + other;
-    const Four range = touch + gap * other / touch + skin;
-    const Four square = way.x * way.x + way.y * way.y + way.z * way.z;
-    int within = _mm_movemask_ps(reinterpret_cast<__m128>(square < range * range));
-    within &= (1 << std::min(kLanes, count_ - at)) - 1;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      near[found] = grain[at + lane];
-      found += within >> lane & 1;
-    }
-  }
-  found_ = found;
+VicinityTask Vicinity::task(std::int32_t i, std::int32_t from) {
+  return {{gathered_[x].data(), gathered_[y].data(), gathered_[z].data(), gathered_[radius].data(), grain_.data()},
+          from,
+          count_,
+          {all_[x][i], all_[y][i], all_[z][i]},
+          all_[radius][i],
+          static_cast<float>(gap_),
+          static_cast<float>(skin_),
+          domain_,
+          near_.data()};
 }
 
 }  // namespace pastefit

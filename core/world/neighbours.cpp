@@ -157,7 +157,7 @@ void gather_around(const Cells& cells, const std::vector<std::int32_t>& first, s
 }  // namespace
 
 void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
-             double skin) {
+             double skin, FindNear find_near) {
   const std::int32_t n = particles.count();
   if (domain.repeats())
     for (std::int32_t i = 0; i < n; ++i) particles.motion[i].position = domain.put_back(particles.motion[i].position);
@@ -175,7 +175,7 @@ void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size
   for (Block& block : pairs.blocks) block.walls.resize(walls);
   for (std::size_t wall = 0; wall < walls; ++wall) redistribute(old, wall, new_place, pairs.blocks);
   Remembered remembered(old, new_place);
-  Vicinity vicinity(particles, domain, farthest, skin);
+  Vicinity vicinity(particles, domain, farthest, skin, find_near);
   NeighbourList listed;  // copied to the blocks, which take no more memory than they need
   auto block = pairs.blocks.begin();
   std::int32_t cell = 0;

@@ -88,6 +88,6 @@ struct AttractionReach {
 /// changes. Of the walls the first ones stay what they were, if their number is another one now. Where the domain
 /// repeats, grains are put back into it.
 void rebuild(Particles& particles, const Domain& domain, Pairs& pairs, std::size_t walls, const AttractionReach& reach,
-             double skin);
+             double skin, FindNear find_near);
 
 }  // namespace pastefit

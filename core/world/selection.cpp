@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <variant>
 
 #include "core/world/nearest.h"
@@ -21,69 +23,125 @@ double longest_hold(double pull_off_gap, double size_scale) {
   return pull_off_gap * std::max(size_scale, 1.0);
 }
 
+constexpr std::size_t kTogether = sizeof(std::uint64_t);  // candidates; the far ones among them cost nothing
+
+/// What a block's lists remember of a candidate, by where they keep it.
+class Recollection {
+ public:
+  explicit Recollection(const Block& block) {
+    const std::span<const ContactBatch> contacts(block.contacts.batches);
+    const std::span<const BridgeBatch> bridges(block.bridges.batches);
+    for (const auto kept : {NeighbourList::touching, NeighbourList::near})
+      if (!contacts.empty()) {
+        touched_[kept] = {contacts[0].sqrt_contact_radius, sizeof(ContactBatch) / sizeof(float)};
+        alive_[kept] = {contacts[0].bridge, sizeof(ContactBatch) / sizeof(float)};
+      }
+    if (!bridges.empty()) alive_[NeighbourList::bridge] = {bridges[0].bridge, sizeof(BridgeBatch) / sizeof(float)};
+  }
+  bool touched(NeighbourList::Kept kept, std::int32_t place) const { return touched_[kept].at(place) > 0; }
+  float bridge(NeighbourList::Kept kept, std::int32_t place) const { return alive_[kept].at(place); }
+  bool alive(NeighbourList::Kept kept, std::int32_t place) const { return bridge(kept, place) > 0; }
+
+ private:
+  static constexpr float kNothing[kBatch] = {};
+  /// A row of a list's batches.
+  struct Row {
+    const float* first = kNothing;
+    std::size_t stride = 0;
+    float at(std::int32_t place) const {
+      return first[static_cast<std::uint32_t>(place) / kBatch * stride + static_cast<std::uint32_t>(place) % kBatch];
+    }
+  };
+  std::array<Row, NeighbourList::kinds> touched_, alive_;
+};
+
+/// Sorts the candidates into the lists they are chosen for. No jumps: which list it is, is as good as random.
+void sort_into_lists(Block& block, unsigned viscous, Selection& chosen) {
+  const std::span<NeighbourList::Pair> pairs = block.candidates.pairs();
+  const Recollection recollection(block);
+  // The next of each list, as the candidates come, and how many are chosen for it.
+  std::array<std::int32_t, NeighbourList::kinds> next{};
+  next[NeighbourList::near] = block.contacts.near;
+  std::array<std::size_t, NeighbourList::kinds> count{};
+  std::array<ChosenPair*, NeighbourList::kinds> lists{};
+  chosen.pairs[NeighbourList::nowhere].resize(1);
+  for (std::size_t list = 0; list < lists.size(); ++list) {
+    if (list != NeighbourList::nowhere && chosen.pairs[list].size() < pairs.size())
+      chosen.pairs[list].resize(pairs.size() + pairs.size() / 8);
+    lists[list] = chosen.pairs[list].data();
+  }
+  const auto choose = [&](std::size_t k, unsigned found) {
+    const NeighbourList::Pair pair = pairs[k];
+    const NeighbourList::Kept kept = pair.kept();
+    const std::int32_t place = next[kept]++;
+    const unsigned touched = recollection.touched(kept, place), alive = recollection.alive(kept, place);
+    const unsigned met = touched | (found >> nearness::touching & 1);
+    const unsigned acts = found >> (nearness::forming + alive) & 1;
+    const unsigned near = (found >> nearness::near & 1) | (touched & found >> nearness::held) | (viscous & acts);
+    const unsigned list = near * (NeighbourList::near - met) + (1 - near) * acts * NeighbourList::bridge;
+    pairs[k] = NeighbourList::Pair(pair.grain(), static_cast<NeighbourList::Kept>(list));
+    lists[list][count[list]] = {chosen.first[k], pair, place};
+    count[list] += list != NeighbourList::nowhere;
+  };
+  for (std::size_t first = 0; first < pairs.size(); first += kTogether) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, chosen.nearness.data() + first, kTogether);
+    while (bytes != 0) {
+      const int bit = std::countr_zero(bytes) / 8 * 8;
+      choose(first + bit / 8, static_cast<std::uint8_t>(bytes >> bit));
+      bytes &= ~(std::uint64_t{0xFF} << bit);
+    }
+  }
+  chosen.count = count;
+}
+
+/// Gives the pairs that have no contact yet one in `fresh`.
+void meet(const Particles& particles, const Recollection& recollection, std::span<ChosenPair> pairs,
+          ContactList& fresh) {
+  for (ChosenPair& pair : pairs) {
+    const NeighbourList::Kept kept = pair.other.kept();
+    if (kept == NeighbourList::touching || kept == NeighbourList::near) continue;
+    Contact contact = new_contact(particles, pair.i, pair.other.grain());
+    contact.bridge = recollection.bridge(kept, pair.place);
+    pair.place = -1 - fresh.count;
+    fresh.add(pair.i, pair.other.grain(), contact);
+  }
+}
+
 }  // namespace
 
 void Selection::clear() {
-  for (ContactList* list : {&contacts, &near}) list->clear();
+  contacts.clear();
+  fresh.clear();
+  fresh.add(0, 0, padding());
   bridges.clear();
 }
 
-void Selection::pad(std::int32_t dummy) {
-  for (ContactList* list : {&contacts, &near}) list->pad(dummy);
-  bridges.pad(dummy);
-}
-
 Deepest select_pairs(const Particles& particles, const Domain& domain, Block& block, std::int32_t dummy,
-                     Selection& chosen, const AttractionReach& reach, const DisplacementBounds& bounds) {
+                     Selection& chosen, const AttractionReach& reach, const DisplacementBounds& bounds,
+                     FindNearness find_nearness) {
   chosen.clear();
-  const bool attracts = reach.rupture_gap > 0;
-  const double forming = std::min(reach.formation_gap, reach.rupture_gap);
-  // The next of each list, as the candidates come.
-  std::array<std::int32_t, NeighbourList::kinds> next{};
-  next[NeighbourList::near] = block.contacts.near;
-  Deepest deepest;
-  const auto choose = [&](NeighbourList::Pair& candidate, std::int32_t i, std::int32_t ahead) {
-    __builtin_prefetch(&particles.motion[ahead]);
-    __builtin_prefetch(&bounds.way[ahead]);
-    const NeighbourList::Kept kept = candidate.kept();
-    const std::int32_t j = candidate.grain(), place = next[kept]++;
-    const bool contact = kept == NeighbourList::touching || kept == NeighbourList::near;
-    const Motion &a = particles.motion[i], &b = particles.motion[j];
-    const Vec3 between = domain.minimum_image(a.position, b.position);
-    const double square = dot(between, between), touch = a.radius + b.radius;
-    double near = touch + bounds.way[i] + bounds.way[j];
-    if (reach.pull_off_gap > 0 && contact && block.contacts.touched(place))
-      near += longest_hold(reach.pull_off_gap, size_scale(a.radius, b.radius, reach.reference_radius));
-    const bool is_near = square < near * near;
-    candidate.keep(NeighbourList::nowhere);
-    if (!is_near && !attracts) return;
-    const float alive = contact                          ? block.contacts.bridge(place)
-                        : kept == NeighbourList::nowhere ? 0
-                                                         : block.bridges.bridge(place);
-    if (!is_near) {
-      const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
-      const double range = near + (alive > 0 ? reach.rupture_gap : forming) * scale;
-      if (square >= range * range) return;
-    }
-    if (!is_near && !reach.viscous) {
-      const double scale = size_scale(a.radius, b.radius, reach.reference_radius);
-      candidate.keep(NeighbourList::bridge);
-      chosen.bridges.add(i, j, static_cast<float>(scale), alive);
-      return;
-    }
-    Contact pair = contact ? block.contacts.contact(place) : new_contact(particles, i, j);
-    pair.bridge = alive;
-    const double smaller = std::min(a.radius, b.radius), deeper = touch - deepest.overlap * smaller;
-    if (square < deeper * deeper) deepest = {(touch - std::sqrt(square)) / smaller, i};
-    const bool met = square < touch * touch || pair.sqrt_contact_radius > 0;
-    candidate.keep(met ? NeighbourList::touching : NeighbourList::near);
-    (met ? chosen.contacts : chosen.near).add(i, j, pair);
-  };
-  block.candidates.each(block.grains, choose);
-  chosen.pad(dummy);
+  const std::span<NeighbourList::Pair> pairs = block.candidates.pairs();
+  block.candidates.first_grains(block.grains, chosen.first);
+  chosen.nearness.assign((pairs.size() / kTogether + 1) * kTogether, 0);
+  const Deepest deepest = find_nearness(
+      {particles.motion.data(), bounds.way.data(), chosen.first.data(), pairs, domain, reach, chosen.nearness.data()});
+  sort_into_lists(block, reach.viscous, chosen);
+  const Recollection recollection(block);
+  for (const auto list : {NeighbourList::touching, NeighbourList::near}) {
+    meet(particles, recollection, chosen.of(list), chosen.fresh);
+    if (list == NeighbourList::near) chosen.contacts.near = chosen.contacts.count;
+    chosen.contacts.add(chosen.of(list), block.contacts, chosen.fresh, dummy);
+  }
+  for (const auto& [i, other, place] : chosen.of(NeighbourList::bridge)) {
+    const std::int32_t j = other.grain();
+    const double scale = size_scale(particles.motion[i].radius, particles.motion[j].radius, reach.reference_radius);
+    chosen.bridges.add(i, j, static_cast<float>(scale), recollection.bridge(other.kept(), place));
+  }
+  chosen.bridges.pad(dummy);
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.
-  block.contacts.join({&chosen.contacts, &chosen.near});
-  block.contacts.near = chosen.contacts.count;
+  block.contacts.join({&chosen.contacts});
+  block.contacts.near = chosen.contacts.near;
   block.bridges.join({&chosen.bridges});
   return deepest;
 }

@@ -45,7 +45,7 @@ TEST_CASE("a pair that may still meet stays listed while it moves apart, whichev
   grains.motion[kOther].position.x -= closer;
   for (const std::int32_t i : {kOne, kOther}) set_velocity(grains, i, {kOwn / (kStep * kSteps), 0, 0}, {});
   ThreadPool pool(1);
-  Lists lists(world, 0.8 * kSize, pool);
+  Lists lists(world, 0.8 * kSize, pool, kernels_of_this_processor());
   lists.update(kStep, 0, 0);
   REQUIRE(world.pairs.blocks.size() >= 2);
   const std::int32_t one = place_of(world, kOne), other = place_of(world, kOther);

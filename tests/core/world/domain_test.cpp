@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "core/step/kernels.h"
 #include "tests/core/scene.h"
 
 namespace pastefit {
@@ -93,7 +94,7 @@ TEST_CASE("every pair of a slice is listed once, however few cells it is wide") 
         if (norm(slice.minimum_image(slice.put_back(centres[i]), slice.put_back(centres[j]))) < reach) ++near;
     Particles particles = make_particles(centres, std::vector<double>(centres.size(), radius), 2500);
     Pairs pairs;
-    rebuild(particles, slice, pairs, 0, AttractionReach{}, skin);
+    rebuild(particles, slice, pairs, 0, AttractionReach{}, skin, kernels_of_this_processor().find_near);
     int listed = 0;
     for (const Block& block : pairs.blocks)
       block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i, std::int32_t) {
