@@ -122,7 +122,7 @@ bool Lists::give_displacement_bounds(double duration) {
     const bool first = exceeded_[b], second = b + 1 < blocks && exceeded_[b + 1];
     if (!first && !second) return;
     const Block& block = pairs.blocks[b];
-    block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i, std::int32_t) {
+    block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i) {
       const std::int32_t j = pair.grain();
       const auto make_room = [&](std::int32_t grain, std::int32_t other) {
         bounds_.bounds[grain].distance = std::max(bounds_.bounds[grain].distance, bounds_.own[other]);

@@ -90,7 +90,7 @@ void check_memory(const ContactList& list, std::int32_t k) {
 void check_candidates(const Block& block, const Ends& ends) {
   std::array<std::int32_t, NeighbourList::kinds> kept{};
   demand(block.candidates.is_of(ends.end - ends.begin), "the candidates are of other grains");
-  block.candidates.each(ends.begin, [&](NeighbourList::Pair pair, std::int32_t, std::int32_t) {
+  block.candidates.each(ends.begin, [&](NeighbourList::Pair pair, std::int32_t) {
     demand(pair.kept() < NeighbourList::kinds && pair.grain() >= ends.begin && pair.grain() < ends.next_end,
            "a candidate is of a grain that its block does not have");
     ++kept[pair.kept()];

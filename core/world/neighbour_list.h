@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -40,8 +39,7 @@ class NeighbourList {
   /// Goes on to the next grain.
   void end_grain() { ends_.push_back(static_cast<std::int32_t>(pairs_.size())); }
 
-  /// Calls `visit(pair, i, ahead)` for all pairs; the run begins with grain `first`. `ahead` is the second grain of the
-  /// pair some way after this one, or of the last: to be fetched in time.
+  /// Calls `visit(pair, i)` for all pairs; the run begins with grain `first`.
   template <class Visitor>
   void each(std::int32_t first, const Visitor& visit) {
     each(*this, first, visit);
@@ -61,16 +59,11 @@ class NeighbourList {
   bool is_of(std::int32_t grains) const;
 
  private:
-  static constexpr std::size_t kAhead = 12;
-
   template <class Self, class Visitor>
   static void each(Self& self, std::int32_t first, const Visitor& visit) {
-    const std::size_t last = self.pairs_.size() - 1;
-    std::int32_t i = first;
-    std::size_t c = 0;
+    std::int32_t i = first, c = 0;
     for (const std::int32_t end : self.ends_) {
-      for (; c < static_cast<std::size_t>(end); ++c)
-        visit(self.pairs_[c], i, self.pairs_[std::min(c + kAhead, last)].grain());
+      for (; c < end; ++c) visit(self.pairs_[c], i);
       ++i;
     }
   }

@@ -118,19 +118,19 @@ std::vector<Forgery> forgeries() {
       {"a candidate beyond the last grain",
        [](World& w) {
          bool first = true;
-         w.pairs.blocks[0].candidates.each(0, [&](NeighbourList::Pair& pair, std::int32_t, std::int32_t) {
+         w.pairs.blocks[0].candidates.each(0, [&](NeighbourList::Pair& pair, std::int32_t) {
            if (std::exchange(first, false)) pair = NeighbourList::Pair(500'000'000);
          });
        }},
       {"candidates in no list that there is",
        [](World& w) {
          w.pairs.blocks[0].candidates.each(
-             0, [](NeighbourList::Pair& pair, std::int32_t, std::int32_t) { pair.keep(NeighbourList::kinds); });
+             0, [](NeighbourList::Pair& pair, std::int32_t) { pair.keep(NeighbourList::kinds); });
        }},
       {"more candidates kept than the lists have",
        [](World& w) {
          w.pairs.blocks[0].candidates.each(
-             0, [](NeighbourList::Pair& pair, std::int32_t, std::int32_t) { pair.keep(NeighbourList::touching); });
+             0, [](NeighbourList::Pair& pair, std::int32_t) { pair.keep(NeighbourList::touching); });
        }},
       {"a wall that touches more than it lists", [](World& w) { touching_of(w).count = 1'000'000; }},
       {"a wall that touches a grain beyond the last",

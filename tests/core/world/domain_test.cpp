@@ -97,7 +97,7 @@ TEST_CASE("every pair of a slice is listed once, however few cells it is wide") 
     rebuild(particles, slice, pairs, 0, AttractionReach{}, skin, kernels_of_this_processor().find_near);
     int listed = 0;
     for (const Block& block : pairs.blocks)
-      block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i, std::int32_t) {
+      block.candidates.each(block.grains, [&](NeighbourList::Pair pair, std::int32_t i) {
         const std::int32_t j = pair.grain();
         CHECK(i < j);
         CHECK(apart_in_slice(particles.motion[i].position, particles.motion[j].position, period) < 1.0001 * reach);
