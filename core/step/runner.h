@@ -94,7 +94,7 @@ class Runner {
     bool rested = false;           ///< a wait for rest has ended with it
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(end, waited, calm, before, cap, rested);
+      archive(end, waited, calm, before, cap);
     }
   };
   /// One wait: `wait(midway)`, where `midway` says that it was interrupted and goes on; nothing, if it had ended before
@@ -108,7 +108,7 @@ class Runner {
   template <class Archive>
   void seen(Archive& archive) {
     archive(world_.time, world_.step, world_.particles.motion, world_.particles.velocity, world_.particles.load,
-            world_.particles.identity);
+            world_.particles.identity, progress_.rested);
     for (Wall& wall : world_.walls)
       archive(wall.shape, wall.velocity, wall.angular_velocity, wall.pivot, wall.velocity_before,
               wall.angular_velocity_before, wall.force, wall.torque);

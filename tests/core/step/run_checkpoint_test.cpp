@@ -103,6 +103,23 @@ TEST_CASE("a slump test with its drops that is killed again and again, and goes 
   check_resumed(slump(), 35, 2);
 }
 
+TEST_CASE("a heap that rests under its mould does not wait for rest once more, killed or not") {
+  SlumpTest test = slump();
+  test.lift_velocity_m_s = 0.03;
+  std::string before, after_lift;
+  RunOptions options;
+  options.pulse = [&](const Snapshot& snapshot) {
+    if (before == "step1.lift" && after_lift.empty() && snapshot.phase != before) after_lift = snapshot.phase;
+    before = snapshot.phase;
+    return true;
+  };
+  const Outcome whole = simulate(test, options);
+  REQUIRE_FALSE(whole.failure);
+  REQUIRE(whole.run.simulated_s < test.mould.height_m / test.lift_velocity_m_s);  // the mould was still around it
+  CHECK(after_lift == "step2.raise");
+  check_resumed(test, 60, 2);
+}
+
 TEST_CASE("a jolting table that is killed again and again, and goes on, has the bits of one that was not") {
   SlumpTest test = slump();
   test.drop->motion = TableMotion::vertical;
