@@ -22,7 +22,7 @@ PASTEFIT_INLINE Singles<kListed> unaligned(const float* numbers) {
 }
 
 /// Writes the grains of the lanes that are within, one after the other; whole packs may be written. Returns how many.
-/// No jumps: whether a pair is near is as good as random.
+/// Without branches: whether a pair is near cannot be predicted.
 PASTEFIT_INLINE std::int32_t put_within(Singles<kListed>::Mask within, const std::int32_t* grain, int lanes,
                                         std::int32_t* near) {
 #ifdef __AVX512F__

@@ -55,8 +55,8 @@ class Recollection {
   std::array<Row, NeighbourList::kinds> touched_, alive_;
 };
 
-/// Sorts the candidates into the lists they are chosen for. No jumps: which list it is, is as good as random.
-void sort_into_lists(Block& block, unsigned viscous, Selection& chosen) {
+/// Sorts the candidates into the lists they are chosen for. Without branches: which list it is cannot be predicted.
+void sort_into_lists(Block& block, bool viscous, Selection& chosen) {
   const std::span<NeighbourList::Pair> pairs = block.candidates.pairs();
   const Recollection recollection(block);
   // The next of each list, as the candidates come, and how many are chosen for it.
