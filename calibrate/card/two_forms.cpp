@@ -27,6 +27,8 @@ Numbers numbers_of(const ContactModel& contact) {
           {"bridge.viscosity_pa_s", bridge.viscosity_pa_s},
           {"surface_energy_j_m2", contact.surface_energy_j_m2},
           {"cohesion_energy_density_pa", contact.cohesion_energy_density_pa},
+          {"plasticity_ratio", contact.plasticity_ratio},
+          {"adhesion_ratio", contact.adhesion_ratio},
           {"cohesion_n", contact.cohesion_n.value_or(bridge.c_n)},
           {"friction", contact.friction},
           {"rolling_friction", contact.rolling_friction},

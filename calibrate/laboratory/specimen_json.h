@@ -47,6 +47,8 @@ void describe_contact(Fields& fields, Model& contact) {
   fields.choice("normal", contact.normal, normal_laws, Default{NormalLaw::hertz});
   fields.number("surface_energy_j_m2", contact.surface_energy_j_m2, any_number, Default{0.0});
   fields.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, any_number, Default{0.0});
+  fields.number("plasticity_ratio", contact.plasticity_ratio, any_number, Default{0.0});
+  fields.number("adhesion_ratio", contact.adhesion_ratio, any_number, Default{0.0});
   fields.nullable_number("cohesion_n", contact.cohesion_n, any_number, required);
   fields.object("bridge", required, [&](auto& inner) { describe_bridge(inner, contact.bridge); });
 }

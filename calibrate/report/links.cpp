@@ -10,8 +10,7 @@ namespace pastefit {
 namespace {
 
 /// The force of the laws between two grains at this overlap. `sqrt_contact_radius`: of the contact, 0 if there is none.
-double force_of(const World& world, double effective_radius, double overlap, bool touching,
-                double sqrt_contact_radius) {
+double force_of(const World& world, double effective_radius, double overlap, bool touching, double remembered) {
   const PairConstants& pair = world.grain_pair;
   const double scale = pair.size_per_radius * effective_radius;
   if (!touching)
@@ -22,7 +21,7 @@ double force_of(const World& world, double effective_radius, double overlap, boo
         return 0.0;
     });
   const double normal_force = with_law(NormalLaws{}, acting(world.normal, pair), [&](auto law) {
-    return law.at(pair, std::sqrt(effective_radius), overlap, sqrt_contact_radius).force;
+    return law.at(pair, std::sqrt(effective_radius), overlap, remembered).force;
   });
   return normal_force - pair.cohesion * scale * scale;
 }
@@ -31,18 +30,19 @@ class LinkFinder {
  public:
   explicit LinkFinder(const World& world)
       : world_(world),
-        reaches_(with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; })) {
-  }
+        reaches_(with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; })),
+        yields_(with_law(NormalLaws{}, world.normal, [](auto law) { return law.yields; })) {}
 
   void add_contacts(const ContactList& contacts) {
-    for (std::int32_t k = 0; k < contacts.count; ++k)
-      add(contacts.first(k), contacts.second(k), contacts.bridge(k) > 0, contacts.contact(k).sqrt_contact_radius);
+    for (std::int32_t k = 0; k < contacts.count; ++k) add(contacts.first(k), contacts.second(k), contacts.contact(k));
   }
 
   void add_bridges(const BridgeList& bridges) {
     for (std::int32_t k = 0; k < bridges.count; ++k) {
       const BridgeBatch& batch = bridges.batches[k / kBatch];
-      add(batch.i[k % kBatch], batch.j[k % kBatch], bridges.bridge(k) > 0, 0);
+      Contact bridge;
+      bridge.bond = bridges.bond(k);
+      add(batch.i[k % kBatch], batch.j[k % kBatch], bridge);
     }
   }
 
@@ -50,21 +50,21 @@ class LinkFinder {
 
  private:
   /// Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
-  void add(std::int32_t i, std::int32_t j, bool bridge, double sqrt_contact_radius) {
+  void add(std::int32_t i, std::int32_t j, const Contact& memory) {
     const auto& grains = world_.particles;
     if (i >= grains.count() || j >= grains.count()) return;  // padding
     const Motion &one = grains.motion[i], &other = grains.motion[j];
     const double overlap = one.radius + other.radius - norm(one.position - other.position);
     const double effective_radius = one.radius * other.radius / (one.radius + other.radius);
     const double pull_off_gap = world_.grain_pair.pull_off_gap * world_.grain_pair.size_per_radius * effective_radius;
-    const bool touching = overlap > 0 || (reaches_ && sqrt_contact_radius > 0 && overlap > -pull_off_gap);
-    if (!touching && !bridge) return;
-    links_.push_back(
-        {i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, sqrt_contact_radius)});
+    const bool touching = overlap > 0 || (reaches_ && memory.sqrt_contact_radius > 0 && overlap > -pull_off_gap);
+    if (!touching && !(memory.bond > 0)) return;
+    const double remembered = yields_ ? memory.bond : memory.sqrt_contact_radius;
+    links_.push_back({i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, remembered)});
   }
 
   const World& world_;
-  const bool reaches_;
+  const bool reaches_, yields_;
   std::vector<Link> links_;
 };
 

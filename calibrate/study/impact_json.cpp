@@ -99,6 +99,8 @@ void read_impact_contact(ObjectReader& reader, ContactModel& contact) {
   reader.choice("normal", contact.normal, normal_laws, Need::optional);
   reader.number("surface_energy_j_m2", contact.surface_energy_j_m2, {0, 1e6}, Need::optional);
   reader.number("cohesion_energy_density_pa", contact.cohesion_energy_density_pa, {0, 1e12}, Need::optional);
+  reader.number("plasticity_ratio", contact.plasticity_ratio, {0, kMostPlastic}, Need::optional);
+  reader.number("adhesion_ratio", contact.adhesion_ratio, {0, kMostAdhesive}, Need::optional);
   reader.choice("rolling", contact.rolling, rolling_models, Need::optional);
   reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
   reader.nullable_number("cohesion_n", contact.cohesion_n, {0, 1e9}, Need::optional);

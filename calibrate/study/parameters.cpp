@@ -15,7 +15,7 @@ constexpr Scale linear = Scale::linear;
 constexpr Scale logarithmic = Scale::logarithmic;
 
 // Files and stored evaluations know a parameter by its name; the order is that of tables for people.
-constexpr std::array<ParameterKind, 20> kinds{{
+constexpr std::array<ParameterKind, 23> kinds{{
     {"strength_pa", 1, 1e7, 5000, logarithmic, "attraction at touch over the squared mean grain radius, c/R^2"},
     {"rupture_force_ratio", 0, 1, 0, linear, "share of the attraction left when the bridge ruptures, F(d_c)/c"},
     {"curvature", -1, 1, 0, linear, "shape of the decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
@@ -37,6 +37,11 @@ constexpr std::array<ParameterKind, 20> kinds{{
     {"adhesion_pa", 1, 1e6, 1000, logarithmic, "surface energy of the grains over the mean grain radius, gamma/R"},
     {"cohesion_energy_density_pa", 1, 1e9, 50000, logarithmic,
      "attraction of the grains over the area in which they meet"},
+    {"plasticity_ratio", 0, 0.98, 0.85, linear,
+     "share of the deepest overlap that stays when the load is gone, 1 - k1/k2"},
+    {"adhesion_ratio", 0.001, 20, 1, logarithmic, "stiffness of the adhesion branch over that of loading, kc/k1"},
+    {"pull_off_pa", 0, 1e7, 0, linear,
+     "constant attraction of touching grains over the squared mean grain radius, f0/R^2"},
     {"viscosity_pa_s", 0, 1000, 0, linear, "viscosity of the liquid between the grains"},
 }};
 
@@ -205,14 +210,18 @@ Fault foreign_parameter(const ContactModel& laws, std::string place, std::string
 Test with_contact_of(Test test, std::span<const double> values) {
   assert(values.size() == kinds.size());
   ContactModel& contact = specimen_of(test).contact;
+  contact = {.normal = contact.normal,
+             .rolling = contact.rolling,
+             .friction_basis = contact.friction_basis,
+             .bridge = {.shape = contact.bridge.shape, .formation = contact.bridge.formation}};
   const auto make = [&, radius = specimen_of(test).grains.radius_m](auto law) {
     law.make(contact, radius, [&](std::string_view name) {
       assert(names(law, name));
       return values[parameter_at(name)];
     });
   };
-  with_law(NormalLaws{}, contact.normal, make);
   with_law(Attractions{}, contact.bridge.shape, make);
+  with_law(NormalLaws{}, contact.normal, make);
   with_law(RollingLaws{}, contact.rolling, make);
   contact.friction = values[at("friction")];
   contact.restitution = values[at("restitution")];

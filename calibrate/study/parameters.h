@@ -23,6 +23,7 @@ namespace pastefit {
 ///   polynomial         besides, rupture_force_ratio F(d_c)/c and curvature (core/laws/attraction.h)
 ///   jkr, dmt           adhesion_pa gamma/R [Pa]
 ///   sjkr               cohesion_energy_density_pa k [Pa]
+///   epa, luding        plasticity_ratio 1 - k_1/k_2, adhesion_ratio k_c/k_1, pull_off_pa f0/R^2 [Pa]
 ///   rolling            rolling_friction, mould_rolling_friction, table_rolling_friction
 ///   whatever attracts  table_cohesion_factor, mould_cohesion_factor
 ///   every test         friction, restitution, youngs_modulus_pa, poissons_ratio, mould_friction, table_friction

@@ -134,6 +134,8 @@ void check_specimen(FieldChecker& check, const Specimen& specimen) {
   check.range("contact.rolling_friction", contact.rolling_friction, 0, 10, "");
   check.range("contact.surface_energy_j_m2", contact.surface_energy_j_m2, 0, 1e6, "J/m^2");
   check.range("contact.cohesion_energy_density_pa", contact.cohesion_energy_density_pa, 0, 1e12, "J/m^3");
+  check.range("contact.plasticity_ratio", contact.plasticity_ratio, 0, kMostPlastic, "");
+  check.range("contact.adhesion_ratio", contact.adhesion_ratio, 0, kMostAdhesive, "");
   check.require(go_together(contact.normal, contact.bridge.shape), "contact.bridge.shape",
                 "is a bridge beside a law of the overlap that has none",
                 "give \"none\", or \"normal\": \"hertz\" or \"jkr\"");

@@ -30,10 +30,13 @@ struct ConstantsOf {
   Real roll_damping{0};          ///< 0.6 sqrt(1.4 * 2.25) mu_r: dashpot over sqrt(S_n m*) R*^2
   Real spin_damping{0};          ///< `damping` of a contact whose damping of spins would be that of the rolling dashpot
   Real size_per_radius{0};       ///< 2/R_ref, for a wall 1/R_ref: size scale of a pair over its R* [1/m]
-  Real adhesion{0};              ///< of a law that `adheres`: JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]
-  Real pull_off_patch{0};        ///< JKR: contact radius of reference grains at which they are torn apart [m]
-  Real pull_off_gap{0};          ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
-  Real cohesion{0};              ///< constant attraction in overlap [N]
+  Real adhesion{0};          ///< JKR pi gamma, DMT 4 pi gamma [J/m^2]; SJKR 2 pi k [Pa]; of a law that `yields` k_c/k_1
+  Real stiffening{1};        ///< of a law that `yields`, k_2/k_1
+  Real least_plastic{0};     ///< of the same, plastic overlap over the overlap while loading
+  Real most_plastic{1};      ///< and on the adhesion branch
+  Real pull_off_patch{0};    ///< JKR: contact radius of reference grains at which they are torn apart [m]
+  Real pull_off_gap{0};      ///< gap at which a law that `reaches` lets go of reference grains at the latest [m]
+  Real cohesion{0};          ///< constant attraction in overlap [N]
   bool passes_over = false;  ///< attraction at touch differs from that: `passage` overlap leads from one to the other
   Real touch_excess{0};      ///< attraction at touch less the cohesion [N]
   Real passage{0};           ///< overlap of reference grains beyond which the cohesion alone is left [m]
@@ -68,6 +71,9 @@ PASTEFIT_INLINE ConstantsOf<Real> in_lanes(const PairConstants& k) {
           Real(k.spin_damping),
           Real(k.size_per_radius),
           Real(k.adhesion),
+          Real(k.stiffening),
+          Real(k.least_plastic),
+          Real(k.most_plastic),
           Real(k.pull_off_patch),
           Real(k.pull_off_gap),
           Real(k.cohesion),

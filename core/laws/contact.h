@@ -46,7 +46,9 @@ PASTEFIT_INLINE ContactForce<Real> press(const ConstantsOf<Real>& k, const Conta
 
   ContactForce<Real> contact_force;
   contact_force.normal_force = select(normal.touching, normal.force + damper - cohesion, zero);
-  contact_force.stiffness = larger(d.stiffness_n, Real(kSurfaceLightness) * d.stiffness_t);
+  Real stiffness = d.stiffness_n;
+  if constexpr (Normal::yields) stiffness = k.stiffening * stiffness;
+  contact_force.stiffness = larger(stiffness, Real(kSurfaceLightness) * d.stiffness_t);
   contact_force.damping = d.damping_n;
   contact_force.moment = {zero, zero, zero};
   contact_force.dissipation_normal = contact_force.dissipation_sliding = contact_force.dissipation_rolling =
@@ -117,18 +119,26 @@ PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const Contact
   const bool counted = energies != Energies::none;
   const Real approach = dot(m.velocity, m.normal);
   const Real radius = m.sqrt_radius * m.sqrt_radius, size_scale = k.size_per_radius * radius;
-  const NormalForce<Real> normal = Normal::at(k, m.sqrt_radius, m.overlap, history.sqrt_contact_radius);
+  const NormalForce<Real> normal =
+      Normal::at(k, m.sqrt_radius, m.overlap, Normal::yields ? history.bond : history.sqrt_contact_radius);
   // Before the division, which takes long: 1 to 2 % of a slump.
   const detail::Turned<Real> slip = detail::turned(history.slip, m.normal, m.twist * dt);
   const Dashpots<Real> d = dashpots(k, m, normal.contact_radius, dt);
 
   ContactForce<Real> contact_force = press<Normal>(k, m, approach, normal, d, size_scale, dt, counted, history);
   if constexpr (Attraction::present)
-    attract<Attraction>(k, m.overlap, size_scale, energies, history.bridge, contact_force);
+    attract<Attraction>(k, m.overlap, size_scale, energies, history.bond, contact_force);
   if constexpr (Normal::reaches) {
     const Real joined = select(history.sqrt_contact_radius > zero, zero, Normal::spent(k, radius));
     if (counted)
       contact_force.dissipation_bridge = contact_force.dissipation_bridge + select(normal.touching, joined, zero);
+  }
+
+  if constexpr (Normal::yields) {
+    const Real middle = larger(m.overlap, zero) + larger(fused(-dt, approach, m.overlap), zero);
+    if (counted)
+      contact_force.dissipation_plastic = Normal::yielded(k, radius, history.bond, normal.plastic, Real(0.5) * middle);
+    history.bond = normal.plastic;
   }
 
   const Real friction_load = k.friction_of_total
@@ -140,7 +150,7 @@ PASTEFIT_INLINE ContactForce<Real> act(const ConstantsOf<Real>& k, const Contact
   Lubrication<Real> liquid;
   Real viscous_drag;
   if constexpr (viscous) {
-    liquid = lubrication(k, m.overlap, radius, size_scale, history.bridge, m.inverse_mass, m.neighbour_damping, dt);
+    liquid = lubrication(k, m.overlap, radius, size_scale, history.bond, m.inverse_mass, m.neighbour_damping, dt);
     viscous_drag = viscous_before(liquid, spring.kept * d.damper_t, history);
     history.drag = history.drag - viscous_drag;
   }

@@ -28,8 +28,8 @@ struct ContactHistory {
       roll;  ///< accumulated relative rotation across the normal [rad]; constant torque: the last torque [N m]
   Real sqrt_contact_radius;  ///< sqrt(a), a = sqrt(R* d), at the last step [m^(1/2)], 0 if the bodies did not touch
   Real damper;               ///< normal damping force at the last step, that of viscous liquid included [N]
-  Real drag;    ///< coefficient of the tangential dampers at the last step, as far as friction let them act [N s/m]
-  Real bridge;  ///< 1 while a liquid bridge lives, else 0
+  Real drag;  ///< coefficient of the tangential dampers at the last step, as far as friction let them act [N s/m]
+  Real bond;  ///< 1 while a liquid bridge lives, else 0; of a law that `yields` the plastic overlap [m]
 };
 
 /// What a contact does to body i (body j gets the opposite), and what it means for the time step.
@@ -42,6 +42,7 @@ struct ContactForce {
   // For the energy balance: energy dissipated in this step by each mechanism, and energy stored now [J].
   Real dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridge, stored;
   Real dissipation_viscous;  ///< set where liquid is viscous
+  Real dissipation_plastic;  ///< set where the law of the overlap `yields`
   Real stiffness;            ///< largest stiffness, rotation counted [N/m]
 };
 

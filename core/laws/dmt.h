@@ -20,12 +20,11 @@ struct Dmt {
   static constexpr NormalLaw choice = NormalLaw::dmt;
   static constexpr std::string_view word = "dmt";
   static constexpr std::array<std::string_view, 2> parameters{"adhesion_pa", "cohesion_factor"};
-  static constexpr bool adheres = true, reaches = false, beside_bridges = false;
+  static constexpr bool adheres = true, reaches = false, yields = false, beside_bridges = false;
 
   template <class Value>
   static void make(ContactModel& contact, double radius, const Value& value) {
     contact.surface_energy_j_m2 = value("adhesion_pa") * radius;
-    contact.cohesion_energy_density_pa = 0;
   }
   static void set(PairConstants& pair, const ContactModel& grains, double share) {
     pair.adhesion = 4 * std::numbers::pi * share * grains.surface_energy_j_m2;

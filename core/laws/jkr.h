@@ -27,12 +27,11 @@ struct Jkr {
   static constexpr NormalLaw choice = NormalLaw::jkr;
   static constexpr std::string_view word = "jkr";
   static constexpr std::array<std::string_view, 2> parameters{"adhesion_pa", "cohesion_factor"};
-  static constexpr bool adheres = true, reaches = true, beside_bridges = true;
+  static constexpr bool adheres = true, reaches = true, yields = false, beside_bridges = true;
 
   template <class Value>
   static void make(ContactModel& contact, double radius, const Value& value) {
     contact.surface_energy_j_m2 = value("adhesion_pa") * radius;
-    contact.cohesion_energy_density_pa = 0;
   }
   static void set(PairConstants& pair, const ContactModel& grains, double share) {
     const double radius = 1 / pair.size_per_radius, modulus = 0.5 * pair.normal_stiffness;

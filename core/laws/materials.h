@@ -24,11 +24,13 @@ struct GrainSizes {
 
 /// How overlapping bodies press on each other.
 enum class NormalLaw {
-  hertz,  ///< elastic spheres
-  jkr,    ///< elastic spheres that stick: Johnson, Kendall & Roberts 1971
-  dmt,    ///< stiff spheres that stick: Derjaguin, Muller & Toporov 1975
-  sjkr,   ///< an attraction in proportion to the area in which spheres meet
-  last = sjkr
+  hertz,   ///< elastic spheres
+  jkr,     ///< elastic spheres that stick: Johnson, Kendall & Roberts 1971
+  dmt,     ///< stiff spheres that stick: Derjaguin, Muller & Toporov 1975
+  sjkr,    ///< an attraction in proportion to the area in which spheres meet
+  epa,     ///< elasto-plastic spheres that adhere, as Hertz's under load: Thakur et al. 2014 (EEPA)
+  luding,  ///< the same with linear springs: Luding 2008
+  last = luding
 };
 
 /// How the attraction of a liquid bridge falls with distance; all have the value c at touch.
@@ -40,6 +42,9 @@ enum class BridgeShape {
   capillary,    ///< liquid bridge of two equal spheres, Willett et al. 2000
   last = capillary
 };
+
+// Beyond them a step resolves no spring k_2, and a heap is one lump.
+inline constexpr double kMostPlastic = 0.98, kMostAdhesive = 20;
 
 /// How rolling is resisted.
 enum class RollingModel {
@@ -91,6 +96,8 @@ struct ContactModel {
   NormalLaw normal = NormalLaw::hertz;
   double surface_energy_j_m2 = 0;  ///< gamma, half the work of adhesion; of laws of the overlap that attract [J/m^2]
   double cohesion_energy_density_pa = 0;  ///< k of `Sjkr`, attraction over the area in which grains meet [J/m^3]
+  double plasticity_ratio = 0;            ///< of `Epa` and `Luding`, 1 - k_1/k_2: share of an overlap that stays
+  double adhesion_ratio = 0;  ///< of the same, k_c/k_1: stiffness of the adhesion branch over that of loading
   RollingModel rolling = RollingModel::spring_dashpot;
   FrictionBasis friction_basis = FrictionBasis::elastic;
   std::optional<double> cohesion_n;  ///< constant attraction in overlap [N] at the reference radius; empty: bridge.c_n

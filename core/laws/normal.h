@@ -17,6 +17,7 @@ struct NormalForce {
   Real force;           ///< repulsion less what the law itself attracts by [N]; 0 out of contact
   Real load;            ///< elastic part of it, never negative, that friction feels [N]
   Real reserve;         ///< what friction feels besides where it feels the total force [N]
+  Real plastic{0};      ///< of a law that `yields`: overlap at which the force of its spring is zero now [m]
 };
 
 /// Laws of the overlap d: how hard two bodies press on each other, and what that holds. Each is a type with
@@ -27,12 +28,17 @@ struct NormalForce {
 ///     beside_bridges   whether it may be chosen beside an attraction across a gap: kernels of both are compiled;
 ///     reaches          whether it holds bodies that have touched beyond d = 0, down to -PairConstants::pull_off_gap or
 ///                      less. It then knows them by `touched` > 0, the root of their last contact radius;
+///     yields           whether it deforms for good. It then knows `touched` as the plastic overlap of the last step
+///     [m],
+///                      and gives that of this step in `NormalForce::plastic`;
 ///     set(pair, grains, share)   its own constants, with `share` of its attraction (1 between grains); those of
 ///                      elasticity and size are there;
 ///     at(k, sqrt_radius, overlap, touched)   the `NormalForce` of a pair; sqrt_radius is sqrt(R*), radius R*;
 ///     energy(k, radius, force, overlap)   what it holds [J], 0 out of contact; its derivative by d is the force;
 ///     surface(k, radius, contact_radius)   if it `adheres`: what attracts has given for the patch [J]; with it,
 ///                      `energy` is that of the strain;
+///     yielded(k, radius, before, after, middle)   if it `yields`: work [J] that a change of the plastic overlap takes
+///                      at the overlap `middle`;
 ///     spent(k, radius)   if it `reaches`: energy it is short of as contact begins, the work to part it [J];
 ///     widening(k, radius, energy, inverse_contact_radius)   energy (da/dd)/a: force of a spring that grows with a [N];
 ///     overlap_under(k, radius, load)   d > 0 at which the force is `load` >= 0 [m];
@@ -45,12 +51,10 @@ struct Hertz {
   static constexpr NormalLaw choice = NormalLaw::hertz;
   static constexpr std::string_view word = "hertz";
   static constexpr std::array<std::string_view, 0> parameters{};
-  static constexpr bool adheres = false, reaches = false, beside_bridges = true;
+  static constexpr bool adheres = false, reaches = false, yields = false, beside_bridges = true;
 
   template <class Value>
-  static void make(ContactModel& contact, double, const Value&) {
-    contact.surface_energy_j_m2 = contact.cohesion_energy_density_pa = 0;
-  }
+  static void make(ContactModel&, double, const Value&) {}
   static void set(PairConstants&, const ContactModel&, double) {}
 
   template <class Real>

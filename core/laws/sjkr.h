@@ -23,11 +23,10 @@ struct Sjkr {
   static constexpr NormalLaw choice = NormalLaw::sjkr;
   static constexpr std::string_view word = "sjkr";
   static constexpr std::array<std::string_view, 2> parameters{"cohesion_energy_density_pa", "cohesion_factor"};
-  static constexpr bool adheres = true, reaches = false, beside_bridges = false;
+  static constexpr bool adheres = true, reaches = false, yields = false, beside_bridges = false;
 
   template <class Value>
   static void make(ContactModel& contact, double, const Value& value) {
-    contact.surface_energy_j_m2 = 0;
     contact.cohesion_energy_density_pa = value("cohesion_energy_density_pa");
   }
   static void set(PairConstants& pair, const ContactModel& grains, double share) {

@@ -6,6 +6,7 @@
 
 #include "core/laws/attraction.h"
 #include "core/laws/dmt.h"
+#include "core/laws/epa.h"
 #include "core/laws/jkr.h"
 #include "core/laws/normal.h"
 #include "core/laws/rolling.h"
@@ -20,7 +21,7 @@ struct TypeList {
 
 /// All laws, in the order of their names in materials.h. Kernels, words of files and constants of pairs are made from
 /// these rows.
-using NormalLaws = TypeList<Hertz, Jkr, Dmt, Sjkr>;
+using NormalLaws = TypeList<Hertz, Jkr, Dmt, Sjkr, Epa, Luding>;
 using Attractions =
     TypeList<NoAttraction, PolynomialAttraction, LinearAttraction, ExponentialAttraction, CapillaryAttraction>;
 using RollingLaws = TypeList<NoRolling, SpringDashpotRolling, ConstantTorqueRolling>;

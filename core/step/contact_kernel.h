@@ -131,7 +131,7 @@ class Tally {
     lanes[0] = lanes[0] + widened<0>(value);
     second = second + widened<1>(value);
   }
-  template <bool viscous>
+  template <bool viscous, bool yields>
   PASTEFIT_INLINE void count(Energies energies, int lane, const ContactForce<Real>& contact_force) {
     if (energies == Energies::none) return;
     count(EnergySums::normal_damping, lane, contact_force.dissipation_normal);
@@ -140,6 +140,7 @@ class Tally {
     count(EnergySums::bridges, lane, contact_force.dissipation_bridge);
     count(EnergySums::stored, lane, contact_force.stored);
     if constexpr (viscous) count(EnergySums::viscous, lane, contact_force.dissipation_viscous);
+    if constexpr (yields) count(EnergySums::plastic, lane, contact_force.dissipation_plastic);
   }
   PASTEFIT_INLINE void add_to(EnergySums& energy) const {
     for (int kind = 0; kind < EnergySums::kinds; ++kind)
@@ -162,18 +163,18 @@ PASTEFIT_INLINE ContactHistory<Real> recall(const ContactBatch& c, int lane) {
   history.sqrt_contact_radius = Real::load(c.sqrt_contact_radius + lane);
   history.damper = Real::load(c.damper + lane);
   history.drag = Real::load(c.drag + lane);
-  history.bridge = Real::load(c.bridge + lane);
+  history.bond = Real::load(c.bond + lane);
   return history;
 }
 
-template <class Attraction, class Rolling>
+template <class Normal, class Attraction, class Rolling>
 PASTEFIT_INLINE void remember(ContactBatch& c, int lane, const ContactHistory<Real>& history) {
   store(c.slip, lane, history.slip);
   if constexpr (Rolling::remembers) store(c.roll, lane, history.roll);
   history.sqrt_contact_radius.store(c.sqrt_contact_radius + lane);
   history.damper.store(c.damper + lane);
   history.drag.store(c.drag + lane);
-  if constexpr (Attraction::present) history.bridge.store(c.bridge + lane);
+  if constexpr (Attraction::present || Normal::yields) history.bond.store(c.bond + lane);
 }
 
 /// A pair's kinematics, and the levers of what acts across the normal: to the middle of the overlap, and where liquid
@@ -214,8 +215,8 @@ PASTEFIT_INLINE void act_on_pairs(const KernelTask& task, const ConstantsOf<Real
   ContactHistory<Real> history = recall<Rolling>(c, lane);
   const ContactForce<Real> contact_force =
       act<Normal, Attraction, Rolling, viscous>(pair, kinematics, history, dt, task.energies);
-  remember<Attraction, Rolling>(c, lane, history);
-  tally.count<viscous>(task.energies, lane, contact_force);
+  remember<Normal, Attraction, Rolling>(c, lane, history);
+  tally.count<viscous, Normal::yields>(task.energies, lane, contact_force);
 
   const Vector force = fused(-contact_force.normal_force, kinematics.normal, contact_force.tangential_force);
   const Vector turning = cross(kinematics.normal, contact_force.tangential_force);
@@ -230,10 +231,10 @@ PASTEFIT_INLINE void attract_pairs(const KernelTask& task, const ConstantsOf<Rea
                                    const Lanes& j, const Pairing& p, Batch& c, int lane, Tally& tally) {
   const Real zero(0.0);
   const Real overlap = p.overlap;
-  Real alive = Real::load(c.bridge + lane);
+  Real alive = Real::load(c.bond + lane);
   Real spent;
   const Pull<Real> pull = bridge_pull<Attraction>(pair, overlap, scale, alive, spent);
-  alive.store(c.bridge + lane);
+  alive.store(c.bond + lane);
   if (task.energies != Energies::none) tally.count(EnergySums::bridges, lane, spent);
   if (task.energies == Energies::all)
     tally.count(EnergySums::stored, lane, -alive * Attraction::work(pair, smaller(overlap, zero), scale));
@@ -251,24 +252,24 @@ PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<R
   const auto [kinematics, lever_a, lever_b] = encounter<true>(task, i, j, p, c, lane);
   const Real radius = kinematics.sqrt_radius * kinematics.sqrt_radius, scale = pair.size_per_radius * radius;
   ContactHistory<Real> history;
-  history.bridge = Real::load(c.bridge + lane);
+  history.bond = Real::load(c.bond + lane);
   history.damper = Real::load(c.damper + lane);
   const Real before = Real::load(c.drag + lane);
   history.drag = zero;
   ContactForce<Real> contact_force;
   const Pull<Real> pull =
-      bridge_pull<Attraction>(pair, p.overlap, scale, history.bridge, contact_force.dissipation_bridge);
+      bridge_pull<Attraction>(pair, p.overlap, scale, history.bond, contact_force.dissipation_bridge);
   const Real approach = dot(kinematics.velocity, kinematics.normal);
   contact_force.normal_force = -pull.force;
   contact_force.tangential_force = {zero, zero, zero};
   contact_force.damping = zero;
   contact_force.dissipation_normal = Real(0.5) * dt * history.damper * approach;
   history.damper = zero;
-  const Lubrication<Real> liquid = lubrication(pair, p.overlap, radius, scale, history.bridge, kinematics.inverse_mass,
+  const Lubrication<Real> liquid = lubrication(pair, p.overlap, radius, scale, history.bond, kinematics.inverse_mass,
                                                kinematics.neighbour_damping, dt);
   const bool counted = task.energies != Energies::none;
   lubricate(liquid, kinematics, approach, zero, before, dt, counted, history, contact_force);
-  history.bridge.store(c.bridge + lane);
+  history.bond.store(c.bond + lane);
   tally.count(EnergySums::bridges, lane, contact_force.dissipation_bridge);
   if (counted) {
     history.damper.store(c.damper + lane);
@@ -277,7 +278,7 @@ PASTEFIT_INLINE void lubricate_pairs(const KernelTask& task, const ConstantsOf<R
     tally.count(EnergySums::viscous, lane, contact_force.dissipation_viscous);
   }
   if (task.energies == Energies::all)
-    tally.count(EnergySums::stored, lane, -history.bridge * Attraction::work(pair, smaller(p.overlap, zero), scale));
+    tally.count(EnergySums::stored, lane, -history.bond * Attraction::work(pair, smaller(p.overlap, zero), scale));
 
   const Vector force = fused(-contact_force.normal_force, kinematics.normal, contact_force.tangential_force);
   const Vector turning = cross(kinematics.normal, contact_force.tangential_force);
@@ -383,8 +384,8 @@ void wall_kernel(const KernelTask& task) {
       ContactHistory<Real> history = recall<Rolling>(c, lane);
       const ContactForce<Real> contact_force =
           act<Normal, Attraction, Rolling, viscous>(pair, kinematics, history, dt, task.energies);
-      remember<Attraction, Rolling>(c, lane, history);
-      tally.count<viscous>(task.energies, lane, contact_force);
+      remember<Normal, Attraction, Rolling>(c, lane, history);
+      tally.count<viscous, Normal::yields>(task.energies, lane, contact_force);
 
       store(w.force, lane, contact_force.tangential_force - contact_force.normal_force * kinematics.normal);
       store(w.moment, lane, lever * cross(kinematics.normal, contact_force.tangential_force) + contact_force.moment);

@@ -22,6 +22,7 @@ struct EnergyBalance {
   double dissipation_rolling = 0;
   double dissipation_bridges = 0;  ///< bridges that formed across a gap, contacts that stick: work to part them
   double dissipation_viscous = 0;  ///< of liquid between grains
+  double dissipation_plastic = 0;  ///< of overlaps that yield
   double dissipation_drag = 0;     ///< of the phases that have drag
   double work_of_walls = 0;        ///< on the grains
   double effort_of_walls = 0;      ///< the same without sign
@@ -30,12 +31,12 @@ struct EnergyBalance {
   void serialize(Archive& archive) {
     archive(kinetic, stored, height, start, start_height, start_kinetic, start_elastic, earlier_error, earlier_put_in);
     archive(dissipation_normal, dissipation_sliding, dissipation_rolling, dissipation_bridges, dissipation_viscous,
-            dissipation_drag, work_of_walls, effort_of_walls);
+            dissipation_plastic, dissipation_drag, work_of_walls, effort_of_walls);
   }
   double mechanical() const { return kinetic + stored + height; }
   double dissipation() const {
     return dissipation_normal + dissipation_sliding + dissipation_rolling + dissipation_bridges + dissipation_viscous +
-           dissipation_drag;
+           dissipation_plastic + dissipation_drag;
   }
   double error() const { return mechanical() + dissipation() - start - work_of_walls + earlier_error; }
   /// What drove the run: fall, walls, speed and overlaps at the start, and attraction set free by bridges.

@@ -26,7 +26,7 @@ struct Stretch {
 /// Energies of a step, summed in eight lanes by the contact's place in its half of a batch, so that every instruction
 /// set sums alike.
 struct alignas(64) EnergySums {
-  enum Kind { normal_damping, sliding, rolling, bridges, viscous, stored, kinds };
+  enum Kind { normal_damping, sliding, rolling, bridges, viscous, plastic, stored, kinds };
   static constexpr int kLanes = 8;
   double lane[kinds][kLanes] = {};
   void forget(Kind kind) {

@@ -83,7 +83,7 @@ void check_grains(const List& list, const Ends& ends) {
 void check_memory(const ContactList& list, std::int32_t k) {
   const Contact contact = list.contact(k);
   const float numbers[] = {contact.sqrt_radius, contact.sqrt_mass,           contact.damper,
-                           contact.drag,        contact.sqrt_contact_radius, contact.bridge};
+                           contact.drag,        contact.sqrt_contact_radius, contact.bond};
   demand(all_possible(numbers) && all_possible(contact.slip) && all_possible(contact.roll), "a contact is not finite");
 }
 
@@ -194,7 +194,7 @@ void check_pairs(const World& world, bool listed) {
       if (!ends.is_dummy(block.contacts.first(k))) check_memory(block.contacts, k);
     for (std::int32_t k = 0; k < block.bridges.count; ++k)
       demand(
-          is_possible(block.bridges.bridge(k)) && is_possible(block.bridges.batches[k / kBatch].size_scale[k % kBatch]),
+          is_possible(block.bridges.bond(k)) && is_possible(block.bridges.batches[k / kBatch].size_scale[k % kBatch]),
           "a bridge is not finite");
     check_candidates(block, ends);
     demand(!listed || block.walls.size() == world.walls.size(), "the blocks know another number of walls");

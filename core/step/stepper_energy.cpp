@@ -64,6 +64,7 @@ void Stepper::look_at_energy(double dt) {
   energy_balance_.dissipation_rolling = total(energy_, EnergySums::rolling);
   energy_balance_.dissipation_bridges = total(energy_, EnergySums::bridges);
   energy_balance_.dissipation_viscous = total(energy_, EnergySums::viscous);
+  energy_balance_.dissipation_plastic = total(energy_, EnergySums::plastic);
   if (looked_) return;
   looked_ = true;
   energy_balance_.start = energy_balance_.mechanical() + energy_balance_.dissipation() - energy_balance_.work_of_walls;

@@ -14,14 +14,14 @@ struct alignas(64) ContactBatch {
   std::int32_t i[kBatch], j[kBatch];             ///< j unused with a wall
   float sqrt_radius[kBatch], sqrt_mass[kBatch];  ///< of the effective radius and mass
   float slip[3][kBatch], roll[3][kBatch];
-  float sqrt_contact_radius[kBatch], damper[kBatch], drag[kBatch], bridge[kBatch];
+  float sqrt_contact_radius[kBatch], damper[kBatch], drag[kBatch], bond[kBatch];
 };
 
 /// Pairs that attract each other across a gap, or may do so, but cannot touch before the next selection: all they need
 /// is the distance.
 struct alignas(64) BridgeBatch {
   std::int32_t i[kBatch], j[kBatch];
-  float size_scale[kBatch], bridge[kBatch];
+  float size_scale[kBatch], bond[kBatch];
 };
 
 /// What belongs to a batch of contacts with a wall besides.

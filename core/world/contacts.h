@@ -16,7 +16,7 @@ namespace pastefit {
 struct Contact {
   float sqrt_radius = 0, sqrt_mass = 1;
   float slip[3] = {}, roll[3] = {};
-  float sqrt_contact_radius = 0, damper = 0, drag = 0, bridge = 0;
+  float sqrt_contact_radius = 0, damper = 0, drag = 0, bond = 0;
 
   /// The same seen from the other grain: vectors change their sign.
   Contact turned() const;
@@ -97,10 +97,10 @@ class ContactList : public BatchList<ContactBatch> {
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
   float sqrt_radius(std::int32_t k) const { return batches[k / kBatch].sqrt_radius[k % kBatch]; }
-  float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
+  float bond(std::int32_t k) const { return batches[k / kBatch].bond[k % kBatch]; }
   bool touched(std::int32_t k) const { return batches[k / kBatch].sqrt_contact_radius[k % kBatch] > 0; }
   /// Whether it is more than two grains that have met only now.
-  bool remembers(std::int32_t k) const { return touched(k) || bridge(k) > 0; }
+  bool remembers(std::int32_t k) const { return touched(k) || bond(k) > 0; }
 };
 
 class BridgeList : public BatchList<BridgeBatch> {
@@ -109,7 +109,7 @@ class BridgeList : public BatchList<BridgeBatch> {
   void pad(std::int32_t dummy);
   std::int32_t first(std::int32_t k) const { return batches[k / kBatch].i[k % kBatch]; }
   std::int32_t second(std::int32_t k) const { return batches[k / kBatch].j[k % kBatch]; }
-  float bridge(std::int32_t k) const { return batches[k / kBatch].bridge[k % kBatch]; }
+  float bond(std::int32_t k) const { return batches[k / kBatch].bond[k % kBatch]; }
 };
 
 // Inlined: every choice of pairs takes each contact out of its list and puts it into another.
@@ -128,7 +128,7 @@ inline void ContactList::add(std::int32_t i, std::int32_t j, const Contact& cont
   batch.sqrt_contact_radius[lane] = contact.sqrt_contact_radius;
   batch.damper[lane] = contact.damper;
   batch.drag[lane] = contact.drag;
-  batch.bridge[lane] = contact.bridge;
+  batch.bond[lane] = contact.bond;
 }
 
 inline Contact ContactList::contact(std::int32_t k) const {
@@ -144,7 +144,7 @@ inline Contact ContactList::contact(std::int32_t k) const {
   contact.sqrt_contact_radius = batch.sqrt_contact_radius[lane];
   contact.damper = batch.damper[lane];
   contact.drag = batch.drag[lane];
-  contact.bridge = batch.bridge[lane];
+  contact.bond = batch.bond[lane];
   return contact;
 }
 
@@ -154,7 +154,7 @@ inline void BridgeList::add(std::int32_t i, std::int32_t j, float size_scale, fl
   batch.i[lane] = i;
   batch.j[lane] = j;
   batch.size_scale[lane] = size_scale;
-  batch.bridge[lane] = alive;
+  batch.bond[lane] = alive;
 }
 
 }  // namespace pastefit

@@ -37,7 +37,7 @@ class Remembered {
         for (std::int32_t k = 0; k < contacts.count; ++k)
           if (contacts.remembers(k)) look_at(b, contacts.first(k), contacts.second(k), false, k);
         for (std::int32_t k = 0; k < bridges.count; ++k)
-          if (bridges.bridge(k) > 0) look_at(b, bridges.first(k), bridges.second(k), true, k);
+          if (bridges.bond(k) > 0) look_at(b, bridges.first(k), bridges.second(k), true, k);
       }
     };
     each([&](std::int32_t lower, const Known&) { ++first_[lower + 1]; });
@@ -72,7 +72,7 @@ class Remembered {
     const Known& known = known_[p];
     const Block& old = blocks_[known.block];
     if (known.bridge) {
-      block.bridges.add(i, j, 0, old.bridges.bridge(known.place));
+      block.bridges.add(i, j, 0, old.bridges.bond(known.place));
       return NeighbourList::bridge;
     }
     const Contact contact = old.contacts.contact(known.place);

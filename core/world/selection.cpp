@@ -34,13 +34,13 @@ class Recollection {
     for (const auto kept : {NeighbourList::touching, NeighbourList::near})
       if (!contacts.empty()) {
         touched_[kept] = {contacts[0].sqrt_contact_radius, sizeof(ContactBatch) / sizeof(float)};
-        alive_[kept] = {contacts[0].bridge, sizeof(ContactBatch) / sizeof(float)};
+        alive_[kept] = {contacts[0].bond, sizeof(ContactBatch) / sizeof(float)};
       }
-    if (!bridges.empty()) alive_[NeighbourList::bridge] = {bridges[0].bridge, sizeof(BridgeBatch) / sizeof(float)};
+    if (!bridges.empty()) alive_[NeighbourList::bridge] = {bridges[0].bond, sizeof(BridgeBatch) / sizeof(float)};
   }
   bool touched(NeighbourList::Kept kept, std::int32_t place) const { return touched_[kept].at(place) > 0; }
-  float bridge(NeighbourList::Kept kept, std::int32_t place) const { return alive_[kept].at(place); }
-  bool alive(NeighbourList::Kept kept, std::int32_t place) const { return bridge(kept, place) > 0; }
+  float bond(NeighbourList::Kept kept, std::int32_t place) const { return alive_[kept].at(place); }
+  bool alive(NeighbourList::Kept kept, std::int32_t place) const { return bond(kept, place) > 0; }
 
  private:
   static constexpr float kNothing[kBatch] = {};
@@ -102,7 +102,7 @@ void meet(const Particles& particles, const Recollection& recollection, std::spa
     const NeighbourList::Kept kept = pair.other.kept();
     if (kept == NeighbourList::touching || kept == NeighbourList::near) continue;
     Contact contact = new_contact(particles, pair.i, pair.other.grain());
-    contact.bridge = recollection.bridge(kept, pair.place);
+    contact.bond = recollection.bond(kept, pair.place);
     pair.place = -1 - fresh.count;
     fresh.add(pair.i, pair.other.grain(), contact);
   }
@@ -136,7 +136,7 @@ Deepest select_pairs(const Particles& particles, const Domain& domain, Block& bl
   for (const auto& [i, other, place] : chosen.of(NeighbourList::bridge)) {
     const std::int32_t j = other.grain();
     const double scale = size_scale(particles.motion[i].radius, particles.motion[j].radius, reach.reference_radius);
-    chosen.bridges.add(i, j, static_cast<float>(scale), recollection.bridge(other.kept(), place));
+    chosen.bridges.add(i, j, static_cast<float>(scale), recollection.bond(other.kept(), place));
   }
   chosen.bridges.pad(dummy);
   // Copied, not swapped: lists that wander from block to block all become as long as the longest.
@@ -163,7 +163,7 @@ void select_at_wall(const Particles& particles, const Wall& wall, const Block& b
       while (old < touching.count && contacts.first(old) < i) ++old;
       const bool known = old < touching.count && contacts.first(old) == i;
       const double scale = grain.radius / reach.reference_radius;
-      const bool bridged = known && contacts.bridge(old) > 0;
+      const bool bridged = known && contacts.bond(old) > 0;
       const double gap = bridged ? wall.pair.rupture_gap : std::min(wall.pair.formation_gap, wall.pair.rupture_gap);
       const double hold = known && contacts.touched(old) ? longest_hold(wall.pair.pull_off_gap, scale) : 0.0;
       const double margin = bounds.way[i] + wall_bound;

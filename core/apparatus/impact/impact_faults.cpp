@@ -43,6 +43,10 @@ Faults validate(const Impact& test) {
                 "contact.surface_energy_j_m2", "is negative", "give a number of at least 0");
   check.require(std::isfinite(test.contact.cohesion_energy_density_pa) && test.contact.cohesion_energy_density_pa >= 0,
                 "contact.cohesion_energy_density_pa", "is negative", "give a number of at least 0");
+  check.require(test.contact.plasticity_ratio >= 0 && test.contact.plasticity_ratio <= kMostPlastic,
+                "contact.plasticity_ratio", "is out of range", "give a number from 0 to 0.98");
+  check.require(test.contact.adhesion_ratio >= 0 && test.contact.adhesion_ratio <= kMostAdhesive,
+                "contact.adhesion_ratio", "is out of range", "give a number from 0 to 20");
   check.require(go_together(test.contact.normal, test.contact.bridge.shape), "contact.bridge.shape",
                 "is a bridge beside a law of the overlap that has none",
                 "give \"none\", or \"normal\": \"hertz\" or \"jkr\"");
