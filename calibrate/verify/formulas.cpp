@@ -6,6 +6,7 @@
 
 #include "calibrate/verify/sticking.h"
 #include "calibrate/verify/viscous.h"
+#include "calibrate/verify/yielding.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {
@@ -330,6 +331,9 @@ constexpr Formula kFormulas[] = {
     {"sjkr_force", sjkr_force, "SJKR at a gap; a negative one is an overlap"},
     {"sjkr_pull_off", sjkr_pull_off, "2/3 pi^3 k^3 R*^2/E*^2"},
     {"speed_after_parting", speed_after_parting, "sqrt(v^2 - 2 W/m*), W the area of JKR's loop"},
+    {"epa_force", epa_force, "elasto-plastic adhesion on the way apart, at a gap; a negative one is an overlap"},
+    {"epa_loop_area", epa_loop_area, "work lost in its cycle: loading, unloading, adhesion branch"},
+    {"epa_rebound_speed", epa_rebound_speed, "sqrt(v^2 - 2 W/m*), W the area of that cycle"},
     {"squeeze_force", squeeze_force, "6 pi mu R*^2 v/h at a gap, v the speed of parting"},
     {"squeezed_speed", squeezed_speed, "v - 6 pi mu R*^2/m* ln(h0/h), dh/dt = -v"},
     {"settled_overlap", settled_overlap, "-h0 exp(-m g t/(6 pi mu R^2)), without inertia", FormulaNeeds::wall},

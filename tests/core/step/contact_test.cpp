@@ -302,13 +302,16 @@ TEST_CASE("a contact that sticks is kept while its grains are listed anew") {
 }
 
 TEST_CASE("AVX2 and AVX-512 give the same bits, SSE2 the same collision") {
-  const NormalLaw law = GENERATE(NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr);
+  const NormalLaw law =
+      GENERATE(NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr, NormalLaw::epa, NormalLaw::luding);
   const auto final_state = [law](const KernelTable& kernels, double duration) {
     ContactModel model = bridged(BridgeFormation::film, 0.001);
     model.normal = law;
     if (!go_together(law, model.bridge.shape)) model.bridge = {};
     model.surface_energy_j_m2 = 0.5;
     model.cohesion_energy_density_pa = 5e5;
+    model.plasticity_ratio = 0.8;
+    model.adhesion_ratio = 1.5;
     model.friction = 0.5;
     model.rolling = RollingModel::spring_dashpot;
     model.restitution = 0.5;

@@ -1,0 +1,84 @@
+#include "calibrate/verify/yielding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pastefit {
+
+namespace {
+
+/// One cycle of the law, branch by branch.
+class Cycle {
+ public:
+  explicit Cycle(const Impact& scene) : pair_(pair_of(scene)) {
+    const ContactModel& contact = scene.contact;
+    exponent_ = contact.normal == NormalLaw::luding ? 1 : 1.5;
+    loading_ = 4.0 / 3 * pair_.modulus * std::pow(pair_.radius, 2 - exponent_);
+    plastic_ = contact.plasticity_ratio;
+    const bool wall = scene.grains.size() < 2;
+    const double share = wall ? scene.walls[0].surface.cohesion_factor : 1;
+    adhesion_ = share * contact.adhesion_ratio * loading_;
+    const double scale = (wall ? 1 : 2) * pair_.radius / scene.reference_radius_m;
+    pull_off_ = share * contact.cohesion_n.value_or(0) * scale * scale;
+    deepest_ = deepest_overlap(scene);
+  }
+
+  /// Repulsion on the way apart.
+  double force(double overlap) const {
+    if (overlap <= 0) return 0;
+    const double power = std::pow(overlap, exponent_), deepest = std::pow(deepest_, exponent_);
+    return std::max(unloading() * (power - plastic_ * deepest), -adhesion_ * power) - pull_off_;
+  }
+  /// The constant pull-off gives on the way in what it takes on the way out.
+  double lost() const {
+    const double end = adhesion_begins();
+    const double unloaded = unloading() * (integral(deepest_) - integral(end) -
+                                           plastic_ * std::pow(deepest_, exponent_) * (deepest_ - end));
+    return loading_ * integral(deepest_) - unloaded + adhesion_ * integral(end);
+  }
+  double mass() const { return pair_.mass; }
+  double speed() const { return pair_.speed; }
+
+ private:
+  double unloading() const { return loading_ / (1 - plastic_); }
+  double integral(double overlap) const { return std::pow(overlap, exponent_ + 1) / (exponent_ + 1); }
+  double adhesion_begins() const {
+    return deepest_ * std::pow(plastic_ / (1 + adhesion_ / unloading()), 1 / exponent_);
+  }
+  double deepest_overlap(const Impact& scene) const {
+    const bool held = scene.grains.back().held;
+    if (held) {
+      const ImpactGrain& last = scene.grains.back();
+      return overlap_at_start(scene) + std::max(pair_.speed, 0.0) * last.turns_at_s.value_or(0);
+    }
+    const double energy = 0.5 * pair_.mass * pair_.speed * pair_.speed;
+    return std::pow((exponent_ + 1) * energy / loading_, 1 / (exponent_ + 1));
+  }
+  static double overlap_at_start(const Impact& scene) {
+    const ImpactGrain& one = scene.grains[0];
+    if (scene.grains.size() > 1)
+      return one.radius_m + scene.grains[1].radius_m - norm(scene.grains[1].centre_m - one.centre_m);
+    const Plane& plane = std::get<Plane>(scene.walls[0].shape);
+    return one.radius_m - dot(one.centre_m - plane.point, plane.normal);
+  }
+
+  Approach pair_;
+  double exponent_ = 1.5, loading_ = 0, plastic_ = 0, adhesion_ = 0, pull_off_ = 0, deepest_ = 0;
+};
+
+}  // namespace
+
+Result<double> epa_force(const Impact& scene, const FormulaArguments& arguments) {
+  return -Cycle(scene).force(-arguments.gap_m);
+}
+
+Result<double> epa_loop_area(const Impact& scene, const FormulaArguments&) {
+  return Cycle(scene).lost();
+}
+
+Result<double> epa_rebound_speed(const Impact& scene, const FormulaArguments&) {
+  const Cycle cycle(scene);
+  return std::sqrt(std::max(cycle.speed() * cycle.speed() - 2 * cycle.lost() / cycle.mass(), 0.0));
+}
+
+}  // namespace pastefit
