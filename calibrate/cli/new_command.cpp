@@ -155,7 +155,7 @@ int write_new(const NewOptions& options, const StartingFiles& files) {
   if (const auto read = read_study(study); read.ok()) print("\n%s", understood(read.value()).c_str());
   const std::string folder = options.folder == "." ? "" : options.folder + "/";
   print("\nNext:\n  pastefit calibrate %s --out %sout\n", study.c_str(), folder.c_str());
-  if (const auto laws = laws_for(options.sheet.target); laws && options.test == "slump")
+  if (const auto laws = laws_for(options.sheet.target, options.sheet.law); laws && options.test == "slump")
     print("  pastefit export %sout/card.json --to %s --out %s%s\n", folder.c_str(),
           std::string(laws->export_target).c_str(), folder.c_str(), std::string(laws->target).c_str());
   return kDone;
@@ -212,6 +212,9 @@ Command add_new(CLI::App& verb) {
       ->type_name("VALUES");
   verb.add_option("--for", sheet.target, "program that the material is for: " + names_of_targets())
       ->type_name("PROGRAM");
+  verb.add_option("--law", sheet.law,
+                  "law of attraction, in place of the one that the program starts from: " + names_of_laws())
+      ->type_name("LAW");
   verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the error names it")
       ->type_name("PLACE")
       ->take_all();

@@ -15,7 +15,7 @@ namespace pastefit {
 namespace {
 
 struct TemplateOptions {
-  std::string name, target, mould;
+  std::string name, target, law, mould;
 };
 
 /// The starting files of a mould for dry materials; of another one its laboratory file, and the study of every slump
@@ -35,13 +35,13 @@ int print_template(const TemplateOptions& options, const std::string& names) {
   auto text = template_text(options.name);
   if (!text)
     return report({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
-  if (!options.target.empty()) {
-    const auto laws = laws_for(options.target);
+  if (!options.target.empty() || !options.law.empty()) {
+    const std::string target = options.target.empty() ? std::string(target_laws().front().target) : options.target;
+    const auto laws = laws_for(target, options.law);
     if (options.name != "study" || !options.mould.empty())
-      return report({{"--for", "goes with the first study only", "template study --for ..."}});
-    if (!laws)
-      return report({{"--for " + printable(options.target), "is no program that pastefit knows the laws of",
-                      "one of " + names_of_targets()}});
+      return report(
+          {{options.law.empty() ? "--for" : "--law", "goes with the first study only", "template study --for ..."}});
+    if (!laws) return report({no_such_laws(target, options.law)});
     text = with_laws(*text, *laws);
   }
   if (!options.mould.empty()) {
@@ -62,6 +62,7 @@ Command add_template(CLI::App& verb) {
   verb.add_option("NAME", options->name, "which one: " + names)->required();
   verb.add_option("--for", options->target, "with the laws that this program runs exactly: " + names_of_targets())
       ->type_name("PROGRAM");
+  verb.add_option("--law", options->law, "with this law: " + names_of_laws())->type_name("LAW");
   verb.add_option("--mould", options->mould,
                   "with lab or study: a preset, whose table, grains and customary readings a laboratory file then has "
                   "(abrams, mini-cone, haegermann-table, ...); lifted-cylinder has a study of its own")

@@ -228,23 +228,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   };
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
-  const bool bridge = laws.attraction != "none";
-  const auto free = [](double lower, double upper) { return ordered_json{{"free", {lower, upper}}}; };
-  const auto fixed = [](double value) { return ordered_json{{"value", value}}; };
-  ordered_json out;
-  out[std::string(laws.strength)] = {{"free", {laws.weakest, laws.strongest}}, {"scale", "log"}};
-  if (bridge && both) {
-    // Tough bridges, of which heaps stand, and grains that roll (tests/results/standing_heaps.md).
-    out["rupture_force_ratio"] = fixed(0.5);
-    out["curvature"] = fixed(-0.5);
-  }
-  if (bridge) {
-    out["rupture_gap_ratio"] = {{"free", {both ? 0.4 : 0.15, 1}}, {"scale", "log"}};
-    out["formation_ratio"] = fixed(both ? 0.3 : 1);
-  }
-  out["friction"] = both ? ordered_json{{"free", {0.05, 0.3}}, {"scale", "log"}} : fixed(0.15);
-  out["rolling_friction"] = both ? free(0, 0.5) : fixed(0.02);
-  return out;
+  return parameters_of(laws.laws(), both);
 }
 
 std::string with_head(std::string_view head, const ordered_json& document) {
@@ -309,10 +293,8 @@ Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path&
 
 Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder) {
   Faults faults;
-  const auto laws = laws_for(sheet.target);
-  if (!laws)
-    faults.push_back({"for " + printable(sheet.target), "is no program that pastefit knows the laws of",
-                      "one of " + names_of_targets()});
+  const auto laws = laws_for(sheet.target, sheet.law);
+  if (!laws) faults.push_back(no_such_laws(sheet.target, sheet.law));
   const auto density = written_readings("density", sheet.density, "kg_m3");
   if (!density.ok()) faults.insert(faults.end(), density.faults().begin(), density.faults().end());
   const auto test = apparatus_of(sheet.mould, folder);

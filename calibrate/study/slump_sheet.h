@@ -22,6 +22,7 @@ struct Sheet {
   std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
   std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
   std::string target = "lammps";       ///< the program that the material is for
+  std::string law;                     ///< word of the starting laws; empty: those that the program starts from
   std::vector<std::string> confirmed;  ///< places that look like a slip and are right
 };
 

@@ -3,72 +3,174 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "calibrate/base/fault_text.h"
 
 namespace pastefit {
 namespace {
 
-// The bounds of a strength reach from heaps that flow away to heaps that stand: pull-offs of about 10 to 40,000 R^2 Pa
-// of a bridge, and of the other laws what their softest grains bear (4.7 R^2 of JKR's surface energy over R; of SJKR
-// the cube of its energy density).
-constexpr std::array<TargetLaws, 4> known_targets{{
-    {"lammps", "lammps", "hertz", "polynomial", "spring_dashpot", "total", "strength_pa", 10, 40000,
-     "LAMMPS runs every law of pastefit with the style that the export brings"},
-    {"liggghts", "liggghts", "sjkr", "none", "spring_dashpot", "elastic", "cohesion_energy_density_pa", 15000, 120000,
-     "LIGGGHTS has SJKR, and no polynomial bridge"},
-    {"yade", "yade", "hertz", "polynomial", "spring_dashpot", "elastic", "strength_pa", 10, 40000,
-     "Yade runs the bridge in Python, with friction of the elastic force"},
-    {"edem", "edem-notes", "jkr", "none", "constant_torque", "elastic", "adhesion_pa", 10, 5000,
-     "EDEM has JKR, and no liquid bridge of this kind"},
+// Bounds of what makes grains stick reach from heaps that flow away to heaps that stand: of a bridge, pull-offs of
+// about 10 to 40,000 R^2 Pa; of the other laws what their softest grains bear (4.7 R^2 of JKR's surface energy over R;
+// of SJKR the cube of its energy density).
+constexpr std::string_view slippery = R"({"free": [0.05, 0.3], "scale": "log"})", slips = R"({"value": 0.15})",
+                           rolls = R"({"free": [0, 0.5]})", rolls_well = R"({"value": 0.02})";
+constexpr StartingParameter friction{"friction", slippery, slips, "between grains; heaps with more shear off"};
+constexpr StartingParameter rolling{"rolling_friction", rolls, rolls_well, "between grains"};
+
+constexpr std::array<StartingParameter, 5> of_epa{{
+    {"adhesion_ratio", R"({"free": [0.05, 4], "scale": "log"})", R"({"free": [0.05, 4], "scale": "log"})",
+     "stiffness of the adhesion branch over that of loading"},
+    {"plasticity_ratio", R"({"value": 0.85})", R"({"value": 0.85})", "share of the deepest overlap that stays"},
+    {"friction", R"({"value": 0.05})", R"({"value": 0.05})", "between grains; heaps with more shear off"},
+    {"rolling_friction", R"({"value": 0.01})", R"({"value": 0.01})", "between grains"},
+    {"table_friction", R"({"free": [0.02, 0.6], "scale": "log"})", R"({"value": 0.15})",
+     "between grains and table: the less, the wider a heap of its height"},
 }};
 
+constexpr std::array<StartingParameter, 7> of_bridge{{
+    {"strength_pa", R"({"free": [10, 40000], "scale": "log"})", R"({"free": [10, 40000], "scale": "log"})",
+     "attraction at touch over R^2"},
+    // A tough bridge, of which heaps stand (tests/results/standing_heaps.md).
+    {"rupture_force_ratio", R"({"value": 0.5})", "", "share of it left when the bridge ruptures"},
+    {"curvature", R"({"value": -0.5})", "", "decay: -1 flat at touch, 0 straight, 1 flat at rupture"},
+    {"rupture_gap_ratio", R"({"free": [0.4, 1], "scale": "log"})", R"({"free": [0.15, 1], "scale": "log"})",
+     "gap at rupture over R"},
+    {"formation_ratio", R"({"value": 0.3})", R"({"value": 1})",
+     "gap at which a bridge forms over the one at which it ruptures"},
+    friction,
+    rolling,
+}};
+
+constexpr std::array<StartingParameter, 3> of_jkr{{
+    {"adhesion_pa", R"({"free": [10, 5000], "scale": "log"})", R"({"free": [10, 5000], "scale": "log"})",
+     "surface energy over R"},
+    friction,
+    rolling,
+}};
+
+constexpr std::array<StartingParameter, 3> of_sjkr{{
+    {"cohesion_energy_density_pa", R"({"free": [15000, 120000], "scale": "log"})",
+     R"({"free": [15000, 120000], "scale": "log"})", "attraction over the area in which grains meet"},
+    friction,
+    rolling,
+}};
+
+constexpr std::array<StartingLaws, 4> known_laws{{
+    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which heaps stand at every slump"},
+    {"bridge", "hertz", "polynomial", of_bridge, "the polynomial liquid bridge of Platzer & Fimbinger (2022)"},
+    {"jkr", "jkr", "none", of_jkr, "JKR, grains that stick where they touch"},
+    {"sjkr", "sjkr", "none", of_sjkr, "LIGGGHTS' simplified JKR"},
+}};
+
+constexpr std::array<TargetLaws, 7> known_targets{{
+    {"lammps", "lammps", "epa", "spring_dashpot", "elastic",
+     "LAMMPS runs elasto-plastic adhesion with the style that the export brings"},
+    {"lammps", "lammps", "bridge", "spring_dashpot", "total",
+     "LAMMPS runs the bridge with the style that the export brings"},
+    {"liggghts", "liggghts", "epa", "spring_dashpot", "elastic", "LIGGGHTS has elasto-plastic adhesion as edinburgh"},
+    {"liggghts", "liggghts", "sjkr", "spring_dashpot", "elastic", "LIGGGHTS has SJKR, and no polynomial bridge"},
+    {"yade", "yade", "bridge", "spring_dashpot", "elastic",
+     "Yade runs the bridge in Python, with friction of the elastic force"},
+    {"edem", "edem-notes", "epa", "constant_torque", "elastic", "EDEM has elasto-plastic adhesion as EEPA"},
+    {"edem", "edem-notes", "jkr", "constant_torque", "elastic", "EDEM has JKR, and no liquid bridge of this kind"},
+}};
+
+template <class List>
+std::string listed(const List& list, std::string_view List::value_type::*name) {
+  std::vector<std::string_view> words;
+  std::string out;
+  for (const auto& one : list) {
+    if (std::ranges::count(words, one.*name) > 0) continue;
+    words.push_back(one.*name);
+    out += (out.empty() ? "" : ", ") + std::string(one.*name);
+  }
+  return out;
+}
+
+/// The lines of a study's "parameters", each with its meaning.
+std::string parameter_lines(const StartingLaws& laws) {
+  std::vector<const StartingParameter*> written;
+  for (const StartingParameter& one : laws.parameters)
+    if (!one.of_two.empty()) written.push_back(&one);
+  std::string out;
+  for (const StartingParameter* one : written)
+    out += "    \"" + std::string(one->name) + "\": " + std::string(one->of_two) + (one == written.back() ? "" : ",") +
+           "  // " + std::string(one->meaning) + "\n";
+  return out;
+}
+
 }  // namespace
+
+std::span<const StartingLaws> starting_laws() {
+  return known_laws;
+}
+
+const StartingLaws& TargetLaws::laws() const {
+  return *std::ranges::find(known_laws, law, &StartingLaws::word);
+}
 
 std::span<const TargetLaws> target_laws() {
   return known_targets;
 }
 
-std::optional<TargetLaws> laws_for(std::string_view target) {
-  const auto found = std::ranges::find_if(
-      known_targets, [&](const TargetLaws& laws) { return laws.target == target || laws.export_target == target; });
+std::optional<TargetLaws> laws_for(std::string_view target, std::string_view law) {
+  const auto found = std::ranges::find_if(known_targets, [&](const TargetLaws& laws) {
+    return (laws.target == target || laws.export_target == target) && (law.empty() || laws.law == law);
+  });
   return found == known_targets.end() ? std::nullopt : std::optional(*found);
 }
 
+Fault no_such_laws(std::string_view target, std::string_view law) {
+  if (!laws_for(target))
+    return {"--for " + printable(target), "is no program that pastefit knows the laws of",
+            "one of " + names_of_targets()};
+  if (std::ranges::count(known_laws, law, &StartingLaws::word) == 0)
+    return {"--law " + printable(law), "is no law that a study can start from", "one of " + names_of_laws()};
+  std::string others;
+  for (const TargetLaws& laws : known_targets)
+    if (laws.target == target) others += (others.empty() ? "" : ", ") + std::string(laws.law);
+  return {"--law " + printable(law), "is a law that " + std::string(target) + " does not run", "one of " + others};
+}
+
 std::string names_of_targets() {
-  std::string out;
-  for (const TargetLaws& laws : known_targets) out += (out.empty() ? "" : ", ") + std::string(laws.target);
-  return out;
+  return listed(known_targets, &TargetLaws::target);
+}
+
+std::string names_of_laws() {
+  return listed(known_laws, &StartingLaws::word);
 }
 
 std::string with_laws(const std::string& study, const TargetLaws& laws) {
-  constexpr std::array<std::string_view, 4> of_bridge{"rupture_force_ratio", "curvature", "rupture_gap_ratio",
-                                                      "formation_ratio"};
+  std::istringstream lines(study);
   std::string out;
-  for (std::size_t start = 0; start < study.size();) {
-    const std::size_t end = std::min(study.find('\n', start), study.size() - 1) + 1;
-    std::string line = study.substr(start, end - start);
-    start = end;
-    const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
-    const auto is_key = [&](std::string_view key) {
-      return std::string_view(line).substr(first).starts_with("\"" + std::string(key) + "\"");
-    };
-    const auto number = [](double value) { return nlohmann::json(value).dump(); };
-    if (is_key("contact"))
-      line = "  // " + std::string(laws.why) + ".\n  \"contact\": " + contact_of(laws).dump() + ",\n";
-    else if (is_key("strength_pa") && laws.strength != "strength_pa")
-      line = "    \"" + std::string(laws.strength) + "\": {\"free\": [" + number(laws.weakest) + ", " +
-             number(laws.strongest) + "], \"scale\": \"log\"},\n";
-    else if (laws.attraction == "none" && std::ranges::any_of(of_bridge, is_key))
-      continue;
-    out += line;
+  bool among_parameters = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  \"contact\""))
+      line = "  // " + std::string(laws.why) + ".\n  \"contact\": " + contact_of(laws).dump() + ",";
+    if (line.starts_with("  }")) among_parameters = false;
+    if (!among_parameters) out += line + "\n";
+    if (!line.starts_with("  \"parameters\"")) continue;
+    among_parameters = true;
+    out += parameter_lines(laws.laws());
   }
   return out;
 }
 
 nlohmann::ordered_json contact_of(const TargetLaws& laws) {
-  nlohmann::ordered_json out{{"normal", laws.normal}, {"attraction", laws.attraction}};
-  if (laws.attraction != "none") out["formation"] = "film";
+  nlohmann::ordered_json out{{"normal", laws.laws().normal}, {"attraction", laws.laws().attraction}};
+  if (laws.laws().attraction != "none") out["formation"] = "film";
   out["rolling_model"] = laws.rolling_model;
   out["friction_basis"] = laws.friction_basis;
+  return out;
+}
+
+nlohmann::ordered_json parameters_of(const StartingLaws& laws, bool both) {
+  nlohmann::ordered_json out;
+  for (const StartingParameter& one : laws.parameters)
+    if (const std::string_view text = both ? one.of_two : one.of_one; !text.empty())
+      out[std::string(one.name)] = nlohmann::ordered_json::parse(text);
   return out;
 }
 
