@@ -9,7 +9,7 @@ namespace pastefit {
 
 Ruler::Ruler(const SlumpTest& test, double roughness_m, const Particles& in_mould)
     : test_(test), roughness_m_(roughness_m), on_top_(in_mould.count(), 0) {
-  const double below = test.mould.height_m - 2 * test.grains.radius_m;
+  const double below = std::min(test.mould.height_m, highest_point(in_mould)) - 2 * test.grains.radius_m;
   for (std::int32_t i = 0; i < in_mould.count(); ++i)
     on_top_[in_mould.identity[i]] = in_mould.motion[i].position.z > below;
 }

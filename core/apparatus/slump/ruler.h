@@ -44,7 +44,8 @@ class Ruler {
 
   const SlumpTest& test_;
   double roughness_m_;
-  std::vector<char> on_top_;  ///< by identity: whether it lay in the struck-off top
+  std::vector<char>
+      on_top_;  ///< by identity: whether it lay in the struck-off top, which soft grains may carry below the rim
 };
 
 /// Shift of the struck-off top's middle over the mould's base radius beyond which a heap counts as sheared off.

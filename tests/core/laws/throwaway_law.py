@@ -30,10 +30,10 @@ struct Throwaway : Hertz {
 """
 
 # In the last law's place, whichever that is.
-EDITS = [("core/laws/materials.h", "  last = sjkr", "  throwaway,\n  last = throwaway"),
+EDITS = [("core/laws/materials.h", "  last = luding", "  throwaway,\n  last = throwaway"),
          ("core/laws/table.h", '#include "core/laws/sjkr.h"', '#include "core/laws/sjkr.h"\n#include "core/laws/throwaway.h"'),
-         ("core/laws/table.h", "Dmt, Sjkr>;", "Dmt, Sjkr, Throwaway>;"),
-         ("data/schema/laws.schema.json", '"dmt", "sjkr"]', '"dmt", "sjkr", "throwaway"]')]
+         ("core/laws/table.h", "Epa, Luding>;", "Epa, Luding, Throwaway>;"),
+         ("data/schema/laws.schema.json", '"epa", "luding"]', '"epa", "luding", "throwaway"]')]
 
 
 def run(*command):

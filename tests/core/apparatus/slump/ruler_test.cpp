@@ -42,3 +42,21 @@ TEST_CASE("the angle of repose is read after step 1, and only where it is asked 
   CHECK(*angle("step1") == Approx(180 / std::numbers::pi * std::atan(0.4)).margin(0.5));
   CHECK_FALSE(angle("step2"));
 }
+
+TEST_CASE("the shift of a top is read, also where soft grains carry it below the rim") {
+  SlumpTest test;
+  test.grains.radius_m = 0.005;
+  for (const double sunk : {0.0, 0.03}) {
+    std::vector<Vec3> centres;
+    for (double x = -0.05; x <= 0.0501; x += 0.01)
+      for (double y = -0.05; y <= 0.0501; y += 0.01)
+        for (double z = 0.005; z < test.mould.height_m - sunk; z += 0.01) centres.push_back({x, y, z});
+    const std::vector<double> radii(centres.size(), 0.005);
+    const Particles in_mould = make_particles(centres, radii, 2000);
+    for (Vec3& centre : centres) centre.x += 0.02;
+    Observables readings;
+    Ruler(test, 0, in_mould).read(make_particles(centres, radii, 2000), "step1", readings);
+    INFO("sunk by " << sunk << " m");
+    CHECK(*readings.find("step1.lateral_shift_mm") == Approx(20));
+  }
+}

@@ -24,6 +24,19 @@ SlumpTest sticking(double pull_off_in_weights) {
   return test;
 }
 
+/// The same cone filled with grains that yield and adhere, as a study starts with them.
+SlumpTest yielding(double adhesion) {
+  SlumpTest test;
+  test.grains.radius_m = 0.01;
+  test.contact.normal = NormalLaw::epa;
+  test.contact.plasticity_ratio = 0.85;
+  test.contact.adhesion_ratio = adhesion;
+  test.contact.cohesion_n = 0;
+  test.contact.friction = 0.05;
+  test.contact.rolling_friction = 0.01;
+  return test;
+}
+
 }  // namespace
 
 TEST_CASE("JKR in a crowd: the stronger grains stick, the higher the heap stands") {
@@ -97,4 +110,43 @@ TEST_CASE("JKR in a crowd: sticking grains that fill a mould under their own law
     return sum / kPackings;
   };
   CHECK(mean_fraction(3) < 0.98 * mean_fraction(0));
+}
+
+TEST_CASE("elasto-plastic grains that adhere: a stiff heap stands, and where the table is smooth it spreads farther") {
+  double height[2] = {}, spread[2] = {}, shift = 0;
+  constexpr int kPackings = 3;
+  for (int smooth = 0; smooth < 2; ++smooth)
+    for (std::uint64_t seed = 1; seed <= kPackings; ++seed) {
+      SlumpTest test = yielding(1.2);
+      test.table_wall.friction = smooth ? 0.02 : 0.6;
+      test.packing_seed = seed;
+      const Outcome outcome = simulate(test);
+      INFO("packing " << seed << (smooth ? ", smooth" : ""));
+      REQUIRE_FALSE(outcome.failure);
+      CHECK(outcome.run.settled);
+      height[smooth] += *outcome.observables.find("step1.height_mm") / kPackings;
+      spread[smooth] += *outcome.observables.find("step1.spread_mm") / kPackings;
+      shift = std::max(shift, *outcome.observables.find("step1.lateral_shift_mm"));
+    }
+  INFO("heights " << height[0] << ", " << height[1] << ", spreads " << spread[0] << ", " << spread[1] << " mm");
+  CHECK(height[0] > 110);
+  CHECK(height[0] < 190);
+  CHECK(spread[1] > spread[0] + 15);
+  CHECK(shift > 0);
+  CHECK(shift < 40);
+}
+
+TEST_CASE("elasto-plastic grains that adhere: the energy of both steps is accounted for") {
+  const auto error_with = [](double adhesion, double impact_resolution) {
+    SlumpTest test = yielding(adhesion);
+    test.drop = DropPlate{};
+    RunOptions options;
+    options.steps.impact_resolution = impact_resolution;
+    const Outcome outcome = simulate(test, options);
+    REQUIRE_FALSE(outcome.failure);
+    return std::fabs(outcome.run.energy_error.value());
+  };
+  CHECK(error_with(0.3, StepOptions{}.impact_resolution) < 4e-3);
+  CHECK(error_with(1.2, StepOptions{}.impact_resolution) < 4e-3);
+  CHECK(error_with(1.2, 40) < 1e-3);
 }
