@@ -23,6 +23,10 @@ std::string name_for_people(NormalLaw law) {
       return "Hertz-Mindlin";
     case NormalLaw::jkr:
       return "Hertz-Mindlin with JKR adhesion";
+    case NormalLaw::epa:
+      return "Edinburgh elasto-plastic adhesion (EEPA)";
+    case NormalLaw::luding:
+      return "linear elasto-plastic adhesion (Luding)";
     default:
       return "normal law " + word_of(law, normal_laws);
   }
@@ -63,6 +67,12 @@ TypeInGroup grain_on_grain(const ContactModel& contact) {
     group.rows.push_back({"surface energy", contact.surface_energy_j_m2, "J/m2", "half the work of adhesion"});
   if (contact.cohesion_energy_density_pa > 0)
     group.rows.push_back({"cohesion energy density", contact.cohesion_energy_density_pa, "J/m3", "SJKR"});
+  if (contact.normal == NormalLaw::epa || contact.normal == NormalLaw::luding) {
+    group.rows.push_back({"plasticity ratio", contact.plasticity_ratio, "", "1 - k1/k2"});
+    group.rows.push_back({"adhesion ratio", contact.adhesion_ratio, "", "kc/k1"});
+    group.rows.push_back({"constant pull-off", contact.cohesion_n.value_or(0), "N", "f0"});
+    group.rows.push_back({"exponent", contact.normal == NormalLaw::epa ? 1.5 : 1, "", "of loading and adhesion"});
+  }
   return group;
 }
 

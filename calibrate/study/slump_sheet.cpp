@@ -11,6 +11,7 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "core/apparatus/reading_kind.h"
@@ -217,6 +218,37 @@ ordered_json dry_contact(const TargetLaws& laws) {
           {"friction_basis", "elastic"}};
 }
 
+/// A law, and the reason for it that the study gives.
+struct ChosenLaws {
+  TargetLaws laws;
+  std::string why;
+};
+
+/// Width of the heap over that of the cone of its height; nothing where not both are measured.
+std::optional<double> share_of_cone(const SlumpTest& test, std::span<const Measurement> measured) {
+  const auto *height = find_measurement(measured, "step1.height_mm"),
+             *spread = find_measurement(measured, "step1.spread_mm");
+  if (!height || !spread || !(height->value > 0)) return std::nullopt;
+  return spread->value / cone_width_mm(test, height->value);
+}
+
+/// The laws that the sheet names, or those that its target starts from. Where the sheet names none, readings that only
+/// a bridge meets are left to the bridge, if the target runs it: times of the flow, which ask for a viscosity, and
+/// heaps nearly as wide as a cone (tests/results/laws.md).
+ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
+                   std::span<const Measurement> measured) {
+  constexpr double widest_of_epa = 0.9;
+  const auto bridge = laws_for(sheet.target, "bridge");
+  const ChosenLaws own{named, std::string(named.why)};
+  if (!sheet.law.empty() || named.law == "bridge" || !bridge) return own;
+  if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
+    return {*bridge, "The flow is timed, and of the laws only a bridge has a viscosity"};
+  if (const auto share = share_of_cone(test, measured); share && *share > widest_of_epa)
+    return {*bridge, "The heap is " + shown(rounded(*share, 2)) +
+                         " of a cone's width, of which heaps of elasto-plastic adhesion reach 0.9"};
+  return own;
+}
+
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
 /// of them alone tells the strength.
 ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
@@ -318,12 +350,14 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (sheet.readings.empty()) predict_reading(lab, test.value(), stresses_pa, faults);
   if (!faults.empty()) return faults;
   measurements = lab["measurements"];
-  if (const auto read = lab_from_json(json::parse(lab.dump()), folder); !read.ok()) return read.faults();
+  const auto read = lab_from_json(json::parse(lab.dump()), folder);
+  if (!read.ok()) return read.faults();
+  const auto chosen = laws_of(sheet, *laws, slump_of(test.value()), read.value().measurements);
   const ordered_json study{{"format", "pastefit-study-1"},
                            {"title", sheet.title},
                            {"lab", "lab.json"},
-                           {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(*laws)},
-                           {"parameters", parameters_for(*laws, measurements)},
+                           {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(chosen.laws)},
+                           {"parameters", parameters_for(chosen.laws, measurements)},
                            {"search",
                             {{"screening", 8},
                              {"budget_simulations", 150},
@@ -331,10 +365,10 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
                              {"confirmation_packings", 8},
                              {"examination_simulations", 12},
                              {"seed", 1}}}};
-  return StartingFiles{with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
-                       with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " +
-                                     std::string(laws->why) + ".",
-                                 study)};
+  return StartingFiles{
+      with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
+      with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " + chosen.why + ".",
+                study)};
 }
 
 }  // namespace pastefit
