@@ -39,12 +39,12 @@ void set_friction(PairConstants& pair, double friction, FrictionBasis basis) {
   pair.slip_limit = friction * (1 + x * (1 + x) * (1 + x));
 }
 
-void set_rolling(PairConstants& pair, double rolling_friction) {
+/// `levers`: (r/R*)^2, 4 of equal grains and 1 of a grain on a wall.
+void set_rolling(PairConstants& pair, double rolling_friction, double levers) {
   pair.rolling_friction = rolling_friction;
   pair.roll_stiffness_share = 2.25 * rolling_friction * rolling_friction / 0.4;
   pair.roll_damping = 0.6 * std::sqrt(1.4 * 2.25) * rolling_friction;
-  // Of equal grains, R* = r/2, I = 2/5 m r^2.
-  pair.spin_damping = pair.roll_damping / (4 * 0.4) / pair.spin_damping_share;
+  pair.spin_damping = pair.roll_damping / (levers * 0.4) / pair.spin_damping_share;  // I = 2/5 m r^2
 }
 
 void set_normal(PairConstants& pair, const ContactModel& grains, double share) {
@@ -97,7 +97,7 @@ PairConstants grain_pair(const ContactModel& grains, double reference_radius_m) 
   set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, grains.youngs_modulus_pa, grains.poissons_ratio,
               grains.restitution);
   set_friction(pair, grains.friction, grains.friction_basis);
-  set_rolling(pair, grains.rolling_friction);
+  set_rolling(pair, grains.rolling_friction, 4);
   pair.size_per_radius = 2 / reference_radius_m;
   set_normal(pair, grains, 1.0);
   set_attraction(pair, grains, reference_radius_m, 1.0, 2.0);
@@ -109,7 +109,7 @@ PairConstants wall_pair(const ContactModel& grains, const WallContact& wall, dou
   set_elastic(pair, grains.youngs_modulus_pa, grains.poissons_ratio, wall.youngs_modulus_pa, wall.poissons_ratio,
               wall.restitution);
   set_friction(pair, wall.friction, grains.friction_basis);
-  set_rolling(pair, wall.rolling_friction);
+  set_rolling(pair, wall.rolling_friction, 1);
   pair.size_per_radius = 1 / reference_radius_m;
   set_normal(pair, grains, wall.cohesion_factor);
   set_attraction(pair, grains, reference_radius_m, wall.cohesion_factor, 1.0);

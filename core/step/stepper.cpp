@@ -104,8 +104,22 @@ std::optional<Failure> Stepper::maintain_lists() {
   if (deepest.overlap > options_.overlap_limit)
     return failure(FailureReason::excessive_overlap, world_.particles.identity[deepest.grain], deepest.overlap,
                    options_.overlap_limit,
-                   "two grains overlap by more than the allowed share of a radius; stiffer grains or less cohesion");
+                   "two grains overlap by more than the allowed share of the smaller radius; stiffer grains or less "
+                   "cohesion" +
+                       remedy_of_sizes());
   return {};
+}
+
+/// What large grains press on small ones by grows with the ratio of their sizes.
+std::string Stepper::remedy_of_sizes() const {
+  constexpr double uneven = 2;
+  double largest = 0;
+  for (std::int32_t i = 0; i < world_.particles.count(); ++i)
+    largest = std::max(largest, world_.particles.motion[i].radius);
+  const double ratio = largest / smallest_radius_;
+  if (ratio <= uneven) return "";
+  return ", or sizes nearer to each other: the largest grain is " + std::to_string(std::lround(ratio)) +
+         " times the smallest";
 }
 
 /// Follows, but for the first one, from the stiffness and the speeds of the step before: they are known from moving the

@@ -79,6 +79,7 @@ class Stepper {
   void note_moved();
   bool looks_at_energy() const { return options_.energy_balance && world_.step % kBalanceInterval == 0; }
   void look_at_energy(double dt);
+  std::string remedy_of_sizes() const;
   Failure failure(FailureReason reason, std::int64_t grain, double value, double limit, std::string message) const;
 
   World& world_;

@@ -28,6 +28,7 @@ constexpr double kLidSpeed = 0.2;    // [m/s]
 constexpr double kFillCap = 4.0;     // [s]
 constexpr double kScoopSpeed = 1.0;  // [m/s] at which grains sink
 constexpr double kGentle = 0.2;      // deepest overlap of a falling grain, over its radius
+constexpr double kDeepest = 0.9;     // overlap over the smaller radius, of a small grain between large ones that grow
 constexpr double kEmptiest = 0.45;   // solid fraction below which the fill has a hole
 // Grains that have landed are struck off while they still swing a little, and so they are when the lid has pressed
 // them level: what is left dies out when the column comes to rest under its own laws.
@@ -136,10 +137,18 @@ std::vector<double> rest_measure_of_fill(const Particles& grains) {
   return lengths;
 }
 
+/// How much longer than equal grains these take to grow: small ones between large ones have to find their way out.
+double patience_with(const GrainSizes& sizes) {
+  constexpr double even = 3;
+  if (sizes.distribution == SizeDistribution::mono) return 1;
+  return std::max(1.0, sizes.largest_m / sizes.smallest_m / even);
+}
+
 /// Small grains at random places grow to their size where they are, until they fill mould and hopper loosely. They lie
 /// in no layers, as grains do that are let down from a lattice. Their mass is that of the grown grain all the time.
 std::optional<Failure> grow(const SlumpTest& test, World& world, Runner& runner) {
-  const double step = (1 - kStartSize) * test.grains.radius_m / kGrowthSpeed / kGrowthSteps;
+  const double step =
+      (1 - kStartSize) * test.grains.radius_m / kGrowthSpeed / kGrowthSteps * patience_with(test.grains);
   world.drag = kGravity / kGrowthSpeed;
   double size = kStartSize;
   for (auto& grain : world.particles.motion) grain.radius *= size;
@@ -233,6 +242,7 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
   options.steps.impact_resolution = kImpactResolution;
   options.steps.energy_balance = false;
   options.rest = kLanded;
+  options.steps.overlap_limit = std::max(options.steps.overlap_limit, kDeepest);
   const double swelling = options.own_fill ? 1 : 1 + filling_of(test).resting_overlap;
   SlumpTest smaller = test;
   smaller.grains = enlarged(test.grains, 1 / swelling);

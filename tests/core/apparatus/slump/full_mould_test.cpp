@@ -172,3 +172,16 @@ TEST_CASE("no grain is thrown out of a mould while it is filled, however stiff i
     }
   CHECK(bridged <= 3);
 }
+
+TEST_CASE("a mould is filled with grains of sizes from 1 to 8") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SlumpTest test;
+    test.grains = {
+        .distribution = SizeDistribution::uniform, .radius_m = 0.00675, .smallest_m = 0.0015, .largest_m = 0.012};
+    test.packing_seed = seed;
+    const auto packing = fill_mould(test, {});
+    INFO("packing " << seed
+                    << (packing->failure ? ": " + packing->failure->phase + ", " + packing->failure->message : ""));
+    CHECK_FALSE(packing->failure);
+  }
+}

@@ -266,3 +266,23 @@ TEST_CASE("every fault of a test is named at once") {
   CHECK(validate(test).size() >= 4);
   CHECK(validate(small_test(1)).empty());
 }
+
+TEST_CASE("a mould that grips the grains, by friction and rolling friction 1, makes no energy") {
+  SlumpTest test;
+  test.mould = {0.01905, 0.0095, 0.0572};
+  test.grains.radius_m = 0.0015;
+  test.lift_velocity_m_s = 0.05;
+  test.contact.friction = 0.3;
+  test.mould_wall.friction = test.mould_wall.rolling_friction = 1;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const double r = test.grains.radius_m, c = 200.0 * static_cast<double>(seed) * r * r;
+    test.contact.bridge = {
+        .shape = BridgeShape::polynomial, .b_n_m = c / (0.6 * r), .c_n = c, .d_c_m = -0.6 * r, .offset_m = 0.3 * r};
+    test.packing_seed = seed;
+    const Outcome outcome = simulate(test);
+    INFO("packing " << seed);
+    REQUIRE_FALSE(outcome.failure);
+    CHECK(outcome.run.settled);
+    CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
+  }
+}
