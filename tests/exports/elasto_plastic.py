@@ -1,0 +1,193 @@
+"""Elasto-plastic adhesion of two grains, computed apart from the engine; and the model of LIGGGHTS that is nearest to it.
+
+usage: elasto_plastic.py        (needs liggghts)
+
+As a program it takes two grains through all branches in LIGGGHTS's model `edinburgh` with a fixed adhesion stiffness: with
+linear springs it has to give the law to 1e-6 of the largest force; with the exponent 3/2 as long as no contact comes back
+from the adhesion branch, and there the force that its source says, along that branch. Exit status 77 where LIGGGHTS is
+missing.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+EXPONENT = {"epa": 1.5, "luding": 1.0}
+TOLERANCE = 1e-6
+PLASTICITY, ADHESION, PULL_OFF_PA = 0.85, 1.0, 150.0
+TURNS = (0.0505, 0.0305, 0.0605, 0.0055, 0.0455, 0.0805, -0.0055, 0.0205, -0.0095)  # overlaps over the radius
+
+
+def forces(overlaps, loading, exponent, plasticity, adhesion, pull_off):
+    """Of overlaps one after the other: loading k1 d^m, unloading k2 (d^m - l D^m), adhesion -kc d^m, less the pull-off.
+
+    D, the deepest overlap, shrinks on the adhesion branch so that reloading goes parallel to unloading."""
+    unloading, tearing = loading / (1 - plasticity), adhesion * loading
+    deepest, out = 0.0, []  # D^m
+    for overlap in overlaps:
+        if overlap <= 0:
+            deepest = 0.0
+            out.append(0.0)
+            continue
+        depth = overlap ** exponent
+        deepest = max(deepest, depth)
+        force = unloading * (depth - plasticity * deepest)
+        if force < -tearing * depth:
+            force = -tearing * depth
+            deepest = depth * (1 + adhesion * (1 - plasticity)) / plasticity
+        out.append(force - pull_off)
+    return out
+
+
+def loading_stiffness(modulus, poisson, radius, exponent):
+    """k1 of two equal grains."""
+    return 4 / 3 * modulus / (2 * (1 - poisson ** 2)) * (radius / 2) ** (2 - exponent)
+
+
+def of_card(card, law, of_bridge):
+    """The card with this law in place of its bridges."""
+    material = card["material"]
+    contact, radius = material["contact"], material["grains"]["radius_m"]
+    own = {"plasticity_ratio": PLASTICITY, "adhesion_ratio": ADHESION}
+    contact.update(normal=law, cohesion_n=PULL_OFF_PA * radius ** 2, **own)
+    own["pull_off_pa"] = PULL_OFF_PA
+    for numbers in (material["parameters"], material["free"]):
+        for key in of_bridge:
+            numbers.pop(key, None)
+    material["parameters"].update(own)
+    material["free"] = {"adhesion_ratio": {"lower": 0.5, "upper": 2.0, "scale": "log"}}
+    return card
+
+
+def largest_error(path, radius, expected):
+    """Over the largest force, but for overlaps that are zero to rounding."""
+    peak = max(abs(force) for force in expected)
+    return max(abs(force - other) for (distance, force), other in zip(path, expected)
+               if abs(2 * radius - distance) > 1e-9 * radius) / peak
+
+
+def judge(test, target, deck, path):
+    """Whether a program gave the law of the card; LIGGGHTS that of the moduli in its deck, with linear springs."""
+    contact, radius = test["contact"], test["grains"]["radius_m"]
+    if len(path) < 300:
+        print(f"{target}: only {len(path)} distances")
+        return False
+    exponent, modulus = EXPONENT[contact["normal"]], contact["youngs_modulus_pa"]
+    if target == "liggghts":
+        properties = re.search(r"youngsModulus peratomtype (\S+)", (deck / "material.inc").read_text())
+        modulus, exponent = 1.5 * float(properties[1]), 1.0
+    loading = loading_stiffness(modulus, contact["poissons_ratio"], radius, exponent)
+    expected = forces([2 * radius - distance for distance, _ in path], loading, exponent, contact["plasticity_ratio"],
+                      contact["adhesion_ratio"], contact["cohesion_n"])
+    worst = largest_error(path, radius, expected)
+    print(f"{target}, {contact['normal']} with the exponent {exponent:g}: {len(path)} distances, forces from "
+          f"{min(expected):.4g} to {max(expected):.4g} N; largest error {worst:.1e} of the largest")
+    if exponent == EXPONENT[contact["normal"]] and abs(modulus / contact["youngs_modulus_pa"] - 1) > 1e-12:
+        print("the deck has another modulus than the card")
+        return False
+    return worst < TOLERANCE and min(expected) < 0
+
+
+DECK = """units lj
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+region box block -0.04 0.08 -0.04 0.04 -0.04 0.04 units box
+create_box 1 box
+create_atoms 1 single 0 0 0 units box
+create_atoms 1 single {start:.17g} 0 0 units box
+set type 1 diameter {diameter:.17g}
+set type 1 density 2500
+neighbor 0.002 bin
+neigh_modify delay 0
+fix p1 all property/global youngsModulus peratomtype {modulus:.17g}
+fix p2 all property/global poissonsRatio peratomtype 0.3
+fix p3 all property/global coefficientRestitution peratomtypepair 1 0.3
+fix p4 all property/global coefficientFriction peratomtypepair 1 0.3
+fix p5 all property/global UnloadingStiffness peratomtypepair 1 {stiffening:.17g}
+fix p6 all property/global coefficientAdhesionStiffness peratomtypepair 1 {adhesion:.17g}
+fix p7 all property/global overlapExponent scalar {exponent:g}
+fix p8 all property/global adhesionExponent scalar {exponent:g}
+fix p9 all property/global pullOffForce peratomtypepair 1 {pull:.17g}
+fix p10 all property/global surfaceEnergy peratomtypepair 1 0
+pair_style gran model edinburgh tangential history fixKc on
+pair_coeff * *
+timestep {step:.17g}
+group first id 1
+group second id 2
+compute push second reduce sum fx
+compute at second reduce sum x
+variable push equal c_push
+variable at equal c_at
+thermo_style custom step c_push c_at
+fix out all print 1 "path ${{at}} ${{push}}"
+fix hold first move linear 0 0 0 units box
+"""
+
+
+def in_liggghts(law, radius, modulus, pull_off):
+    """Distances and forces of LIGGGHTS on the way of the exported decks."""
+    speed, at, exponent = 1e-10, -0.0095, EXPONENT[law]
+    # Of linear springs LIGGGHTS takes 2 E* R* for k1, in place of 4/3 E* R*.
+    deck = DECK.format(start=(2 - at) * radius, diameter=2 * radius, modulus=modulus * (1 if law == "epa" else 2 / 3),
+                       stiffening=1 / (1 - PLASTICITY), adhesion=ADHESION, exponent=exponent, pull=-pull_off,
+                       step=0.001 * radius / speed)
+    for turn in TURNS:
+        steps = round(abs(turn - at) / 0.001)
+        deck += f"fix pull second move linear {speed if turn < at else -speed:g} 0 0 units box\nrun {steps}\nunfix pull\n"
+        at = turn
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "in.path").write_text(deck)
+        run = subprocess.run(["liggghts", "-in", "in.path", "-log", "none"], cwd=folder, capture_output=True, text=True,
+                             errors="replace", timeout=300)
+    return [tuple(map(float, line.split()[1:])) for line in run.stdout.splitlines() if line.startswith("path ")]
+
+
+def as_its_source_says(overlaps, loading, exponent, pull_off):
+    """The model with the memory that LIGGGHTS 3.8.0 leaves on the adhesion branch: (k2 + kc)/(k2 - k1) d at any exponent."""
+    unloading, tearing = loading / (1 - PLASTICITY), ADHESION * loading
+    deepest, out = 0.0, []
+    for overlap in overlaps:
+        if overlap <= 0:
+            deepest = 0.0
+            out.append(0.0)
+            continue
+        deepest = max(deepest, overlap)
+        force = unloading * (overlap ** exponent - deepest ** exponent) + loading * deepest ** exponent
+        if force < -tearing * overlap ** exponent:
+            force = -tearing * overlap ** exponent
+            deepest = (unloading + tearing) / (unloading - loading) * overlap
+        out.append(force - pull_off)
+    return out
+
+
+def main():
+    if not shutil.which("liggghts"):
+        print("skipped: liggghts is not installed")
+        return 77
+    radius, modulus, good = 0.008, 1e6, True
+    pull_off = PULL_OFF_PA * radius ** 2
+    for law, exponent in EXPONENT.items():
+        path = in_liggghts(law, radius, modulus, pull_off)
+        loading = loading_stiffness(modulus, 0.3, radius, exponent)
+        overlaps = [2 * radius - distance for distance, _ in path]
+        expected = forces(overlaps, loading, exponent, PLASTICITY, ADHESION, pull_off)
+        back = next(i for i in range(1, len(path)) if overlaps[i] > overlaps[i - 1] and expected[i - 1] < 0
+                    and abs(expected[i - 1] + pull_off + ADHESION * loading * overlaps[i - 1] ** exponent) < 1e-9)
+        before = largest_error(path[:back], radius, expected[:back])
+        after = largest_error(path, radius, expected)
+        source = largest_error(path, radius, as_its_source_says(overlaps, loading, exponent, pull_off))
+        print(f"{law}, exponent {exponent:g}: {len(path)} distances; largest error {before:.1e} of the largest force until the "
+              f"contact is pressed again from the adhesion branch ({back} distances), {after:.1e} beyond; "
+              f"{source:.1e} from the formula in LIGGGHTS's source")
+        good = good and before < TOLERANCE and source < TOLERANCE and (after < TOLERANCE) == (law == "luding")
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
