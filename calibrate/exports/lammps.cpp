@@ -1,4 +1,5 @@
 #include "calibrate/base/format.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
@@ -58,15 +59,26 @@ std::string bridge_words(const Bridge& bridge) {
   return out;
 }
 
+/// Of Hertz nothing: the style's default.
+std::string normal_words(const ContactModel& contact) {
+  if (!yields(contact.normal)) return {};
+  return word("normal", contact.normal, normal_laws) + number("plasticity_ratio", contact.plasticity_ratio) +
+         number("adhesion_ratio", contact.adhesion_ratio);
+}
+
+/// Of Hertz, which has no reserve, net and total are the same.
+FrictionBasis basis_of(const ContactModel& contact) {
+  const bool net = contact.friction_basis == FrictionBasis::net;
+  return net && !yields(contact.normal) ? FrictionBasis::total : contact.friction_basis;
+}
+
 std::string pair_style(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const double radius = scene.radius_m();
-  const bool elastic = contact.friction_basis == FrictionBasis::elastic;
   return "pair_style   pastefit" + number("reference_radius_m", radius) +
          number("youngs_modulus_pa", contact.youngs_modulus_pa) + number("poissons_ratio", contact.poissons_ratio) +
-         number("restitution", contact.restitution) + number("friction", contact.friction) +
-         // Laws of the overlap that this style has know no reserve: of them net and total are the same.
-         word("friction_basis", elastic ? FrictionBasis::elastic : FrictionBasis::total, friction_bases) +
+         number("restitution", contact.restitution) + number("friction", contact.friction) + normal_words(contact) +
+         word("friction_basis", basis_of(contact), friction_bases) +
          number("rolling_friction", contact.rolling_friction) + word("rolling", contact.rolling, rolling_models) +
          number("cohesion_n", cohesion_n(contact, {radius, radius, radius})) + bridge_words(contact.bridge) +
          "\npair_coeff   * *\n";
@@ -78,10 +90,24 @@ std::string wall_words(const WallContact& wall) {
          format("rolling_friction %.17g cohesion_factor %.17g", wall.rolling_friction, wall.cohesion_factor);
 }
 
+/// LAMMPS of 2025 has the law, Debian's does not; not run by us.
+std::string note_of_granular(const ExportScene& scene) {
+  return "LAMMPS of 2025 and later has this law of its own, in pair_style granular. By its manual (we have not run "
+         "it):\n    " +
+         lammps_granular_words(scene) +
+         "\n  in the order E, restitution, nu, plasticity ratio, f0, kc, exponents; choose rolling and damping beside "
+         "it. kc "
+         "is that of two mean grains, in N/m^n: compare other sizes and walls (kc times the cohesion factor) with "
+         "in.two_grains first. Its friction adds kc d^n to the force on the adhesion branch only, the card's "
+         "everywhere, and "
+         "its tangential spring feels the contact radius of the plastic overlap.";
+}
+
 }  // namespace
 
 Result<Export> export_lammps(const ExportScene& scene) {
-  const KnownLaws known{"pair style pastefit", {NormalLaw::hertz}, kAllRolling, kAllAttractions, true};
+  const KnownLaws known{
+      "pair style pastefit", {NormalLaw::hertz, NormalLaw::epa, NormalLaw::luding}, kAllRolling, kAllAttractions, true};
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
@@ -92,6 +118,7 @@ Result<Export> export_lammps(const ExportScene& scene) {
       "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
       "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
       "them.");
+  if (yields(scene.contact().normal)) out.notes.push_back(note_of_granular(scene));
   if (const SlumpTest* test = scene.slump(); test && test->drop) {
     if (test->drop->motion == TableMotion::vertical)
       out.notes.push_back("The deck runs step 1, on a square table. A table that falls upright is not part of it.");

@@ -6,9 +6,10 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
-#include "calibrate/exports/nearest_law.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/store/program.h"
 #include "core/laws/constants.h"
+#include "core/laws/epa.h"
 #include "core/step/time_step.h"
 #include "core/world/world.h"
 
@@ -95,8 +96,11 @@ double deck_time_step_s(const ExportScene& scene) {
   const double rayleigh = std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
                           (0.1631 * contact.poissons_ratio + 0.8766);
   const double mass = 4.0 / 3 * std::numbers::pi * std::pow(smallest, 3) * scene.grain_density_kg_m3;
-  const double step =
-      std::min(0.1 * rayleigh, 0.5 * viscous_step(grain_pair(contact, scene.radius_m()), smallest, mass));
+  const PairConstants pair = grain_pair(contact, scene.radius_m());
+  double step = std::min(0.1 * rayleigh, 0.5 * viscous_step(pair, smallest, mass));
+  if (yields(contact.normal)) step /= std::sqrt(pair.stiffening);
+  if (contact.normal == NormalLaw::luding)
+    step = std::min(step, 0.04 * Luding::collision_time(pair, 0.5 * smallest, 0.5 * mass, 1));
   const double digit = std::pow(10, std::floor(std::log10(step)) - 1);
   return std::floor(step / digit) * digit;
 }
@@ -168,15 +172,16 @@ std::vector<std::string> lammps_dumps(const ExportScene& scene) {
 }
 
 std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
-  constexpr int kDistances = 240;
   const double radius = scene.sizes.radii_m[0];
-  const auto [nearest, farthest] = two_grain_distances(scene.contact(), radius);
+  const auto legs = two_grain_legs(scene.contact(), radius);
   std::string out = header(scene, laws, notes);
-  out += deck_begin("\n# force of two grains against their distance; prints \"apart r F\", then \"back r F\"");
+  out += deck_begin(
+      "\n# force of two grains against their distance; prints \"apart r F\", then \"back r F\"; of a law\n"
+      "# with a memory of the overlap \"path r F\"");
   out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
                 4 * radius, -4 * radius, 4 * radius);
   out += format("create_box   %zu box\ncreate_atoms 1 single 0 0 0\n", scene.sizes.radii_m.size());
-  out += format("create_atoms 1 single %.17g 0 0\n", nearest);
+  out += format("create_atoms 1 single %.17g 0 0\n", legs[0].from_m);
   out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
                 scene.grain_density_kg_m3);
   out += "include      material.inc\n";
@@ -185,11 +190,12 @@ std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, co
   out += "group        second id 2\ncompute      push second reduce sum fx\ncompute      at second reduce sum x\n";
   out += "thermo_style custom step c_push c_at\n";
   out += "variable     push equal c_push\nvariable     at equal c_at\n";
-  for (const auto& [way, sign] : {std::pair{"apart", 1}, std::pair{"back", -1}}) {
-    out += format("variable     n loop %d\nlabel        next_%s\nrun          0 post no\n", kDistances + 1, way);
-    out += format("print        \"%s $(v_at:%%.17g) $(v_push:%%.17g)\"\n", way);
-    out += format("displace_atoms second move %.17g 0 0 units box\n", sign * (farthest - nearest) / kDistances);
-    out += format("next         n\njump         SELF next_%s\n", way);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Leg& leg = legs[i];
+    out += format("variable     n loop %d\nlabel        next_%zu\nrun          0 post no\n", leg.steps, i + 1);
+    out += format("print        \"%s $(v_at:%%.17g) $(v_push:%%.17g)\"\n", leg.word);
+    out += format("displace_atoms second move %.17g 0 0 units box\n", (leg.to_m - leg.from_m) / leg.steps);
+    out += format("next         n\njump         SELF next_%zu\n", i + 1);
   }
   return out;
 }

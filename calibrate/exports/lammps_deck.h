@@ -39,9 +39,9 @@ inline const std::string kLammpsDeck = "in.slump";
 /// such deck.
 std::vector<std::string> lammps_dumps(const ExportScene& scene);
 
-/// Two grains of the first class at distances from an overlap (`two_grain_distances`) to beyond rupture, and back;
-/// prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive. Where there is no other deck
-/// it has the notes.
+/// Two grains of the first class on their way (`two_grain_legs`): from an overlap to beyond rupture, and back. Prints
+/// "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive; of elasto-plastic grains "path
+/// DISTANCE FORCE". Where there is no other deck it has the notes.
 std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
 /// material.inc, in.two_grains and, of a slump test, in.slump and grains.data with these radii.
@@ -55,7 +55,8 @@ std::string grains_data(const ExportScene& scene, std::span<const double> radii_
 std::vector<ExportWall> walls_in_deck(const ExportScene& scene);
 
 /// Tenth of the Rayleigh time of the smallest grain [s], rounded down to two digits: pi R sqrt(rho/G)/(0.1631 nu +
-/// 0.8766). With a viscous bridge at most half of what its dampers are stable with, as those styles do not weaken them.
+/// 0.8766). With a viscous bridge at most half of what its dampers are stable with, as those styles do not weaken them;
+/// of elasto-plastic grains by the root of k2/k1 shorter, and of `luding` at most a 25th of a collision.
 double deck_time_step_s(const ExportScene& scene);
 
 }  // namespace pastefit

@@ -40,6 +40,7 @@ Contact::Contact(const Law& law) {
   set_elastic(law, law.youngs_modulus_pa, law.poissons_ratio, law.restitution);
   set_friction(law.friction);
   rolling_friction_ = law.rolling_friction;
+  set_plastic(law, 1);
   set_attraction(law, 1, 2);
 }
 
@@ -47,6 +48,7 @@ Contact::Contact(const Law& law, const WallLaw& wall) {
   set_elastic(law, wall.youngs_modulus_pa, wall.poissons_ratio, wall.restitution);
   set_friction(wall.friction);
   rolling_friction_ = wall.rolling_friction;
+  set_plastic(law, wall.cohesion_factor);
   set_attraction(law, wall.cohesion_factor, 1);
 }
 
@@ -58,7 +60,8 @@ void Contact::set_elastic(const Law& law, double e, double nu, double restitutio
   normal_stiffness_ = 2 * e_star;
   tangential_ratio_ = 4 * g_star / e_star;
   damping_ = 2 * std::sqrt(5.0 / 6.0) * damping_ratio(restitution);
-  friction_of_total_ = law.friction_basis == "total";
+  friction_of_total_ = law.friction_basis != "elastic";
+  friction_reserve_ = law.friction_basis == "net" ? 0 : 1;
   if (law.rolling == "spring_dashpot") rolling_ = Rolling::spring_dashpot;
   if (law.rolling == "constant_torque") rolling_ = Rolling::constant_torque;
 }
@@ -68,6 +71,16 @@ void Contact::set_friction(double friction) {
   // With the spring's own normal force, the share x of the repulsion, in two rounds as in `act`.
   const double x = std::min(friction * friction / (6 * tangential_ratio_), 0.25);
   slip_limit_ = friction * (1 + x * (1 + x) * (1 + x));
+}
+
+void Contact::set_plastic(const Law& law, double share) {
+  if (law.normal == "epa") normal_ = Normal::epa;
+  if (law.normal == "luding") normal_ = Normal::luding;
+  if (!yields()) return;
+  adhesion_ = share * law.adhesion_ratio;
+  stiffening_ = 1 / (1 - law.plasticity_ratio);
+  least_plastic_ = law.plasticity_ratio;
+  most_plastic_ = 1 + adhesion_ * (1 - law.plasticity_ratio);
 }
 
 void Contact::set_attraction(const Law& law, double share, double shells) {
@@ -119,6 +132,21 @@ double Contact::attraction(double overlap, double scale, ContactHistory& history
   }
 }
 
+/// Hertz; or, with k1 = 4/3 E* R*^(2-m), m 3/2 or 1, one spring k2 (d^m - p^m) whose plastic overlap p yields where
+/// loading, k1 d^m, or the adhesion branch, -kc d^m, begins.
+Contact::Press Contact::press(const ContactKinematics& m, double scale, ContactHistory& history) const {
+  const bool linear = normal_ == Normal::luding;
+  const double contact_radius = linear ? 2.0 / 3 * m.radius : std::sqrt(m.radius * m.overlap);
+  const auto power = [linear](double d) { return linear ? d : d * std::sqrt(d); };
+  const double loading = hertz_ * (linear ? m.radius : std::sqrt(m.radius)) * power(m.overlap);
+  if (!yields()) return {contact_radius, loading, loading, 0};
+  const double deep = power(m.overlap);
+  const double plastic = std::min(std::max(power(history.bridge), least_plastic_ * deep), most_plastic_ * deep);
+  history.bridge = linear ? plastic : std::cbrt(plastic * plastic);
+  const double force = stiffening_ * (1 - plastic / deep) * loading, most = adhesion_ * loading;
+  return {contact_radius, force, std::max(force + most, 0.0), scale * scale * cohesion_ + most};
+}
+
 /// Of bodies that overlap: the cohesion, and what is left of the bridge's force at touch beyond it [N].
 double Contact::cohesion(double overlap, double scale) const {
   const double left = std::max(1 - overlap / (passage_ * scale), 0.0);
@@ -132,27 +160,31 @@ ContactForce Contact::act(const ContactKinematics& m, ContactHistory& history, d
   if (m.overlap <= 0) {
     history.slip = history.roll = {};
     history.contact_radius = 0;
+    if (yields()) history.bridge = 0;
     contact_force.force = pull * m.normal;
     lubricate(m, scale, dt, history, contact_force);
     return contact_force;
   }
-  const double contact_radius = std::sqrt(m.radius * m.overlap);
+  const Press pressing = press(m, scale, history);
+  const double contact_radius = pressing.contact_radius;
   const double stiffness_n = normal_stiffness_ * contact_radius, stiffness_t = tangential_ratio_ * stiffness_n;
-  const double repulsion = hertz_ * contact_radius * m.overlap;
   // Velocities are those of half a step ago; the denominators give a collision its restitution to second order in dt.
   const double damping_n = damping_ * std::sqrt(stiffness_n * m.mass);
   const double damping_t = damping_ * std::sqrt(stiffness_t * m.mass);
   const double braked_n = 1 / (1 + 0.25 * dt * damping_n / m.mass);
   const double braked_t = 1 / (1 + 0.25 * 3.5 * dt * damping_t / m.mass);
   const double approach = dot(m.velocity, m.normal);
-  double normal_force = repulsion + braked_n * damping_n * approach - cohesion(m.overlap, scale) - pull;
-  const double pressed = friction_of_total_ ? std::max(normal_force, 0.0) : repulsion;
+  double normal_force = pressing.force + braked_n * damping_n * approach - cohesion(m.overlap, scale) - pull;
+  const double pressed =
+      friction_of_total_ ? std::max(normal_force + friction_reserve_ * pressing.reserve, 0.0) : pressing.load;
 
-  // The spring holds what friction allows of the repulsion. Its energy grows with the overlap: it pushes, too.
+  // The spring holds what friction allows of the load. Where it stiffens with the overlap its energy grows with that:
+  // it pushes, too.
   const Vector sliding = m.velocity - approach * m.normal;
   Vector slip = carried(history.slip, m.normal, m.twist * advance) + advance * sliding;
-  slip = cap(stiffness_t * norm(slip), slip_limit_ * repulsion) * slip;
-  const double slip_normal_force = 0.25 * stiffness_t * dot(slip, slip) / m.overlap;
+  slip = cap(stiffness_t * norm(slip), slip_limit_ * pressing.load) * slip;
+  const double widening = normal_ == Normal::luding ? 0 : 0.25 / m.overlap;
+  const double slip_normal_force = widening * stiffness_t * dot(slip, slip);
   const Vector drag = stiffness_t * slip + damping_t * braked_t * sliding;
   // Its normal force is part of the load that limits friction: two rounds.
   double kept = cap(norm(drag), friction_ * pressed);
@@ -162,8 +194,7 @@ ContactForce Contact::act(const ContactKinematics& m, ContactHistory& history, d
   contact_force.tangential_force = -kept * drag;
   normal_force += kept * kept * slip_normal_force;
   contact_force.force = contact_force.tangential_force - normal_force * m.normal;
-  const double softened = std::min(1.0, history.contact_radius / contact_radius);
-  roll(m, pressed + kept * kept * slip_normal_force, softened, braked_n, dt, advance, history, contact_force);
+  roll(m, pressed + kept * kept * slip_normal_force, contact_radius, braked_n, dt, advance, history, contact_force);
   history.contact_radius = contact_radius;
   lubricate(m, scale, dt, history, contact_force);
   return contact_force;
@@ -182,14 +213,15 @@ void Contact::lubricate(const ContactKinematics& m, double scale, double dt, con
   contact_force.force = contact_force.force + drag - along / std::max(dt * along / m.mass, 1.0) * approach * m.normal;
 }
 
-void Contact::roll(const ContactKinematics& m, double load, double softened, double braked, double dt, double advance,
-                   ContactHistory& history, ContactForce& contact_force) const {
+void Contact::roll(const ContactKinematics& m, double load, double contact_radius, double braked, double dt,
+                   double advance, ContactHistory& history, ContactForce& contact_force) const {
   const double limit = rolling_friction_ * load * m.radius;
   const Vector rolling = m.spin - dot(m.spin, m.normal) * m.normal;
   if (rolling_ == Rolling::spring_dashpot) {
     // Ai et al. 2011: k_r = 2.25 S_n (mu_r R*)^2, dashpot 2 eta sqrt(I_r k_r) with eta 0.3 while the spring holds.
     const double lever = rolling_friction_ * m.radius;
-    const double stiffness_n = normal_stiffness_ * std::sqrt(m.radius * m.overlap);
+    const double softened = std::min(1.0, history.contact_radius / contact_radius);
+    const double stiffness_n = normal_stiffness_ * contact_radius;
     const double stiffness = 2.25 * stiffness_n * lever * lever;
     const Vector turn = softened * carried(history.roll, m.normal, m.twist * advance) + advance * rolling;
     const double kept = cap(stiffness * norm(turn), limit);

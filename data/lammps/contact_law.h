@@ -13,13 +13,15 @@ struct Law {
   double youngs_modulus_pa = 0, poissons_ratio = 0;
   double restitution = 0, friction = 0, rolling_friction = 0;
   std::string rolling;         ///< none, spring_dashpot or constant_torque
-  std::string friction_basis;  ///< elastic or total
+  std::string friction_basis;  ///< elastic, total or net
   double cohesion_n = 0;       ///< constant attraction of grains that overlap
   std::string bridge;          ///< none, polynomial, linear, exponential or capillary
   std::string formation;       ///< film or touch
   double a_n_m2 = 0, b_n_m = 0, c_n = 0, d_c_m = 0, offset_m = 0;
   double liquid_volume_m3 = 0, surface_tension_n_m = 0, contact_angle_rad = 0;
-  double viscosity_pa_s = 0;  ///< of the liquid of a bridge; may be left out
+  double viscosity_pa_s = 0;     ///< of the liquid of a bridge; may be left out
+  std::string normal = "hertz";  ///< hertz, or epa or luding, which need bridge none; may be left out
+  double plasticity_ratio = 0, adhesion_ratio = 0;  ///< of epa and luding
 };
 
 /// What grains meet at a wall.
@@ -47,8 +49,8 @@ std::string read_hinge(const std::vector<std::string>& words, Hinge& hinge);
 struct ContactHistory {
   Vector slip;                ///< tangential displacement [m]
   Vector roll;                ///< relative rotation across the normal [rad]
-  double contact_radius = 0;  ///< sqrt(R* d) at the last step [m]; 0: the bodies did not touch
-  double bridge = 0;          ///< 1 while a liquid bridge lives
+  double contact_radius = 0;  ///< at the last step [m]; 0: the bodies did not touch
+  double bridge = 0;          ///< 1 while a liquid bridge lives; of epa and luding the plastic overlap [m]
 
   static constexpr int size = 8;  ///< numbers
   bool empty() const { return contact_radius == 0 && bridge == 0; }
@@ -90,8 +92,9 @@ class Contact {
 
   /// One step of dt; `advance` is dt, or 0 where time stands still (forces at the beginning of a run).
   ///
-  /// Overlap d > 0: Hertz 4/3 E* sqrt(R*) d^1.5, constant cohesion against it (to which the bridge's force at touch
-  /// passes over within a hundredth of the reference radius), damping 2 sqrt(5/6) beta sqrt(S_n m*),
+  /// Overlap d > 0: Hertz 4/3 E* sqrt(R*) d^1.5 or elasto-plastic adhesion (`press`), constant cohesion against it (to
+  /// which the bridge's force at touch passes over within a hundredth of the reference radius), damping 2 sqrt(5/6)
+  /// beta sqrt(S_n m*),
   /// Mindlin spring 8 G* sqrt(R* d), which pushes along the normal as its energy grows with the overlap, with the
   /// friction limit on spring and damper together, rolling resistance.
   /// Gap: the bridge's attraction, if it lives. It forms at the formation gap and lives until the rupture gap.
@@ -102,20 +105,31 @@ class Contact {
  private:
   void set_elastic(const Law& law, double e, double nu, double restitution);
   void set_friction(double friction);
+  void set_plastic(const Law& law, double share);
   void set_attraction(const Law& law, double share, double shells);
   double size_scale(double effective_radius) const { return size_per_radius_ * effective_radius; }
+  /// Of bodies that overlap: repulsion less what the law of the overlap itself attracts by, the part of it that
+  /// friction feels, and what friction feels besides where it feels the total force [N].
+  struct Press {
+    double contact_radius, force, load, reserve;
+  };
+  Press press(const ContactKinematics& kinematics, double scale, ContactHistory& history) const;
+  bool yields() const { return normal_ != Normal::hertz; }
   double attraction(double overlap, double scale, ContactHistory& history) const;
   double cohesion(double overlap, double scale) const;
   void lubricate(const ContactKinematics& kinematics, double scale, double dt, const ContactHistory& history,
                  ContactForce& contact_force) const;
-  void roll(const ContactKinematics& kinematics, double load, double softened, double braked, double dt, double advance,
-            ContactHistory& history, ContactForce& contact_force) const;
+  void roll(const ContactKinematics& kinematics, double load, double contact_radius, double braked, double dt,
+            double advance, ContactHistory& history, ContactForce& contact_force) const;
 
+  enum class Normal { hertz, epa, luding } normal_ = Normal::hertz;
   enum class Rolling { none, spring_dashpot, constant_torque } rolling_ = Rolling::none;
   enum class Bridge { none, polynomial, exponential, capillary } bridge_ = Bridge::none;
   double size_per_radius_ = 1, hertz_ = 0, normal_stiffness_ = 0, tangential_ratio_ = 0, damping_ = 0;
   double friction_ = 0, slip_limit_ = 0, rolling_friction_ = 0, cohesion_ = 0;
   bool friction_of_total_ = false;
+  double friction_reserve_ = 1;  // share of `Press::reserve` that counts as normal force then
+  double stiffening_ = 1, adhesion_ = 0, least_plastic_ = 0, most_plastic_ = 1;  // k2/k1, kc/k1, p^m/d^m
   double a_ = 0, b_ = 0, c_ = 0, rupture_gap_ = 0, formation_gap_ = 0, touch_excess_ = 0, passage_ = 1;
   double viscosity_ = 0, roughness_ = 0;
 };

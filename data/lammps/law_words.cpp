@@ -44,6 +44,7 @@ class Words {
     for (const auto& one : values_) fault("'" + one.first + "' is not known here");
     return faults_;
   }
+  void fault(const std::string& text) { faults_ += "\n  " + text; }
 
  private:
   bool take(const std::string& name, std::string& text) {
@@ -56,8 +57,6 @@ class Words {
     values_.erase(found);
     return true;
   }
-
-  void fault(const std::string& text) { faults_ += "\n  " + text; }
 
   std::map<std::string, std::string> values_;
   std::string faults_;
@@ -76,9 +75,15 @@ std::string read_law(const std::vector<std::string>& all, Law& law) {
   words.number("friction", law.friction, 0, 10);
   words.number("rolling_friction", law.rolling_friction, 0, 10);
   law.rolling = words.choice("rolling", {"none", "spring_dashpot", "constant_torque"});
-  law.friction_basis = words.choice("friction_basis", {"elastic", "total"});
+  law.friction_basis = words.choice("friction_basis", {"elastic", "total", "net"});
   words.number("cohesion_n", law.cohesion_n, 0, kMost);
   law.bridge = words.choice("bridge", {"none", "polynomial", "linear", "exponential", "capillary"});
+  law.normal = words.has("normal") ? words.choice("normal", {"hertz", "epa", "luding"}) : "hertz";
+  if (law.normal != "hertz") {
+    words.number("plasticity_ratio", law.plasticity_ratio, 0, 0.98);
+    words.number("adhesion_ratio", law.adhesion_ratio, 0, 20);
+    if (law.bridge != "none") words.fault("'normal " + law.normal + "' needs 'bridge none'");
+  }
   if (law.bridge == "capillary") {
     words.number("liquid_volume_m3", law.liquid_volume_m3, 0, 1, false);
     words.number("surface_tension_n_m", law.surface_tension_n_m, 0, kMost);

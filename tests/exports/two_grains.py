@@ -2,9 +2,10 @@
 """Force of two grains against their distance, measured in another program with the deck that was exported for it,
 against the card's law.
 
-usage: two_grains.py PASTEFIT CARD lammps|lammps-tables|liggghts|yade [jkr|dmt|sjkr]
+usage: two_grains.py PASTEFIT CARD lammps|lammps-tables|liggghts|yade [jkr|dmt|sjkr|epa|luding]
 
-With a law of the overlap that sticks, the card's grains stick by that instead of their bridges.
+With a law of the overlap that sticks, the card's grains stick by that instead of their bridges; with elasto-plastic
+adhesion (`epa`, `luding`) they go through all its branches (`elasto_plastic.py`).
 
 The program has to give the card's curve to 1e-6 of its peak: on the way apart, with a bridge that lives until it
 ruptures, and, where the program has memory, on the way back, where a new one forms when the shells meet. LIGGGHTS, whose
@@ -23,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 
+import elasto_plastic
 import engines
 
 TOLERANCE = 1e-6
@@ -49,15 +51,17 @@ def with_law(card, law, strength_pa=3000):
     card = copy.deepcopy(card)
     material = card["material"]
     contact, radius = material["contact"], material["grains"]["radius_m"]
+    of_bridge = ("strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio", "formation_ratio", "cohesion_ratio")
     contact["bridge"] = {key: 0.0 for key in contact["bridge"]} | {"shape": "none", "formation": "film"}
     contact.update(normal=law, cohesion_n=0.0)
     adhesion = strength_pa / (2 * math.pi)
+    if law in elasto_plastic.EXPONENT:
+        return elasto_plastic.of_card(card, law, of_bridge)
     own = {"cohesion_energy_density_pa": 40 * strength_pa} if law == "sjkr" else {"adhesion_pa": adhesion}
     if law == "sjkr":
         contact["cohesion_energy_density_pa"] = 40 * strength_pa
     else:
         contact["surface_energy_j_m2"] = adhesion * radius
-    of_bridge = ("strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio", "formation_ratio", "cohesion_ratio")
     for numbers in (material["parameters"], material["free"]):
         for key in of_bridge:
             numbers.pop(key, None)
@@ -201,6 +205,9 @@ def main(program, card_file, target, law=None):
         fit = fit_of(deck / "material.inc", test) if target == "liggghts" and not law else None
         if target.startswith("lammps"):
             test = of_deck_grains(test, deck / "in.two_grains")
+        if law in elasto_plastic.EXPONENT:
+            path = distances(run.stdout, "path")
+            return 0 if elasto_plastic.judge(test, target, deck, path) else 1
     apart, back = distances(run.stdout, "apart"), distances(run.stdout, "back")
     if len(apart) < 200 or (target.startswith("lammps") and len(back) < 200):
         print(run.stdout[-2000:], run.stderr[-2000:])

@@ -48,7 +48,10 @@ style::Law law_of(const ContactModel& model) {
           bridge.liquid_volume_m3,
           bridge.surface_tension_n_m,
           bridge.contact_angle_rad,
-          bridge.viscosity_pa_s};
+          bridge.viscosity_pa_s,
+          word(model.normal, normal_laws),
+          model.plasticity_ratio,
+          model.adhesion_ratio};
 }
 
 /// A pair that comes together, is pressed, sheared, rolled and twisted, and is torn apart beyond rupture.
@@ -68,7 +71,7 @@ Vec3 of(const style::Vector& v) {
 }
 
 /// Largest difference of a force, and of a moment over the radius, in units of the largest force [1].
-template <class Attraction, class Rolling>
+template <class Attraction, class Rolling, class Normal = Hertz>
 double difference(const PairConstants& pair, const style::Contact& contact, double small, double large) {
   const double radius = small * large / (small + large), mass = 0.003;
   ContactHistory<double> history{};
@@ -79,7 +82,7 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
         of(motion.normal()),    motion.overlap(),  of(motion.velocity()), of(motion.spin()), 7.0,
         std::min(small, large), std::sqrt(radius), std::sqrt(mass),       1 / mass,          0.0};
     const auto contact_force =
-        act<Hertz, Attraction, Rolling, Attraction::present>(pair, kinematics, history, kStep, Energies::none);
+        act<Normal, Attraction, Rolling, Attraction::present>(pair, kinematics, history, kStep, Energies::none);
     const Vec3 force = contact_force.tangential_force - contact_force.normal_force * kinematics.normal;
     const auto theirs = contact.act({motion.normal(), motion.overlap(), motion.velocity(), motion.spin(), 7.0, radius,
                                      mass, std::min(small, large)},
@@ -87,7 +90,7 @@ double difference(const PairConstants& pair, const style::Contact& contact, doub
     largest = std::max(largest, norm(force));
     worst = std::max(
         {worst, norm(force - of(theirs.force)), norm(contact_force.moment - of(theirs.moment)) / kGrainRadius});
-    CHECK(history.bridge == other.bridge);
+    CHECK(history.bond == Approx(other.bridge).epsilon(1e-9).margin(1e-12));
   }
   return worst / largest;
 }
@@ -116,6 +119,27 @@ void compare(BridgeShape shape) {
   }
 }
 
+/// Elasto-plastic grains, on grains and walls.
+template <class Normal>
+void compare_plastic() {
+  for (const auto basis : {FrictionBasis::elastic, FrictionBasis::total, FrictionBasis::net})
+    for (const double adhesion : {0.0, 1.0, 6.0}) {
+      ContactModel model = paste(BridgeShape::none);
+      model.normal = Normal::choice;
+      model.plasticity_ratio = 0.8;
+      model.adhesion_ratio = adhesion;
+      model.friction_basis = basis;
+      model.rolling = RollingModel::spring_dashpot;
+      const WallContact wall{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
+      const style::WallLaw same{1e8, 0.2, 0.5, 0.4, 0.3, 0.7};
+      const auto check = [](const PairConstants& pair, const style::Contact& contact) {
+        CHECK(difference<NoAttraction, SpringDashpotRolling, Normal>(pair, contact, 0.006, 0.010) < 1e-6);
+      };
+      check(grain_pair(model, kGrainRadius), style::Contact(law_of(model)));
+      check(wall_pair(model, wall, kGrainRadius), style::Contact(law_of(model), same));
+    }
+}
+
 std::vector<std::string> words(const std::string& text) {
   std::vector<std::string> out;
   std::string word;
@@ -141,6 +165,11 @@ TEST_CASE("the law that is exported to LAMMPS acts as the engine's, bridge after
   compare<CapillaryAttraction>(BridgeShape::capillary);
 }
 
+TEST_CASE("the law that is exported to LAMMPS acts as the engine's for grains that yield and adhere") {
+  compare_plastic<Epa>();
+  compare_plastic<Luding>();
+}
+
 TEST_CASE("the style for LAMMPS names every fault of its words") {
   style::Law law;
   CHECK(style::read_law(words(kPlain), law).empty());
@@ -152,6 +181,19 @@ TEST_CASE("the style for LAMMPS names every fault of its words") {
        {"'reference_radius_m 0' is not in its range", "'youngs_modulus_pa 2e6x'", "'rolling_friction' is missing",
         "'rolling some': one of none", "'d_c_m 0.004'", "'formation' is missing", "'fricton' is not known here"})
     CHECK_THAT(faults, Catch::Contains(fault));
+}
+
+TEST_CASE("the style for LAMMPS takes elasto-plastic adhesion without a bridge only") {
+  style::Law law;
+  CHECK(style::read_law(words(kPlain + " normal epa plasticity_ratio 0.85 adhesion_ratio 1"), law).empty());
+  CHECK(law.normal == "epa");
+  CHECK_THAT(style::read_law(words(kPlain + " normal epa plasticity_ratio 1 adhesion_ratio 1"), law),
+             Catch::Contains("'plasticity_ratio 1' is not in its range"));
+  CHECK_THAT(style::read_law(words(kPlain + " plasticity_ratio 0.5"), law), Catch::Contains("is not known here"));
+  std::string bridged = kPlain;
+  bridged.replace(bridged.find("bridge none"), 11, "bridge linear c_n 1 d_c_m -0.004 formation touch");
+  CHECK_THAT(style::read_law(words(bridged + " normal luding plasticity_ratio 0.5 adhesion_ratio 1"), law),
+             Catch::Contains("needs 'bridge none'"));
 }
 
 TEST_CASE("the deck for LAMMPS speaks the words of the style that goes with it") {
