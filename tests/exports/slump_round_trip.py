@@ -38,7 +38,8 @@ def variant(card, factor, representable, both_steps):
         bridge[key] *= factor
     if contact["cohesion_n"] is not None:
         contact["cohesion_n"] *= factor
-    material["parameters"]["strength_pa"] *= factor
+    if "strength_pa" in material["parameters"]:
+        material["parameters"]["strength_pa"] *= factor
     if representable:
         bridge["offset_m"] = -0.5 * bridge["d_c_m"]
         material["parameters"]["formation_ratio"] = 1
