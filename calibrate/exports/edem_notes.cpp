@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "calibrate/base/format.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/parameter_table.h"
@@ -57,6 +58,47 @@ std::string jkr_instructions(const ExportScene& scene) {
          rolling_in_edem(contact) + walls_in_edem(scene, contact.surface_energy_j_m2) + kEdemEnd;
 }
 
+/// EEPA's own numbers of two grains, or of a wall with a share of their attraction. A pull-off is added to the force.
+std::string eepa_numbers(const ContactModel& contact, double energy, double pull_off, double share) {
+  return format(
+      "constant pull-off force %.6g N of attraction, surface energy %.6g J/m2, contact plasticity ratio %.6g,\n"
+      "   slope exponent 1.5, tensile exponent 1.5, tangential stiffness multiplier 1",
+      share * pull_off, share * energy, contact.plasticity_ratio);
+}
+
+std::string eepa_instructions(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const double energy = eepa_surface_energy(scene), pull_off = cohesion_n(contact, scene.mean_pair());
+  std::string out =
+      "\nHow to use this in EDEM\n1. Base model Edinburgh Elasto-Plastic Adhesion (EEPA): " + grains_in_edem(contact) +
+      ";\n   " + eepa_numbers(contact, energy, pull_off, 1) + ".\n" + rolling_in_edem(contact) +
+      walls_in_edem(scene, energy);
+  for (const auto& [name, wall] : walls_of(scene.test))
+    out += "   " + name + ": " + eepa_numbers(contact, energy, pull_off, wall.cohesion_factor) + ".\n";
+  return out +
+         "4. Let two grains press on each other and part before you trust the signs: some versions take the pull-off\n"
+         "   force as a negative number. The tangential stiffness is the card's, 8 G* sqrt(R* d), with the multiplier "
+         "1\n"
+         "   if the version's formula is that.\n" +
+         kEdemEnd;
+}
+
+Export eepa_notes(const ExportScene& scene) {
+  const double radius = scene.radius_m(), overlap = matched_overlap_ratio(scene) * 0.5 * radius;
+  return {
+      law_files(scene, {{"edem.txt", laws_in_words(scene) + eepa_instructions(scene)}}),
+      {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
+       format(
+           "The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact from a "
+           "surface energy, 1.5 pi gamma a with a the radius of the patch that was flattened, and lays the adhesion "
+           "branch through it; the card's pull-off is a share of the load that pressed the contact. The energy given "
+           "is such that both are the same for two mean grains once pressed %.3g mm into each other. A contact that "
+           "was pressed half as deep holds twice the card's pull-off in EDEM, but at most half of k2 p^m; a deeper "
+           "one less.",
+           1e3 * overlap),
+       "Not run in EDEM. PFC's eepa and LIGGGHTS's edinburgh without fixKc have the same pull-off."}};
+}
+
 /// Surface energy of JKR that attracts two mean grains at touch by this force, 8/3 pi gamma R*, R* = R/2.
 double jkr_energy_of_touch(double force, double radius) {
   return 3 * force / (4 * std::numbers::pi * radius);
@@ -88,9 +130,10 @@ std::string bridge_instructions(const ExportScene& scene) {
 Result<Export> export_edem_notes(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const bool sticks = contact.normal == NormalLaw::jkr;
-  KnownLaws known{"EDEM", {NormalLaw::hertz, NormalLaw::jkr}, kAllRolling};
+  KnownLaws known{"EDEM", {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::epa}, kAllRolling};
   if (sticks) known.attraction = {BridgeShape::none};  // a plug-in takes the place of EDEM's own JKR
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
+  if (contact.normal == NormalLaw::epa) return eepa_notes(scene);
   if (sticks)
     return Export{law_files(scene, {{"edem.txt", laws_in_words(scene) + jkr_instructions(scene)}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "

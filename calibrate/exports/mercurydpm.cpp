@@ -1,6 +1,11 @@
+#include <cmath>
+
+#include "calibrate/base/format.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/parameter_table.h"
+#include "core/laws/constants.h"
 
 namespace pastefit {
 
@@ -19,11 +24,47 @@ How to use this in MercuryDPM
 Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
 )";
 
+/// Numbers of LinearPlasticViscoelasticNormalSpecies for two mean grains. Its unloading stiffness grows in proportion
+/// to the deepest overlap, from k1 to its largest value at delta*; here delta* is twice the matched overlap, where it
+/// is the card's.
+std::string plastic_instructions(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const double effective = 0.5 * scene.radius_m(), ratio = matched_overlap_ratio(scene);
+  const bool linear = contact.normal == NormalLaw::luding;
+  const double k1 = grain_pair(contact, scene.radius_m()).hertz * effective * (linear ? 1 : std::sqrt(ratio));
+  const double k2 = k1 / (1 - contact.plasticity_ratio), largest = 2 * k2 - k1;
+  const double depth = 2 * ratio * effective * (largest - k1) / largest / (2 * effective);
+  return format(R"(
+How to use this in MercuryDPM
+1. Species: LinearPlasticViscoelasticFrictionSpecies. setPlasticParameters takes, of two mean grains,
+     loading stiffness                %.9g N/m
+     largest unloading stiffness      %.9g N/m
+     cohesion stiffness               %.9g N/m
+     largest penetration depth        %.9g of 2 R*
+   It is the card's law where a contact was pressed %.4g mm deep; one that was pressed less is less plastic there, one
+   that was pressed more than twice as deep is elastic.
+2. Constant pull-off force (cohesion_n), friction, rolling friction and walls from the table above; torsion 0.
+3. Grains: grains.csv, if there is one, is a filled mould at rest.
+Nothing of this has been run in MercuryDPM: it is no package of Debian 12.
+)",
+                k1, largest, contact.adhesion_ratio * k1, depth, 1e3 * ratio * effective);
+}
+
+Export plastic_export(const ExportScene& scene) {
+  return {
+      law_files(scene, {{"mercurydpm.txt", laws_in_words(scene) + plastic_instructions(scene)}}),
+      {"MercuryDPM's stiffness of unloading grows with the deepest overlap, the card's is constant: they are the same "
+       "at "
+       "one overlap only. Its stiffness is that of all pairs, the card's grows with R*.",
+       "Its friction is a share of the size of the normal force, without the attraction.", "Not run in MercuryDPM."}};
+}
+
 }  // namespace
 
 Result<Export> export_mercurydpm(const ExportScene& scene) {
-  const KnownLaws known{"MercuryDPM", {NormalLaw::hertz}, kAllRolling};
+  const KnownLaws known{"MercuryDPM", {NormalLaw::hertz, NormalLaw::epa, NormalLaw::luding}, kAllRolling};
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
+  if (yields(scene.contact().normal)) return plastic_export(scene);
   return Export{
       law_files(scene, {{"mercurydpm.txt", laws_in_words(scene) + kMercuryInstructions}}),
       {"MercuryDPM has no such bridge as it comes; an adhesive species has to be derived.", "Not run in MercuryDPM."}};

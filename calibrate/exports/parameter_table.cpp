@@ -1,6 +1,7 @@
 #include "calibrate/exports/parameter_table.h"
 
 #include "calibrate/base/format.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
@@ -75,6 +76,10 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
     rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
   if (contact.cohesion_energy_density_pa > 0)
     rows.push_back({"cohesion_energy_density_pa", contact.cohesion_energy_density_pa, "of the grains, over 2 pi R* d"});
+  if (yields(contact.normal))
+    rows.insert(rows.end(), {{"plasticity_ratio", contact.plasticity_ratio, "l = 1 - k1/k2"},
+                             {"adhesion_ratio", contact.adhesion_ratio, "kc/k1"},
+                             {"cohesion_n", cohesion_n(contact, scene.mean_pair()), "constant pull-off"}});
   if (contact.bridge.shape != BridgeShape::none) add_bridge(rows, contact, radius);
   if (const auto* slump = scene.slump())
     rows.insert(rows.end(), {{"mould_base_radius_m", slump->mould.base_radius_m, "apparatus"},
@@ -117,6 +122,26 @@ std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFi
   return files;
 }
 
+namespace {
+
+/// Elasto-plastic adhesion, core/laws/epa.h.
+std::string yielding_in_words(NormalLaw normal) {
+  const bool linear = normal == NormalLaw::luding;
+  return std::string(
+             "  d > 0, normal      F = k1 d^m on loading, k2 (d^m - l D^m) on un- and reloading, -kc d^m on the\n"
+             "                     adhesion branch, less s^2 cohesion_n; besides 2 sqrt(5/6) beta sqrt(S_n m*) v_n\n") +
+         (linear ? "                     m = 1, k1 = 4/3 E* R*, S_n = k1"
+                 : "                     m = 3/2, k1 = 4/3 E* sqrt(R*), S_n = 2 E* sqrt(R* d)") +
+         R"(, k2 = k1/(1 - l), D the deepest overlap of the
+                     contact, which shrinks on the adhesion branch: D^m = d^m (1 + (1 - l) kc/k1)/l
+                     beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
+  d > 0, tangential  spring S_t = 4 G*/E* S_n on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu times
+                     F + s^2 cohesion_n + kc d^m
+)";
+}
+
+}  // namespace
+
 std::string laws_in_words(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   std::string out =
@@ -125,7 +150,8 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
 
 )";
   out +=
-      contact.normal == NormalLaw::jkr
+      yields(contact.normal) ? yielding_in_words(contact.normal)
+      : contact.normal == NormalLaw::jkr
           ? R"(  contact, normal      4 E* a^3/(3 R*) - 4 sqrt(pi gamma E*) a^1.5, d = a^2/R* - sqrt(4 pi gamma a/E*), once the
                        grains have touched, until d < -3 a_t^2/R*, a_t^3 = pi gamma R*^2/(4 E*); gamma the surface
                        energy; besides 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n (the latter for d > 0)

@@ -52,6 +52,17 @@ TEST_CASE("a law of grains that stick goes to the targets that have it or one of
         {"liggghts", "cohesion sjkr2"},
         {"yade", "SURFACE_ENERGY = "}}},
       {"dmt", {{"lammps-tables", " dmt 2000000 "}, {"liggghts", "cohesion sjkr2"}, {"yade", "SURFACE_ENERGY = 8\n"}}},
+      {"epa",
+       {{"lammps", "normal epa"},
+        {"liggghts", "model edinburgh tangential tan_luding"},
+        {"mercurydpm", "setPlasticParameters"},
+        {"edem-notes", "contact plasticity ratio"},
+        {"csv", "plasticity_ratio,"}}},
+      {"luding",
+       {{"lammps", "normal luding"},
+        {"liggghts", "model edinburgh tangential tan_luding"},
+        {"mercurydpm", "setPlasticParameters"},
+        {"csv", "plasticity_ratio,"}}},
       {"sjkr", {{"liggghts", "cohesionEnergyDensity peratomtypepair 3 25000 0 0 "}, {"yade", "SURFACE_ENERGY = "}}}};
   for (const auto& [word, law] : normal_laws) {
     if (law == NormalLaw::hertz) continue;
