@@ -20,6 +20,7 @@ import tempfile
 EXPONENT = {"epa": 1.5, "luding": 1.0}
 TOLERANCE = 1e-6
 PLASTICITY, ADHESION, PULL_OFF_PA = 0.85, 1.0, 150.0
+OF_BRIDGE = ("strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio", "formation_ratio", "cohesion_ratio")
 TURNS = (0.0505, 0.0305, 0.0605, 0.0055, 0.0455, 0.0805, -0.0055, 0.0205, -0.0095)  # overlaps over the radius
 
 
@@ -49,7 +50,7 @@ def loading_stiffness(modulus, poisson, radius, exponent):
     return 4 / 3 * modulus / (2 * (1 - poisson ** 2)) * (radius / 2) ** (2 - exponent)
 
 
-def of_card(card, law, of_bridge):
+def of_card(card, law):
     """The card with this law in place of its bridges."""
     material = card["material"]
     contact, radius = material["contact"], material["grains"]["radius_m"]
@@ -57,10 +58,26 @@ def of_card(card, law, of_bridge):
     contact.update(normal=law, cohesion_n=PULL_OFF_PA * radius ** 2, **own)
     own["pull_off_pa"] = PULL_OFF_PA
     for numbers in (material["parameters"], material["free"]):
-        for key in of_bridge:
+        for key in OF_BRIDGE:
             numbers.pop(key, None)
     material["parameters"].update(own)
     material["free"] = {"adhesion_ratio": {"lower": 0.5, "upper": 2.0, "scale": "log"}}
+    return card
+
+
+def slump_card(card, law, adhesion, radius):
+    """The card's slump test with soft grains of this law and radius, 2280 kg/m3 together, on a smooth table."""
+    material = card["material"]
+    contact, table = material["contact"], card["tests"][0]["test"]["table_wall"]
+    contact["bridge"] = {key: 0.0 for key in contact["bridge"]} | {"shape": "none", "formation": "film"}
+    of_card(card, law)
+    soft = {"youngs_modulus_pa": 1e6, "friction": 0.156, "rolling_friction": 0.01}
+    contact.update(soft, adhesion_ratio=adhesion, cohesion_n=0.0)
+    material["parameters"].update(soft, adhesion_ratio=adhesion, pull_off_pa=0.0, table_friction=0.1)
+    table["friction"] = 0.1
+    material["grain_density_kg_m3"] *= 2280 / material["bulk_density_kg_m3"]
+    material["bulk_density_kg_m3"] = 2280.0
+    material["grains"].update(radius_m=radius, smallest_m=radius, largest_m=radius)
     return card
 
 

@@ -4,11 +4,12 @@ compares.
 
 usage: slump_round_trip.py PASTEFIT CARD... [--to lammps|lammps-tables|liggghts|yade] [--strengths 0.3,1,2,4,10]
                            [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--both-steps]
-                           [--representable]
+                           [--representable] [--law epa|luding] [--adhesion-ratio X]
 
 For each factor of --strengths a card's attraction is multiplied by it, so that a family from weak to strong comes out.
 Step 1 only, unless --both-steps, which gives a card without a drop plate the usual one. --representable takes away what lammps-tables lacks: memory (bridges form where they rupture) and friction of the total
-force.
+force. With --law a card's grains are soft, yield and adhere instead (`elasto_plastic.slump_card`), with the radius of
+--radius-mm.
 
 Exit status 1 if some reading differs by more than noise does once in a thousand comparisons (t-interval for the
 difference of two means, pooled variance; spreads below a millimetre count as one); 77 if the program is not installed.
@@ -23,6 +24,7 @@ import subprocess
 import tempfile
 import time
 
+import elasto_plastic
 import engines
 
 # two-sided quantile of Student's t at 0.001 for 2 (n - 1) degrees of freedom
@@ -111,6 +113,8 @@ def main():
     parser.add_argument("--time-step", type=float, help="of pastefit [s]; without it the default")
     parser.add_argument("--both-steps", action="store_true")
     parser.add_argument("--representable", action="store_true")
+    parser.add_argument("--law", choices=elasto_plastic.EXPONENT)
+    parser.add_argument("--adhesion-ratio", type=float, default=1.0)
     options = parser.parse_args()
     worst = 0
     print(f"| card, c in N | reading | pastefit mm | {options.to} mm | difference mm | of it | s a test |")
@@ -119,16 +123,18 @@ def main():
         folder = pathlib.Path(name)
         for source in options.cards:
             taken = source
-            if options.radius_mm:
+            if options.radius_mm and not options.law:
                 taken = folder / "rescaled.json"
                 subprocess.run([options.program, "rescale", source, "--radius", str(options.radius_mm), "--packings", "0",
                                 "--out", taken], check=True, stdout=subprocess.DEVNULL)
             card = json.loads(taken.read_text())
+            if options.law:
+                elasto_plastic.slump_card(card, options.law, options.adhesion_ratio, 1e-3 * (options.radius_mm or 8))
             for factor in map(float, options.strengths.split(",")):
                 changed = variant(card, factor, options.representable, options.both_steps)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
-                title = f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"
+                title = options.law or f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"
                 worst = max(worst, compare(options, file, title, folder))
     allowed = BAND[options.packings]
     print(f"\nlargest difference: {worst:.1f} standard errors; noise alone stays below {allowed} in 999 of 1000 comparisons")

@@ -51,19 +51,18 @@ def with_law(card, law, strength_pa=3000):
     card = copy.deepcopy(card)
     material = card["material"]
     contact, radius = material["contact"], material["grains"]["radius_m"]
-    of_bridge = ("strength_pa", "rupture_force_ratio", "curvature", "rupture_gap_ratio", "formation_ratio", "cohesion_ratio")
     contact["bridge"] = {key: 0.0 for key in contact["bridge"]} | {"shape": "none", "formation": "film"}
     contact.update(normal=law, cohesion_n=0.0)
     adhesion = strength_pa / (2 * math.pi)
     if law in elasto_plastic.EXPONENT:
-        return elasto_plastic.of_card(card, law, of_bridge)
+        return elasto_plastic.of_card(card, law)
     own = {"cohesion_energy_density_pa": 40 * strength_pa} if law == "sjkr" else {"adhesion_pa": adhesion}
     if law == "sjkr":
         contact["cohesion_energy_density_pa"] = 40 * strength_pa
     else:
         contact["surface_energy_j_m2"] = adhesion * radius
     for numbers in (material["parameters"], material["free"]):
-        for key in of_bridge:
+        for key in elasto_plastic.OF_BRIDGE:
             numbers.pop(key, None)
     material["parameters"].update(own)
     material["free"] = {key: {"lower": value / 2, "upper": 2 * value, "scale": "log"} for key, value in own.items()}
