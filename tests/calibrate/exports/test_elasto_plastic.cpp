@@ -73,6 +73,22 @@ TEST_CASE("a card of linear springs goes to LIGGGHTS as its edinburgh model with
   CHECK(pull[2] == Approx(-0.005));
 }
 
+TEST_CASE(
+    "LIGGGHTS's tangential spring is the card's: of epa at every overlap, of luding at a ninth of the matched one") {
+  for (const auto law : {NormalLaw::epa, NormalLaw::luding}) {
+    const auto card = plastic(law);
+    const Edinburgh edinburgh(card);
+    const std::string material = file_of(export_liggghts(card).value(), "material.inc");
+    const PairConstants pair = grain_pair(card.contact(), card.radius_m());
+    const double effective = 0.5 * card.radius_m(), overlap = edinburgh.overlap_ratio * effective / 9;
+    const double card_stiffness = pair.tangential_ratio * pair.normal_stiffness *
+                                  (law == NormalLaw::luding ? 2.0 / 3 * effective : std::sqrt(effective * overlap));
+    const double deck_stiffness = property_of(material, "coeffFrictionStiffness", 2)[0] * pair.normal_stiffness *
+                                  edinburgh.modulus_share * std::sqrt(effective * overlap);
+    CHECK(deck_stiffness == Approx(card_stiffness).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("friction of the net force goes to LIGGGHTS as its own, of the total force as Luding's") {
   const auto words = [](FrictionBasis basis) {
     return file_of(export_liggghts(plastic(NormalLaw::luding, basis)).value(), "material.inc");
