@@ -1,6 +1,8 @@
 #include "calibrate/report/reservations.h"
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
@@ -51,6 +53,19 @@ void add_implausible(const Card& card, std::vector<std::string>& out) {
     }
 }
 
+/// What has no strength of its own in Pa was calibrated at one pressure.
+void add_pressure(const Card& card, std::vector<std::string>& out) {
+  const ContactModel& contact = card.material.contact;
+  const bool yields = contact.normal == NormalLaw::epa || contact.normal == NormalLaw::luding;
+  if (!yields || contact.cohesion_n.value_or(0) > 0) return;
+  double largest_pa = 0;
+  for (const CardTest& test : card.tests)
+    largest_pa = std::max(largest_pa, conditions_of(test.test).value("largest_pressure_pa", 0.0));
+  out.push_back("the adhesion of this law grows with the pressure: the card holds near that of its tests" +
+                (largest_pa > 0 ? ", at most " + plain(1e-3 * largest_pa) + " kPa" : "") +
+                "; a thin layer of paste is stronger than it says");
+}
+
 }  // namespace
 
 std::vector<std::string> reservations_on(const Card& card) {
@@ -61,6 +76,7 @@ std::vector<std::string> reservations_on(const Card& card) {
   for (const CardTest& test : card.tests) add_marginal_readings(test, out);
   add_bounds(card, out);
   add_implausible(card, out);
+  add_pressure(card, out);
   if (card.confirmation.packings.size() == 1) out.push_back("one packing, error unknown");
   return out;
 }

@@ -11,7 +11,6 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "core/apparatus/reading_kind.h"
@@ -224,29 +223,23 @@ struct ChosenLaws {
   std::string why;
 };
 
-/// Width of the heap over that of the cone of its height; nothing where not both are measured.
-std::optional<double> share_of_cone(const SlumpTest& test, std::span<const Measurement> measured) {
-  const auto *height = find_measurement(measured, "step1.height_mm"),
-             *spread = find_measurement(measured, "step1.spread_mm");
-  if (!height || !spread || !(height->value > 0)) return std::nullopt;
-  return spread->value / cone_width_mm(test, height->value);
-}
-
-/// The laws that the sheet names, or those that its target starts from. Where the sheet names none, readings that only
-/// a bridge meets are left to the bridge, if the target runs it: times of the flow, which ask for a viscosity, and
-/// heaps nearly as wide as a cone (tests/results/laws.md).
+/// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
+/// both, heaps that keep more than half of their height get elasto-plastic adhesion: those of a bridge shear off.
+/// Others get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed
+/// flows, because only a bridge has a viscosity.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
-  constexpr double widest_of_epa = 0.9;
-  const auto bridge = laws_for(sheet.target, "bridge");
-  const ChosenLaws own{named, std::string(named.why)};
-  if (!sheet.law.empty() || named.law == "bridge" || !bridge) return own;
+  constexpr double stands = 0.5;
+  const auto bridge = laws_for(sheet.target, "bridge"), epa = laws_for(sheet.target, "epa");
+  if (!sheet.law.empty() || !bridge || !epa) return {named, std::string(named.why)};
   if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
     return {*bridge, "The flow is timed, and of the laws only a bridge has a viscosity"};
-  if (const auto share = share_of_cone(test, measured); share && *share > widest_of_epa)
-    return {*bridge, "The heap is " + shown(rounded(*share, 2)) +
-                         " of a cone's width, of which heaps of elasto-plastic adhesion reach 0.9"};
-  return own;
+  const auto* height = find_measurement(measured, "step1.height_mm");
+  if (height && height->value > 1e3 * stands * test.mould.height_m)
+    return {*epa,
+            "More than half of the height is left: heaps of a bridge shear off there, heaps of elasto-plastic "
+            "adhesion stand"};
+  return {*bridge, std::string(bridge->why)};
 }
 
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one

@@ -58,17 +58,17 @@ constexpr std::array<StartingParameter, 3> of_sjkr{{
 }};
 
 constexpr std::array<StartingLaws, 4> known_laws{{
-    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which heaps stand at every slump"},
     {"bridge", "hertz", "polynomial", of_bridge, "the polynomial liquid bridge of Platzer & Fimbinger (2022)"},
+    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which heaps stand at every slump"},
     {"jkr", "jkr", "none", of_jkr, "JKR, grains that stick where they touch"},
     {"sjkr", "sjkr", "none", of_sjkr, "LIGGGHTS' simplified JKR"},
 }};
 
 constexpr std::array<TargetLaws, 7> known_targets{{
+    {"lammps", "lammps", "bridge", "spring_dashpot", "total",
+     "LAMMPS runs every law of these with the style that the export brings"},
     {"lammps", "lammps", "epa", "spring_dashpot", "elastic",
      "LAMMPS runs elasto-plastic adhesion with the style that the export brings"},
-    {"lammps", "lammps", "bridge", "spring_dashpot", "total",
-     "LAMMPS runs the bridge with the style that the export brings"},
     {"liggghts", "liggghts", "epa", "spring_dashpot", "elastic", "LIGGGHTS has elasto-plastic adhesion as edinburgh"},
     {"liggghts", "liggghts", "sjkr", "spring_dashpot", "elastic", "LIGGGHTS has SJKR, and no polynomial bridge"},
     {"yade", "yade", "bridge", "spring_dashpot", "elastic",

@@ -114,11 +114,13 @@ class New(Desk):
         self.assertFalse((self.folder / "other").exists())
 
     def test_the_target_has_its_own_law(self):
-        laws = {"lammps": ("hertz", "polynomial", "strength_pa"), "liggghts": ("sjkr", "none", "cohesion_energy_density_pa"),
-                "yade": ("hertz", "polynomial", "strength_pa"), "edem": ("jkr", "none", "adhesion_pa")}
+        epa, bridge = ("epa", "none", "adhesion_ratio"), ("hertz", "polynomial", "strength_pa")
+        laws = {("lammps",): bridge, ("lammps", "--law", "epa"): epa, ("liggghts",): epa,
+                ("liggghts", "--law", "sjkr"): ("sjkr", "none", "cohesion_energy_density_pa"), ("yade",): bridge, ("edem",): epa,
+                ("edem", "--law", "jkr"): ("jkr", "none", "adhesion_pa")}
         for target, (normal, attraction, strength) in laws.items():
             with self.subTest(target):
-                _, study, said = self.files(*ABRAMS, "--for", target, "--force")
+                _, study, said = self.files(*ABRAMS, "--for", *target, "--force")
                 self.assertEqual((study["contact"]["normal"], study["contact"]["attraction"]), (normal, attraction))
                 self.assertIn("free", study["parameters"][strength])
                 export = re.search(r"export \S+ --to (\S+)", said)[1]
@@ -126,9 +128,29 @@ class New(Desk):
                 self.assertEqual(run("simulate", self.out / "study.json", "--set", "grains.largest_mm=12").returncode, 0)
                 (self.folder / "lab.json").write_text(run("template", "lab").stdout)
                 template = self.folder / "study.json"
-                template.write_text(run("template", "study", "--for", target).stdout)
+                template.write_text(run("template", "study", "--for", *target).stdout)
                 self.assertIn(f'"normal":"{normal}"', template.read_text().replace(" ", ""))
                 self.assertEqual(run("simulate", template, "--set", "grains.largest_mm=12").returncode, 0)
+
+    def test_the_sheet_chooses_the_law_unless_one_is_named(self):
+        def normal_of(*options):
+            _, study, _ = self.files("--mould", "abrams", "--density", "2300", *options, "--force")
+            return study["contact"]["normal"], (self.out / "study.json").read_text().splitlines()[0]
+
+        self.assertEqual(normal_of("--slump", "100", "--spread", "270")[0], "epa")
+        self.assertEqual(normal_of("--slump", "100")[0], "epa")
+        stiff, why = normal_of("--height", "151")
+        self.assertEqual(stiff, "epa")
+        self.assertIn("More than half of the height is left", why)
+        self.assertEqual(normal_of("--height", "149", "--spread", "310")[0], "hertz")
+        self.assertEqual(normal_of("--spread", "310")[0], "hertz")
+        timed, why = normal_of("--slump", "240", "--spread", "500", "--reading", "step1.t500_s=3")
+        self.assertEqual(timed, "hertz")
+        self.assertIn("only a bridge has a viscosity", why)
+        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--law", "epa")[0], "epa")
+        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "epa")
+        self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")
+        self.fails(run("new", self.folder / "other", *ABRAMS, "--law", "ebridge"), 2, "one of bridge, epa, jkr, sjkr")
 
     def test_every_fault_is_named_and_nothing_is_written(self):
         self.fails(run("new", self.out, stdin=subprocess.DEVNULL), 2, "--mould: is missing", "--density: is missing",

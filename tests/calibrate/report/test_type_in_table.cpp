@@ -148,3 +148,15 @@ TEST_CASE("the readings of a single packing have no error") {
   CHECK_THAT(text_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("bias +2 (one packing, error"));
   CHECK_FALSE(to_json(card).at("tests")[0].at("observables").at("step1.height_mm").contains("standard_error"));
 }
+
+TEST_CASE("a card whose adhesion grows with the pressure says near which pressure it holds") {
+  Card card = without_reservations();
+  ContactModel& contact = card.material.contact;
+  contact.normal = NormalLaw::epa;
+  contact.bridge = {};
+  contact.cohesion_n = 0;
+  REQUIRE(reservations_on(card).size() == 1);
+  CHECK_THAT(reservations_on(card)[0], Catch::Contains("grows with the pressure") && Catch::Contains("6.91 kPa"));
+  contact.cohesion_n = 0.05;
+  CHECK(reservations_on(card).empty());
+}

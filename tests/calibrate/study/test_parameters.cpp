@@ -263,24 +263,33 @@ TEST_CASE("a parameter belongs to the laws that name it, and to every test if no
   };
   using Names = std::set<std::string_view>;
   const std::string_view k = "cohesion_energy_density_pa";
-  CHECK(missing() == Names{"adhesion_pa", k});
+  const Names of_yielding{"plasticity_ratio", "adhesion_ratio", "pull_off_pa"};
+  const auto with_these = [](Names names, const Names& others) {
+    names.insert(others.begin(), others.end());
+    return names;
+  };
+  CHECK(missing() == with_these({"adhesion_pa", k}, of_yielding));
   laws.bridge.formation = BridgeFormation::touch;
-  CHECK(missing() == Names{"adhesion_pa", k, "formation_ratio"});
+  CHECK(missing() == with_these({"adhesion_pa", k, "formation_ratio"}, of_yielding));
   laws.bridge.formation = BridgeFormation::film;
   laws.bridge.shape = BridgeShape::exponential;
-  CHECK(missing() == Names{"adhesion_pa", k, "rupture_force_ratio", "curvature"});
+  CHECK(missing() == with_these({"adhesion_pa", k, "rupture_force_ratio", "curvature"}, of_yielding));
   laws.bridge.shape = BridgeShape::none;
   const Names of_attractions{"strength_pa",       "rupture_force_ratio", "curvature",     "formation_ratio",
                              "rupture_gap_ratio", "cohesion_ratio",      "viscosity_pa_s"};
   for (const NormalLaw law : {NormalLaw::jkr, NormalLaw::dmt, NormalLaw::sjkr}) {
     laws.normal = law;
-    Names missed = of_attractions;
+    Names missed = with_these(of_attractions, of_yielding);
     missed.insert(law == NormalLaw::sjkr ? "adhesion_pa" : k);
     CHECK(missing() == missed);
   }
+  for (const NormalLaw law : {NormalLaw::epa, NormalLaw::luding}) {
+    laws.normal = law;
+    CHECK(missing() == with_these(of_attractions, {"adhesion_pa", k}));
+  }
   laws.normal = NormalLaw::hertz;
   laws.rolling = RollingModel::none;
-  Names dry = of_attractions;
+  Names dry = with_these(of_attractions, of_yielding);
   dry.insert({"adhesion_pa", k, "rolling_friction", "mould_rolling_friction", "table_rolling_friction",
               "table_cohesion_factor", "mould_cohesion_factor"});
   CHECK(missing() == dry);
