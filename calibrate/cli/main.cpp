@@ -15,6 +15,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
+#include "calibrate/store/kernels_variable.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"
 
@@ -28,12 +29,12 @@ int report(const Faults& faults, int status) {
 
 namespace {
 
-/// Which contact kernels this processor runs.
+/// Which contact kernels runs take.
 std::string kernels_note() {
   const std::string_view set = kernels_of_this_processor().instruction_set;
   const bool plain = set == sse2::kernels.instruction_set;
   return "contact kernels: " + std::string(set) +
-         (plain ? " (this processor lacks AVX2: slower, and other last bits than with AVX2 or AVX-512)" : "");
+         (plain ? " (slower than AVX2 and AVX-512, and with other last bits)" : "");
 }
 
 /// The options among these words that the verb does not have. CLI11 would name those first that are required.
@@ -60,6 +61,7 @@ struct WrappedHelp : CLI::Formatter {
 };
 
 int run(int argc, char** argv) {
+  if (const Faults faults = obey_kernels_variable(); !faults.empty()) return report(faults);
   CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
   program.formatter(std::make_shared<WrappedHelp>());
   program.set_version_flag("--version", "pastefit " + program_version() + "\n" + kernels_note());

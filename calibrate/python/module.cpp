@@ -1,6 +1,8 @@
 #include "calibrate/python/module.h"
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/python/faults.h"
+#include "calibrate/store/kernels_variable.h"
 #include "calibrate/store/program.h"
 
 // What crosses between C++ and Python: positions and radii as views of memory, everything else as the JSON text that it
@@ -8,6 +10,7 @@
 PYBIND11_MODULE(_core, module) {
   using namespace pastefit;
   python::add_faults(module);
+  if (const Faults faults = obey_kernels_variable(); !faults.empty()) throw pybind11::import_error(message_of(faults));
   python::add_stop(module);
   python::add_study(module);
   python::add_simulation(module);

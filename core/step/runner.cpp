@@ -68,8 +68,9 @@ void Runner::recall(const RunCheckpoint::Wait& left) {
 /// A wait that goes on is as far as one of this length can be.
 void Runner::check_progress(double longest_s, double cap_s) const {
   const double rounding = 1e-9 * (world_.time + longest_s);
+  const double windows = std::round(progress_.waited / options_.rest.window_s);  // more calm ones than that are none
   demand(progress_.end <= world_.time + longest_s + rounding && progress_.cap == cap_s && progress_.waited >= 0 &&
-             progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= options_.rest.windows,
+             progress_.waited <= cap_s && progress_.calm >= 0 && progress_.calm <= windows,
          "the wait that was under way is another one");
   demand(cap_s == 0 || progress_.before.size() == rest_measure_(world_.particles).size(),
          "the rest measure that was seen is of another specimen");

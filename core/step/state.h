@@ -12,7 +12,8 @@ namespace pastefit {
 
 // A state as bytes, for the same program on the same kind of machine. What belongs to it is said once for both ways, by
 // a member `serialize(archive)`, which calls `archive(member, member, ...)`; numbers and plain structs are taken as
-// they lie in memory, vectors with their length.
+// they lie in memory, vectors with their length. Each begins at a multiple of eight bytes: what lies there is one
+// number, or two of single precision, and never parts of some.
 //
 // A state comes from a file, which may be anybody's. What is read is therefore checked: here lengths, and that numbers
 // are finite; in core/step/state_check.h what else the step relies on.
@@ -26,6 +27,11 @@ class BadState : public std::runtime_error {
 /// Throws `BadState` with this reason unless it holds.
 inline void demand(bool holds, const char* otherwise) {
   if (!holds) throw BadState(otherwise);
+}
+
+/// Bytes behind so many, up to a multiple of eight; zero.
+constexpr std::size_t state_padding(std::size_t size) {
+  return (8 - size % 8) % 8;
 }
 
 /// Writes a state.
@@ -54,7 +60,10 @@ class StateWriter {
       put_bytes(&part, sizeof part);
     }
   }
-  void put_bytes(const void* from, std::size_t size) { bytes_.append(static_cast<const char*>(from), size); }
+  void put_bytes(const void* from, std::size_t size) {
+    bytes_.append(static_cast<const char*>(from), size);
+    bytes_.append(state_padding(size), '\0');
+  }
 
   std::string bytes_;
 };
@@ -101,9 +110,11 @@ class StateReader {
     }
   }
   void take_bytes(void* to, std::size_t size) {
-    demand(size <= left_.size(), kTooShort);
+    const std::size_t whole = size + state_padding(size);
+    demand(whole <= left_.size() && whole >= size, kTooShort);
     if (size > 0) std::memcpy(to, left_.data(), size);
-    left_.remove_prefix(size);
+    demand(left_.substr(size, whole - size).find_first_not_of('\0') == std::string_view::npos, "it is out of step");
+    left_.remove_prefix(whole);
   }
 
   static constexpr const char* kTooShort = "it holds less than this run has";

@@ -36,6 +36,18 @@ class CommandLine(Desk):
             self.assertEqual(result.returncode, 0)
             self.assertIn("Usage: pastefit", result.stdout)
 
+    def test_the_kernels_are_those_that_the_environment_names_and_a_wrong_name_is_an_error(self):
+        bare = {name: value for name, value in os.environ.items() if name != "PASTEFIT_KERNELS"}
+        for word, shown in (("sse2", "SSE2"), ("avx2", "AVX2"), ("avx512", "AVX-512")):
+            result = run("--version", env={**bare, "PASTEFIT_KERNELS": word})
+            if result.returncode == 2:  # another processor
+                self.fails(result, 2, "PASTEFIT_KERNELS", word, "one of")
+            else:
+                self.assertIn(f"contact kernels: {shown}", result.stdout)
+        for word in ("neon", "AVX2", "sse2 "):
+            self.fails(run("verify", env={**bare, "PASTEFIT_KERNELS": word}), 2, "PASTEFIT_KERNELS", "sse2")
+        self.assertEqual(run("--version", env={**bare, "PASTEFIT_KERNELS": ""}).returncode, 0)
+
     # runs
 
     def test_simulate_prints_its_outcome_as_json_and_repeats_itself(self):

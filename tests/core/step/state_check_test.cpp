@@ -13,8 +13,10 @@
 
 #include "core/apparatus/slump/slump_test.h"
 #include "core/random.h"
+#include "core/step/kernels.h"
 #include "core/step/run_checkpoint.h"
 #include "core/step/state.h"
+#include "tests/core/apparatus/soft_granules.h"
 
 namespace pastefit {
 namespace {
@@ -178,18 +180,22 @@ std::string state_in_the_midst() {
 enum class Answer { refused, failed, went_on };
 
 /// What comes of a run that goes on from these bytes, for a moment.
-Answer answer_to(const std::string& state) {
-  RunOptions options;
+template <class Test>
+Answer answer_of(const Test& test, const std::string& state, RunOptions options) {
   int seen = 0;
   options.pulse = [&](const Snapshot&) { return ++seen < 3; };
   try {
     options.checkpoint = std::make_shared<RunCheckpoint>([] { return false; }, [](const std::string&) {}, state);
-    const Outcome outcome = simulate(heap(), options);
+    const Outcome outcome = simulate(test, options);
     if (!options.checkpoint->is_told()) return Answer::refused;
     return outcome.failure && outcome.failure->reason != FailureReason::stopped ? Answer::failed : Answer::went_on;
   } catch (const BadState&) {
     return Answer::refused;
   }
+}
+
+Answer answer_to(const std::string& state) {
+  return answer_of(heap(), state, {});
 }
 
 TEST_CASE("a state that lacks something, or has more than the run, is refused") {
@@ -234,15 +240,53 @@ TEST_CASE("whatever word of a state is forged, the run refuses it, fails with a 
   CHECK(refused >= 24);  // many a word may be anything: a load, a speed, a place
 }
 
-TEST_CASE("a stretch of impossible numbers is refused wherever in a state it stands") {
-  const std::string state = state_in_the_midst();
+/// The state of a run after so many pulses, as bytes.
+template <class Test>
+std::string state_after(const Test& test, int pulses, RunOptions options) {
+  std::string kept;
+  int seen = 0;
+  options.checkpoint =
+      std::make_shared<RunCheckpoint>([&] { return seen == pulses; }, [&](const std::string& now) { kept = now; });
+  options.pulse = [&](const Snapshot&) { return ++seen <= pulses; };
+  (void)simulate(test, options);
+  return kept;
+}
+
+/// Forges every stretch of a state by each of the numbers that none can be.
+template <class Test>
+void check_stretches(const Test& test, int pulses) {
   constexpr std::size_t kStretch = 512;
-  for (std::size_t place = 0; place + kStretch <= state.size(); place += kStretch) {
-    std::string forged = state;
-    std::memset(forged.data() + place, 0x7f, kStretch);  // 1.4e306 in double, 3.4e38 in single precision
-    INFO("at " << place << " of " << state.size());
-    CHECK(answer_to(forged) == Answer::refused);
+  const std::uint64_t words[] = {0x7ff8000000000000,   // not a number
+                                 0x7ff0000000000000,   // infinite
+                                 0x7f7f7f7f7f7f7f7f};  // 1.4e306 in double, 3.4e38 in single precision
+  for (const KernelTable* kernels : kernels_this_processor_runs()) {
+    RunOptions options;
+    options.steps.kernels = kernels;
+    const std::string state = state_after(test, pulses, options);
+    INFO(kernels->instruction_set << ", after " << pulses << " pulses, " << state.size() << " bytes");
+    REQUIRE(state.size() > 10'000);
+    REQUIRE(answer_of(test, state, options) == Answer::went_on);
+    for (const std::uint64_t word : words)
+      for (std::size_t place = 0; place + kStretch <= state.size(); place += kStretch) {
+        std::string forged = state;
+        for (std::size_t k = 0; k < kStretch; k += sizeof word)
+          std::memcpy(forged.data() + place + k, &word, sizeof word);
+        INFO(std::hex << word << std::dec << " at " << place);
+        CHECK(answer_of(test, forged, options) == Answer::refused);
+      }
   }
+}
+
+TEST_CASE("a stretch of impossible numbers is refused wherever in a state of a heap it stands") {
+  check_stretches(heap(), 3);
+}
+
+TEST_CASE("a stretch of impossible numbers is refused wherever in a state of a pellet it stands") {
+  for (const int pulses : {10, 60}) check_stretches(small_pellet(1.0), pulses);
+}
+
+TEST_CASE("a stretch of impossible numbers is refused wherever in a state of a shear cell it stands") {
+  for (const int pulses : {10, 60}) check_stretches(small_cell(0.5), pulses);
 }
 
 }  // namespace
