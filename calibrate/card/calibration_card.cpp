@@ -143,6 +143,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   const Verdict verdict = verdict_on(shown, rejected_share_of(study));
   card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::holds,
                        fresh && verdict == Verdict::refuted};
+  if (shown.rejected > 0) card.confirmation.rejected_share = rejected_share_of(study);
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

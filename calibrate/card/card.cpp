@@ -188,6 +188,8 @@ ordered_json to_json(const Card& card) {
                          {"misfit", card.confirmation.misfit},
                          {"meets_laboratory", card.confirmation.meets_laboratory}};
   if (card.confirmation.refuted) out["confirmation"]["refuted"] = true;
+  if (card.confirmation.rejected_share)
+    out["confirmation"]["rejected_share_allowed"] = *card.confirmation.rejected_share;
   const auto& search = card.search;
   out["search"] = {{"strategy", search.strategy},      {"status", search.status},
                    {"reason", search.reason},          {"seed", search.seed},

@@ -293,6 +293,7 @@ Result<Card> card_from_json(const json& document) {
       confirmation.number("misfit", card.confirmation.misfit, kNotNegative, kRequired);
       confirmation.flag("meets_laboratory", card.confirmation.meets_laboratory, kRequired);
       confirmation.flag("refuted", card.confirmation.refuted, kOptional);
+      confirmation.nullable_number("rejected_share_allowed", card.confirmation.rejected_share, {0, 1}, kOptional);
     });
     reader.object("search", kRequired, [&](ObjectReader& search) { read_search(search, card.search); });
     reader.object("provenance", kRequired,

@@ -9,6 +9,7 @@
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/export_notes.h"
+#include "calibrate/exports/unconfirmed.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {
@@ -18,7 +19,7 @@ namespace {
 struct ExportOptions {
   std::string card, out, target, test;
   std::optional<std::uint64_t> packing;
-  bool force = false;
+  bool force = false, unconfirmed = false;
 };
 
 int export_to_folder(const ExportOptions& options) {
@@ -28,31 +29,34 @@ int export_to_folder(const ExportOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
+  if (card.ok())
+    for (Fault& fault : unconfirmed_faults(card.value(), options.unconfirmed)) faults.push_back(std::move(fault));
   if (!faults.empty()) return report(faults);
 
   const auto test = test_to_export(card.value(), options.test);
   if (!test.ok()) return report(test.faults());
   const auto scene = export_scene(card.value(), test.value(), options.packing);
   if (!scene.ok()) return report(scene.faults(), kFailed);
-  const auto written = exporter.value().write(scene.value());
-  if (!written.ok()) return report(written.faults());
+  auto answer = exporter.value().write(scene.value());
+  if (!answer.ok()) return report(answer.faults());
+  Export written = std::move(answer).value();
+  written.files.push_back({kExportNotes, export_notes(written, exporter.value(), card.value(), test.value(),
+                                                      {options.card, options.test, options.packing})});
+  mark_unconfirmed(card.value(), written);
 
-  std::vector<std::string> names{kExportNotes};
-  for (const auto& file : written.value().files) names.push_back(file.name);
+  std::vector<std::string> names;
+  for (const auto& file : written.files) names.push_back(file.name);
   const auto folder =
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
   if (!folder.ok()) return report(folder.faults());
-  auto files = written.value().files;
-  files.push_back({kExportNotes, export_notes(written.value(), exporter.value(), card.value(), test.value(),
-                                              {options.card, options.test, options.packing})});
-  for (const auto& file : files) {
+  for (const auto& file : written.files) {
     std::error_code ignored;  // what cannot be made cannot be written into
     std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
     if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
       return report(unwritten, kFailed);
   }
-  for (const auto& file : files) print("wrote %s\n", folder.value().file(file.name).c_str());
-  print("%s", files.back().content.c_str());
+  for (const auto& file : written.files) print("wrote %s\n", folder.value().file(file.name).c_str());
+  print("%s", written.files.back().content.c_str());
   return kDone;
 }
 
@@ -70,6 +74,7 @@ Command add_export(CLI::App& verb) {
       ->type_name("NAME");
   verb.add_option("--packing", options->packing, "seed of the random packing; without it the test's own")
       ->check(whole_number());
+  verb.add_flag("--unconfirmed", options->unconfirmed, "export a card that is not confirmed, and say so in every file");
   verb.add_flag("--force", options->force, "replace an earlier export in DIR");
   return [options] { return export_to_folder(*options); };
 }

@@ -159,6 +159,11 @@ inline std::optional<double> rejection_index(const Specimen&, const Observables&
   return std::nullopt;
 }
 
+/// What became of the runs that a laboratory would reject, after "6 of 8".
+inline std::string_view rejected_runs(const Specimen&) {
+  return "runs are such as a laboratory rejects";
+}
+
 /// What a person should know of these runs besides their readings. A line, or nothing.
 inline std::string remarks_on(const Specimen&, std::span<const Observables>) {
   return {};

@@ -252,6 +252,10 @@ std::optional<double> rejection_index(const SlumpTest& test, const Observables& 
   return shear_index(test, run);
 }
 
+std::string_view rejected_runs(const SlumpTest&) {
+  return "heaps sheared off";
+}
+
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {
   int sheared = 0, whole = 0;
   double all_mm = 0;

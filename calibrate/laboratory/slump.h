@@ -98,6 +98,8 @@ std::string conditions_in_words(const SlumpTest& test);
 /// How far its top shifted (`shear_index`): EN 12350-2 and ASTM C143 have the test of a heap that sheared off repeated.
 std::optional<double> rejection_index(const SlumpTest& test, const Observables& run);
 
+std::string_view rejected_runs(const SlumpTest& test);
+
 /// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
 std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs);
 

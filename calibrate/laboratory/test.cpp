@@ -151,6 +151,10 @@ std::optional<double> rejection_index(const Test& test, const Observables& run) 
   return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
 }
 
+std::string_view rejected_runs(const Test& test) {
+  return std::visit([](const auto& one) { return rejected_runs(one); }, test);
+}
+
 bool is_rejected(const Test& test, const Observables& run) {
   return rejection_index(test, run).value_or(0) > 1;
 }

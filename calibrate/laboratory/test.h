@@ -58,6 +58,7 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
   { conditions_in_words(given) } -> std::same_as<std::string>;
   { rejection_index(given, means) } -> std::same_as<std::optional<double>>;
+  { rejected_runs(given) } -> std::same_as<std::string_view>;
   { remarks_on(given, runs) } -> std::same_as<std::string>;
   { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
   { yield_stresses_of(given, means) } -> std::same_as<std::vector<YieldStress>>;
@@ -94,6 +95,7 @@ std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
 std::optional<double> rejection_index(const Test& test, const Observables& run);
+std::string_view rejected_runs(const Test& test);
 /// Whether the standards have a laboratory reject this run and repeat it.
 bool is_rejected(const Test& test, const Observables& run);
 /// The runs of a test that a laboratory would accept (`accepted.h`).

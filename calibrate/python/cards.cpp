@@ -12,6 +12,7 @@
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/exports/export_notes.h"
+#include "calibrate/exports/unconfirmed.h"
 #include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
@@ -25,19 +26,23 @@ using nlohmann::ordered_json;
 namespace {
 
 /// {"files": {name: content}, "notes": [...], "instructions"}; the notes for a person are one of the files.
-std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
+std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request,
+                        bool unconfirmed) {
   Faults faults;
   const auto exporter = exporter_named(target);
   if (!exporter.ok()) faults = exporter.faults();
   const auto card = card_from_json(parsed(card_text));
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  if (card.ok())
+    for (Fault& fault : unconfirmed_faults(card.value(), unconfirmed)) faults.push_back(std::move(fault));
   refuse(std::move(faults));
   const CardTest test = value_or_throw(test_to_export(card.value(), request.test));
-  const Export written =
+  Export written =
       value_or_throw(exporter.value().write(value_or_throw(export_scene(card.value(), test, request.packing))));
+  written.files.push_back({kExportNotes, export_notes(written, exporter.value(), card.value(), test, request)});
+  mark_unconfirmed(card.value(), written);
   ordered_json out{{"files", ordered_json::object()}, {"notes", written.notes}, {"instructions", written.instructions}};
   for (const ExportFile& file : written.files) out["files"][file.name] = file.content;
-  out["files"][kExportNotes] = export_notes(written, exporter.value(), card.value(), test, request);
   return out.dump();
 }
 
@@ -76,8 +81,8 @@ void add_cards(py::module_& module) {
   module.def(
       "export",
       [](const std::string& card, const std::string& target, const std::string& card_file, const std::string& test,
-         std::optional<std::uint64_t> packing) {
-        return export_json(card, target, {card_file, test, packing});
+         std::optional<std::uint64_t> packing, bool unconfirmed) {
+        return export_json(card, target, {card_file, test, packing}, unconfirmed);
       },
       unlocked);
   module.def("export_targets", [] {

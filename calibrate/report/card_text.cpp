@@ -5,6 +5,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/base/wrapped_text.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/report/summary.h"
 
 namespace pastefit {
@@ -104,7 +105,8 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
 }
 
 std::string text_of(const Card& card) {
-  std::string out = summary_of(card);
+  const std::string unconfirmed = unconfirmed_line(card);
+  std::string out = (unconfirmed.empty() ? "" : one_line(unconfirmed) + "\n\n") + summary_of(card);
   for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
                            baseline_lines(card), rescaling_lines(card)})
     if (!part.empty()) out += "\n" + wrapped(lines_of(part));

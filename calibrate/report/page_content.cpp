@@ -6,6 +6,7 @@
 
 #include "calibrate/base/rounded.h"
 #include "calibrate/card/compared_yield_stress.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/report/law_curves.h"
 #include "calibrate/report/reservations.h"
@@ -289,6 +290,8 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                       {"reservations", reservations_on(card)},
                       {"meets_laboratory", card.confirmation.meets_laboratory},
                       {"refuted", card.confirmation.refuted},
+                      {"only_heaps_refute", only_heaps_refute(card)},
+                      {"unconfirmed", cause_unconfirmed(card)},
                       {"status", card.search.status},
                       {"misfit", card.confirmation.misfit},
                       {"fresh", card.confirmation.fresh},

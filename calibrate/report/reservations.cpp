@@ -6,6 +6,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {
@@ -29,17 +30,9 @@ void add_marginal_readings(const CardTest& test, std::vector<std::string>& out) 
   }
 }
 
-/// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
 void add_bounds(const Card& card, std::vector<std::string>& out) {
-  constexpr double near = 0.01;
-  for (const Parameter& one : card.material.parameters) {
-    if (!one.free || !has_parameter(card, one.name)) continue;
-    const bool logarithmic = one.scale == Scale::logarithmic;
-    const auto along = [&](double value) { return logarithmic ? std::log(value) : value; };
-    const double share = (along(one.value) - along(one.lower)) / (along(one.upper) - along(one.lower));
-    if (share > near && share < 1 - near) continue;
-    out.push_back(one.name + " " + plain(one.value) + " is at its " + (share <= near ? "lower" : "upper") + " bound");
-  }
+  for (const AtBound& one : parameters_at_bounds(card))
+    out.push_back(one.parameter + " " + plain(one.value) + " is at its " + (one.upper ? "upper" : "lower") + " bound");
 }
 
 void add_implausible(const Card& card, std::vector<std::string>& out) {

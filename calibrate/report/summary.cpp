@@ -8,6 +8,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/base/wrapped_text.h"
 #include "calibrate/card/compared_yield_stress.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/report/type_in_table.h"
 #include "calibrate/study/parameters.h"
@@ -149,9 +150,13 @@ std::string verdict_on_fitted(const Card& card) {
   if (!confirmation.fresh)
     return "Not confirmed on fresh packings: " + largest + ", on packings that the search has seen. " +
            card.search.reason;
+  if (only_heaps_refute(card))
+    return "Readings met; " + cause_unconfirmed(card) + ": " + largest + ". " + card.search.reason;
   if (confirmation.misfit <= 1 && !confirmation.refuted)
-    return "It is uncertain whether the material meets the laboratory: " + largest + ". " + card.search.reason;
-  return "The material does not meet the laboratory: " + largest + ". " + card.search.reason;
+    return "It is uncertain whether the material meets the laboratory: " + cause_unconfirmed(card) + ": " + largest +
+           ". " + card.search.reason;
+  return "The material does not meet the laboratory: " + cause_unconfirmed(card) + ": " + largest + ". " +
+         card.search.reason;
 }
 
 std::string reservation_lines(const Card& card) {
@@ -166,7 +171,8 @@ std::string verdict_of(const Card& card) {
   if (card.interpolated)
     return interpolation_in_words(*card.interpolated) +
            ". No reading of this mix was met: measure it, and hold the card against it (pastefit check --against).";
-  return verdict_on_fitted(card) + unfitted_words(card);
+  const std::string next = what_to_try(card);
+  return verdict_on_fitted(card) + unfitted_words(card) + (next.empty() ? "" : " What to try now: " + next + ".");
 }
 
 std::string summary_of(const Card& card, const std::string& findings) {

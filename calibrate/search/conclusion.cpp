@@ -77,7 +77,9 @@ void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, 
       }
       result.reason += ".";
     }
-    if (ending.some_censored) result.reason += " Simulations that ended early count as what was certain of them.";
+    if (result.status == CalibrationStatus::out_of_reach && ending.out_of_reach)
+      result.reason += " " + describe(*ending.out_of_reach, readings, parameters);
+    if (ending.some_censored) result.reason += " Runs that were stopped early enter as bounds.";
   }
 }
 

@@ -59,7 +59,7 @@ def environment():
 
 def export(pastefit, card, target, deck, packing=None):
     choice = [] if packing is None else ["--packing", str(packing)]
-    subprocess.run([pastefit, "export", card, "--to", target, "--out", deck, "--force", *choice], check=True,
+    subprocess.run([pastefit, "export", "--unconfirmed", card, "--to", target, "--out", deck, "--force", *choice], check=True,
                    stdout=subprocess.DEVNULL)
 
 

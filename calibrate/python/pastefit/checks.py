@@ -34,16 +34,17 @@ def export_targets() -> Dict[str, str]:
 
 
 def export(card: CardOrPath, *, to: str, out: Union[str, "os.PathLike[str]", None] = None, test: str = "",
-           packing: Optional[int] = None, force: bool = False) -> Export:
+           packing: Optional[int] = None, force: bool = False, unconfirmed: bool = False) -> Export:
     """Writes a card for another program (`export_targets`).
 
     out: folder for the files; without it they are only returned. test: which one of a card that has several. packing: seed
     of the random packing that fills the mould; without it the test's own. force: replace files that are there.
+    unconfirmed: export a card that is not confirmed; every file then begins with why it is not.
     Errors: `InputError`.
     """
     file = "card.json" if isinstance(card, Card) else os.fspath(card)
     text = _card_of(card)._text
-    written = Export(**json.loads(interrupt.run(lambda: _core.export(text, to, file, test, packing))))
+    written = Export(**json.loads(interrupt.run(lambda: _core.export(text, to, file, test, packing, unconfirmed))))
     if out is None:
         return written
     folder = pathlib.Path(out)

@@ -3,7 +3,7 @@
 import re
 from typing import Iterable, List, NamedTuple, Tuple
 
-_SWITCHES = re.compile(r"--(resume|force)\b")
+_SWITCHES = re.compile(r"--(resume|force|unconfirmed)\b")
 _OPTIONS = re.compile(r"--([a-z]+(?:-[a-z]+)*)")
 
 

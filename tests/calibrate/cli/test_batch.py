@@ -170,7 +170,7 @@ class Batch(Desk):
         checked = run("check", file, "--against", self.folder / "lab-01.json")
         self.assertIn(checked.returncode, (0, 1), checked.stderr)
         self.assertIn(words, " ".join(checked.stdout.split()))
-        run("export", file, "--to", "liggghts", "--out", self.folder / "deck")
+        run("export", "--unconfirmed", file, "--to", "liggghts", "--out", self.folder / "deck")
         for name in ("NOTES.txt", "in.slump"):
             self.assertIn(words, (self.folder / "deck" / name).read_text())
         process = run("interpolate", *arguments, "--model", "gaussian-process", "--json")

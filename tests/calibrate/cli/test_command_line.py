@@ -261,7 +261,7 @@ class CommandLine(Desk):
                          later["observables"]["step1.height_mm"]["simulated"])  # the same test, fitted and predicted
         self.assertLessEqual(card["search"]["simulations"], 30)
         self.assertEqual(run("check", self.out / "card.json").returncode, 0)
-        self.assertEqual(run("export", self.out / "card.json", "--to", "csv", "--out", self.folder / "csv").returncode, 0)
+        self.assertEqual(run("export", "--unconfirmed", self.out / "card.json", "--to", "csv", "--out", self.folder / "csv").returncode, 0)
         self.assertEqual(run("simulate", file, *COARSE).returncode, 0)
         heights = [json.loads(run("simulate", file, "--json", "--test", name).stdout)["observables"]["step1.height_mm"]
                    for name in ("fast", "later")]

@@ -51,7 +51,7 @@ class HostileInput(Desk):
                               ("liggghts", ("in.slump", "in.two_grains", "material.inc")), ("yade", ("material.py",))):
             with self.subTest(target):
                 for name, card in (("plain", plain), ("titled", titled)):
-                    result = run("export", card, "--to", target, "--out", self.folder / target / name)
+                    result = run("export", "--unconfirmed", card, "--to", target, "--out", self.folder / target / name)
                     self.assertEqual(result.returncode, 0, result.stderr)
                     self.assert_harmless_in_terminal(result.stdout)
                 for deck in decks:
@@ -65,7 +65,7 @@ class HostileInput(Desk):
                     self.assert_harmless_in_terminal(comment)
 
     def test_a_title_in_a_module_of_python_runs_nothing(self):
-        result = run("export", self.titled(coarse_card()), "--to", "yade", "--out", self.out)
+        result = run("export", "--unconfirmed", self.titled(coarse_card()), "--to", "yade", "--out", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
         module = (self.out / "material.py").read_bytes()
         self.assertNotIn(b"coding", b"\n".join(module.split(b"\n")[:2]))

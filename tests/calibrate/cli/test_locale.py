@@ -48,7 +48,7 @@ class Locale(Desk):
                     ["calibrate", small, "--out", out / "calibration", "--threads", "1"],
                     ["show", CARD], ["verify", "free-fall", "chung-ooi-1"],
                     ["rescale", CARD, "--radius", "9.5", "--packings", "0", "--out", out / "rescaled.json"],
-                    *(["export", coarse_card(), "--to", target, "--out", out / target]
+                    *(["export", "--unconfirmed", coarse_card(), "--to", target, "--out", out / target]
                       for target in ("lammps", "liggghts", "yade", "csv")))]
         for answer in answers:
             self.assertIn(answer.returncode, (0, 1), answer.stderr)

@@ -90,7 +90,7 @@ class Limits(Desk):
                      ["calibrate", self.study(), "--out", self.out / "x"],
                      ["compare-optimisers", self.study(), "--out", self.out / "x"],
                      ["rescale", CARD, "--radius", 4, "--out", nowhere], ["check", CARD, "--junit", nowhere],
-                     ["export", coarse_card(), "--to", "lammps", "--out", self.out / "x"]):
+                     ["export", "--unconfirmed", coarse_card(), "--to", "lammps", "--out", self.out / "x"]):
             with self.subTest(verb[0]):
                 start = time.monotonic()
                 self.fails(run(*verb), 2, str(verb[-1]))

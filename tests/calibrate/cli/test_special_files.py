@@ -110,7 +110,7 @@ class SpecialFiles(Desk):
         for file in inputs:
             for command in (["simulate", file], ["show", file], ["calibrate", file, "--out", self.out], ["check", file],
                             ["check", CARD, "--against", file], ["simulate", CARD, "--checkpoint", file],
-                            ["infer", file, "--from", self.folder], ["export", file, "--to", "csv", "--out", self.out]):
+                            ["infer", file, "--from", self.folder], ["export", "--unconfirmed", file, "--to", "csv", "--out", self.out]):
                 with self.subTest(file.name, command=command[:2]):
                     result = quickly(*command)
                     self.assertEqual(result.returncode, 2, result.stderr)

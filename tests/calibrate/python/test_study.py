@@ -1,5 +1,6 @@
 """Studies, cards, export and checks from Python. usage: test_study.py PROGRAM SOURCE_DIR [unittest options]"""
 
+import json
 import pickle
 import subprocess
 
@@ -74,6 +75,15 @@ class Card(Desk):
         self.assertEqual(sorted(written.files), names)
         for name in names:
             self.assertEqual((self.out / name).read_bytes(), (there / name).read_bytes(), name)
+
+    def test_an_unconfirmed_card_is_exported_only_when_asked_for(self):
+        card = json.loads(CARD.read_text())
+        card["confirmation"].update(fresh=False, meets_laboratory=False)
+        fault, = self.faults(pf.export, pf.Card(card), to="csv")
+        self.assertIn("unconfirmed=True", fault.remedy)
+        written = pf.export(pf.Card(card), to="csv", unconfirmed=True)
+        for name, content in written.files.items():
+            self.assertIn("NOT CONFIRMED", content.split("\n")[0], name)
 
     def test_an_export_to_an_unknown_program_names_the_known_ones(self):
         fault, = self.faults(pf.export, CARD, to="lamps")

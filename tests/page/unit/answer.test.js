@@ -97,6 +97,13 @@ test("a misfit beyond what is asked for fails only on fresh packings", () => {
   assert.equal(verdictKind({ under_way: false, verdict: sheared }), "fails");
 });
 
+test("heaps that a laboratory would reject are named in the heading, where every reading is met", () => {
+  const unconfirmed = "6 of 8 heaps sheared off, 1 in 5 allowed";
+  const verdict = verdictWith({ misfit: 0.4, refuted: true, only_heaps_refute: true, unconfirmed });
+  const { kind, sign, heading } = answerOf(contentWith({ verdict }));
+  assert.deepEqual([kind, sign, heading], ["rejected", "!", `Readings met; ${unconfirmed}`]);
+});
+
 test("the sentence of an answer does not repeat its heading", () => {
   const content = contentWith({ verdict: verdictWith({ fresh: false }) });
   assert.deepEqual(answerOf(content), {

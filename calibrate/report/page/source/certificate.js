@@ -8,7 +8,7 @@ import { isMeasured, judged } from "./readings.js";
 import { packingStrip } from "./strip.js";
 import { drawingsOf } from "./tests.js";
 import { typeInTable } from "./type_in.js";
-import { answerOf } from "./verdict.js";
+import { answerLines, answerOf } from "./verdict.js";
 
 /** @typedef {import("./content.js").CardContent} CardContent */
 /** @typedef {import("./content.js").MeasuredReading} MeasuredReading */
@@ -75,7 +75,7 @@ function origin({ provenance, program, tests, verdict, search }) {
   return pairs([
     ...laboratories,
     ["Study", `${study}, ${search.strategy} search, seed ${search.seed}`],
-    ["Confirmed on", `${packings}: ${verdict.packings.join(", ")}`],
+    [verdict.unconfirmed ? "Simulated on" : "Confirmed on", `${packings}: ${verdict.packings.join(", ")}`],
     ["Versions", versions],
   ]);
 }
@@ -92,12 +92,14 @@ export function dateWords(date) {
 /** @param {CardContent} content */
 function answer(content) {
   const { sign, heading, sentence } = answerOf(content);
-  const reservations = content.verdict.reservations.map((one) => element("li", {}, one));
+  const open = answerLines(content).flatMap(([what, lines]) => (what === "Open" ? lines : []));
+  const items = [...content.verdict.reservations, ...open.map((line) => `Open: ${line}`)];
+  const notes = items.map((one) => element("li", {}, one));
   return element(
     "div",
     { class: "answer" },
     element("span", { class: "badge", "aria-hidden": "true" }, sign),
-    element("div", {}, element("strong", {}, heading), element("p", {}, sentence), element("ul", {}, ...reservations)),
+    element("div", {}, element("strong", {}, heading), element("p", {}, sentence), element("ul", {}, ...notes)),
   );
 }
 
@@ -124,16 +126,19 @@ function halves({ tests, type_in: groups, radius_mm: radius }) {
 export function certificatePart(content) {
   const date = element("span", {}, dateWords(new Date()));
   addEventListener("beforeprint", () => date.replaceChildren(dateWords(new Date())));
-  const brand = "pastefit \u00b7 certificate of a calibrated material";
-  const lines = ["Name", "Date", "Signature"].map((what) => element("div", {}, what));
+  const confirmed = !content.verdict.unconfirmed;
+  const what = confirmed ? "certificate of a calibrated material" : "a material that is not confirmed";
+  const brand = `pastefit \u00b7 ${what}`;
+  const lines = ["Name", "Date", "Signature"].map((line) => element("div", {}, line));
   return element(
     "section",
-    { id: "certificate", class: answerOf(content).kind, "aria-label": "Certificate, for paper" },
+    { id: "certificate", class: answerOf(content).kind, "aria-label": "First sheet, for paper" },
     element("p", { class: "brand" }, brand, element("span", { class: "printed" }, "printed ", date)),
     element("p", { class: "title" }, content.title),
+    confirmed ? null : element("p", { class: "unconfirmed" }, `NOT CONFIRMED: ${content.verdict.unconfirmed}`),
     answer(content),
     halves(content),
     origin(content),
-    element("div", { class: "signatures" }, ...lines),
+    confirmed ? element("div", { class: "signatures" }, ...lines) : null,
   );
 }

@@ -13,6 +13,7 @@ const answers = {
   meets: ["\u2713", "The material meets the laboratory"],
   reserved: ["!", "The material meets the laboratory, with reservations"],
   open: ["?", "Not certain"],
+  rejected: ["!", "Readings met"],
   fails: ["\u2717", "The material does not meet the laboratory"],
   none: ["\u2026", "No answer yet"],
   goes: ["\u2026", "The calibration is under way"],
@@ -26,6 +27,7 @@ export function verdictKind({ verdict, under_way }) {
   if (!verdict) return under_way ? "goes" : "none";
   if (verdict.meets_laboratory) return verdict.reservations.length > 0 ? "reserved" : "meets";
   if (!verdict.fresh) return "open";
+  if (verdict.only_heaps_refute) return "rejected";
   return verdict.misfit > 1 || verdict.refuted ? "fails" : "open";
 }
 
@@ -119,7 +121,8 @@ export function answerLines({ verdict, parameters = [], tests = [], interval_lev
  */
 export function answerOf(content) {
   const kind = verdictKind(content);
-  const [sign, heading] = answers[kind];
+  const [sign, usual] = answers[kind];
+  const heading = kind === "rejected" ? `${usual}; ${content.verdict?.unconfirmed}` : usual;
   const waiting =
     kind === "goes" ? "This page looks again every ten seconds." : "Below is what the folder holds so far.";
   const said = content.verdict?.words ?? waiting;

@@ -1,0 +1,144 @@
+#include "calibrate/card/standing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/laboratory/test.h"
+#include "calibrate/search/confirmation.h"
+
+namespace pastefit {
+
+namespace {
+
+/// The fitted reading that is farthest off, in tolerances.
+struct Farthest {
+  std::string name;
+  double off = 0, tolerance = 0, standard_error = 0;
+  double share() const { return tolerance > 0 ? off / tolerance : 0; }
+  double noise() const { return tolerance > 0 ? standard_error / tolerance : 0; }
+};
+
+Farthest farthest_of(const Card& card) {
+  Farthest farthest;
+  for (const CardTest& test : card.tests) {
+    if (test.hold_out) continue;
+    for (const CardObservable& one : test.observables) {
+      if (!one.measured || one.weight <= 0 || one.tolerance <= 0) continue;
+      const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated - *one.measured), one.tolerance,
+                              standard_error(one).value_or(0)};
+      if (farthest.name.empty() || this_one.share() > farthest.share()) farthest = this_one;
+    }
+  }
+  return farthest;
+}
+
+std::string off_in_words(const Farthest& one) {
+  const char* unit = is_length(one.name) ? " mm" : "";
+  return one.name + " is off by " + format("%.3g%s, %.3g%s allowed", one.off, unit, one.tolerance, unit);
+}
+
+/// The fitted test most of whose runs a laboratory would reject.
+struct Rejected {
+  const CardTest* test = nullptr;
+  std::size_t runs = 0, of = 0;
+};
+
+Rejected rejected_of(const Card& card) {
+  Rejected most;
+  for (const CardTest& test : card.tests) {
+    if (test.hold_out) continue;
+    const auto rejected = std::ranges::count_if(
+        test.baseline.runs, [&](const Baseline::Run& run) { return is_rejected(test.test, run.observables); });
+    const Rejected here{&test, static_cast<std::size_t>(rejected), test.baseline.runs.size()};
+    if (!most.test || here.runs > most.runs) most = here;
+  }
+  return most;
+}
+
+/// "1 in 5", or per cent.
+std::string share_in_words(double share) {
+  const double one_in = 1 / share;
+  return std::abs(one_in - std::round(one_in)) < 0.01 ? format("1 in %.0f", one_in) : format("%.3g %%", 100 * share);
+}
+
+std::string rejected_in_words(const Card& card) {
+  const Rejected rejected = rejected_of(card);
+  const auto& share = card.confirmation.rejected_share;
+  const std::string heaps = rejected.test ? std::string(rejected_runs(rejected.test->test)) : "runs rejected";
+  const std::string allowed = share ? ", " + share_in_words(*share) + " allowed" : "";
+  return format("%zu of %zu ", rejected.runs, rejected.of) + heaps +
+         (rejected.runs == 0 ? ", but came near to it" : "") + allowed;
+}
+
+}  // namespace
+
+/// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
+std::vector<AtBound> parameters_at_bounds(const Card& card) {
+  constexpr double near = 0.01;
+  std::vector<AtBound> out;
+  for (const Parameter& one : card.material.parameters) {
+    if (!one.free || !has_parameter(card, one.name)) continue;
+    const auto along = [&](double value) { return one.scale == Scale::logarithmic ? std::log(value) : value; };
+    const double share = (along(one.value) - along(one.lower)) / (along(one.upper) - along(one.lower));
+    if (share <= near || share >= 1 - near) out.push_back({one.name, one.value, share > near});
+  }
+  return out;
+}
+
+std::string what_to_try(const Card& card) {
+  const Confirmation& confirmation = card.confirmation;
+  if (card.interpolated || confirmation.meets_laboratory) return "";
+  if (!card.rescaled.empty() && !confirmation.fresh)
+    return "calibrate with grains of this size, or measure the bias (pastefit rescale --packings)";
+  if (!confirmation.fresh) return "go on with --resume, with a larger search.budget_simulations";
+  const Farthest farthest = farthest_of(card);
+  const Verdict of_readings = verdict_on(confirmation.misfit, farthest.noise());
+  if (of_readings == Verdict::undecided) return "more packings of the confirmation (search.confirmation_packings)";
+  std::string bounds;
+  for (const AtBound& one : parameters_at_bounds(card))
+    bounds += (bounds.empty() ? "" : ", ") + std::string(one.upper ? "a higher upper" : "a lower lower") +
+              " bound of " + one.parameter + " (" + shown(one.value) + " now)";
+  const std::string wider = bounds.empty() ? "" : bounds + "; ";
+  if (of_readings == Verdict::refuted)
+    return wider + "check " + farthest.name +
+           " and its standard deviation, free another parameter, or allow more "
+           "simulations (search.budget_simulations)";
+  return wider +
+         "wider bounds of the frictions, or more simulations (search.budget_simulations); if such heaps are "
+         "right, a larger search.rejected_share";
+}
+
+bool only_heaps_refute(const Card& card) {
+  const Farthest farthest = farthest_of(card);
+  const bool fresh = card.confirmation.fresh && !card.interpolated;
+  return fresh && card.confirmation.refuted && card.confirmation.misfit <= 1 && farthest.share() <= 1;
+}
+
+std::string cause_unconfirmed(const Card& card) {
+  const Confirmation& confirmation = card.confirmation;
+  if (card.interpolated)
+    return "interpolated between " + std::to_string(card.interpolated->studies.size()) +
+           " materials; no reading of this mix was met";
+  if (confirmation.meets_laboratory) return "";
+  if (!card.rescaled.empty() && !confirmation.fresh)
+    return format("carried over from grains of %.4g mm radius, and not calibrated with these",
+                  1e3 * card.rescaled.back().from_radius_m);
+  if (!confirmation.fresh) return "not simulated on packings that the search had not seen";
+  const Farthest farthest = farthest_of(card);
+  const Verdict of_readings = verdict_on(confirmation.misfit, farthest.noise());
+  if (of_readings == Verdict::refuted) return off_in_words(farthest);
+  if (confirmation.refuted) return rejected_in_words(card);
+  if (of_readings == Verdict::undecided)
+    return off_in_words(farthest) + "; the packings scatter too much to be certain";
+  return rejected_in_words(card) + "; more packings are needed to be certain";
+}
+
+std::string unconfirmed_line(const Card& card) {
+  const std::string cause = cause_unconfirmed(card);
+  return cause.empty() ? "" : "NOT CONFIRMED: " + cause;
+}
+
+}  // namespace pastefit
