@@ -24,7 +24,7 @@ constexpr double foot = 12 * inch;            // [mm]
 constexpr double pound_force = 4.4482216153;  // [N]
 constexpr double cubic_foot_m3 = 1e-9 * foot * foot * foot;
 
-constexpr std::array<Spelling, 35> spellings{{
+constexpr std::array<Spelling, 37> spellings{{
     {"mm", {"mm", "mm", 1}},
     {"cm", {"cm", "mm", 10}},
     {"m", {"m", "mm", 1000}},
@@ -59,6 +59,8 @@ constexpr std::array<Spelling, 35> spellings{{
     {"m_s", {"m/s", "mm_s", 1000}},
     {"in_s", {"in/s", "mm_s", inch}},
     {"deg", {"degrees", "deg", 1}},
+    {"rad", {"rad", "deg", degrees}},
+    {"°", {"degrees", "deg", 1}},
     {"rad_s", {"rad/s", "rad_s", 1}},
 }};
 

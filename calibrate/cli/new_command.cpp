@@ -9,11 +9,15 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/shell_word.h"
 #include "calibrate/cli/commands.h"
+#include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/study_remarks.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/study/slump_sheet.h"
+#include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 
@@ -152,12 +156,15 @@ int write_new(const NewOptions& options, const StartingFiles& files) {
   if (faults.empty()) faults = write_atomically(study, files.study);
   if (!faults.empty()) return report(faults, kFailed);
   print("wrote %s\nwrote %s\n", lab.c_str(), study.c_str());
-  if (const auto read = read_study(study); read.ok()) print("\n%s", understood(read.value()).c_str());
-  const std::string folder = options.folder == "." ? "" : options.folder + "/";
-  print("\nNext:\n  pastefit calibrate %s --out %sout\n", study.c_str(), folder.c_str());
+  if (const auto read = read_study(study); read.ok())
+    print("\n%s%s", understood(read.value()).c_str(), notes_on_readings(read.value()).c_str());
+  const auto in_folder = [&](const char* name) {
+    return shell_word_if_needed(options.folder == "." ? name : options.folder + "/" + name);
+  };
+  print("\nNext:\n  pastefit calibrate %s --out %s\n", in_folder("study.json").c_str(), in_folder("out").c_str());
   if (const auto laws = laws_for(options.sheet.target, options.sheet.law); laws && options.test == "slump")
-    print("  pastefit export %sout/card.json --to %s --out %s%s\n", folder.c_str(),
-          std::string(laws->export_target).c_str(), folder.c_str(), std::string(laws->target).c_str());
+    print("  pastefit export %s --to %s --out %s\n", in_folder("out/card.json").c_str(),
+          std::string(laws->export_target).c_str(), in_folder(std::string(laws->target).c_str()).c_str());
   return kDone;
 }
 
@@ -193,6 +200,10 @@ Command add_new(CLI::App& verb) {
   verb.add_option("--mould", sheet.mould,
                   "a preset (abrams, haegermann, ...), or base/top/height: \"200/100/300\", \"8/4/12 in\"")
       ->type_name("MOULD");
+  verb.add_option("--drops", sheet.drops,
+                  "of the preset's plate or table, e.g. 15 with en12350-5; without it the preset's")
+      ->check(whole_number(1, 1000))
+      ->type_name("N");
   verb.add_option("--density", sheet.density, "of the fresh material, in kg/m3 or with its unit: \"145 lb/ft3\"")
       ->type_name("DENSITY");
   options->by_name.reserve(short_readings().size());

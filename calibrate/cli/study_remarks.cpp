@@ -35,7 +35,16 @@ std::string changes_in(const Study& study, const Store& store) {
          " candidates are known from before within the present bounds; they do not count in the budget.\n";
 }
 
-/// What the laboratories' readings look like, taken together.
+/// What the study weighs or allows of readings that the laboratory did not take.
+std::string readings_not_measured(const Study& study) {
+  std::string names;
+  for (const StudyTest& test : study.tests)
+    for (const std::string& name : test.not_measured) names += (names.empty() ? "" : ", ") + reading_name(test, name);
+  return names.empty() ? "" : "Weights and tolerances of readings that were not taken are left out: " + names + ".\n";
+}
+
+}  // namespace
+
 std::string notes_on_readings(const Study& study) {
   std::string out;
   for (const StudyTest& test : study.tests) {
@@ -47,16 +56,6 @@ std::string notes_on_readings(const Study& study) {
   for (const std::string& note : notes_on_tolerances(study)) out += "Warning: " + note + ".\n";
   return out;
 }
-
-/// What the study weighs or allows of readings that the laboratory did not take.
-std::string readings_not_measured(const Study& study) {
-  std::string names;
-  for (const StudyTest& test : study.tests)
-    for (const std::string& name : test.not_measured) names += (names.empty() ? "" : ", ") + reading_name(test, name);
-  return names.empty() ? "" : "Weights and tolerances of readings that were not taken are left out: " + names + ".\n";
-}
-
-}  // namespace
 
 void print_remarks(const Study& study, const Store& store, const std::string& file, int threads) {
   note("%s\n%d free parameters, at most %d simulations, %zu known\n", one_line(study.title).c_str(), free_count(study),

@@ -7,6 +7,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/slump_curves.h"
 
 namespace pastefit {
 namespace {
@@ -99,6 +100,19 @@ std::string in_words(const SlumpTest& test, const Heap& heap) {
          (share < paraboloid ? "between a flat cylinder and a paraboloid" : "between a paraboloid and a cone");
 }
 
+/// Nothing of a heap's volume is left for a width beyond this many cones': a peak on a skirt is below it.
+constexpr double widest_skirt = 1.5;
+
+Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
+  return {"measurements",
+          heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
+              format(" (%.4g): the mould holds too little for it; a cone of this height, the widest heap, is %.4g mm "
+                     "wide",
+                     heap.width.value, cone_width_mm(test, heap.height.value)) +
+              slips_of(test, heap),
+          "look for a slump that was given as a height, for a reading of another test, and at the mould"};
+}
+
 Fault missing_volume(const SlumpTest& test, const Heap& heap) {
   return {"measurements",
           heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
@@ -126,20 +140,63 @@ std::string small_slump(const SlumpTest& test, const Measurement& height) {
   return others.empty() ? "" : format("a slump of %.4g mm hardly is one; look at its unit: ", slump_mm) + others;
 }
 
+/// The mass of the mould's content and the density are one number.
+void check_mass(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
+  constexpr double differs = 0.1;
+  const Measurement* mass = first_of(measurements, {"fill.mass_kg"});
+  if (!mass) return;
+  const double volume = volume_m3(test.mould), full_kg = test.bulk_density_kg_m3 * volume;
+  if (std::abs(mass->value - full_kg) <= std::max(differs * full_kg, sure * error_of(*mass))) return;
+  check.faults.push_back(
+      {"measurements.fill.mass_kg",
+       format("is %.4g kg, but the mould of %.3g l holds %.4g kg at material.bulk_density_kg_m3 %.4g", mass->value,
+              1e3 * volume, full_kg, test.bulk_density_kg_m3),
+       format("one of both is wrong: the mass would be a density of %.4g kg/m3", mass->value / volume)});
+}
+
+/// Radians, where degrees are asked for.
+void check_angle(std::span<const Measurement> measurements, ReadingCheck& check) {
+  constexpr double least_deg = 3, most_rad = 1.6;
+  const Measurement* angle = first_of(measurements, {"step1.angle_of_repose_deg"});
+  if (!angle || angle->value >= least_deg) return;
+  check.faults.push_back({"measurements.step1.angle_of_repose_deg",
+                          format("is %.3g degrees, flatter than any heap", angle->value),
+                          angle->value <= most_rad ? "look at its unit: " + in_other_units(angle->value, "deg", 0, 90)
+                                                   : "an angle of repose in degrees"});
+}
+
+/// Cakes that are no thicker than a few grains are as thick as these.
+void check_cake(const SlumpTest& test, const Measurement& width, ReadingCheck& check) {
+  constexpr double grains_thick = 1.5;
+  const double cake_mm = 4e9 * volume_m3(test.mould) / (std::numbers::pi * width.value * width.value);
+  const double grain_mm = 2e3 * std::max(test.grains.radius_m, test.grains.largest_m);
+  if (cake_mm >= grains_thick * grain_mm) return;
+  check.notes.push_back(
+      format("a heap %.4g mm wide is %.2g mm thick on the average, and the grains are up to %.2g mm: "
+             "take grains of %.2g mm radius or less",
+             width.value, cake_mm, grain_mm, 0.5 * cake_mm / grains_thick));
+}
+
 }  // namespace
 
 ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> measurements) {
   ReadingCheck check;
+  check_curves(test, check);
+  check_mass(test, measurements, check);
+  check_angle(measurements, check);
   for (const std::string step : {"step1.", "step2.", "after_drops."}) {
     const Measurement* height =
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});
     const Measurement* width = first_of(measurements, {step + "spread_mm", step + "spread_orthogonal_mm"});
     if (height)
       if (std::string note = small_slump(test, *height); !note.empty()) check.notes.push_back(std::move(note));
+    if (width && width->value > 0) check_cake(test, *width, check);
     if (!height || !width || height->value <= 0) continue;
     const Heap heap{*height, *width};
     if (share_of_cone_width(test, heap) < pancake - sure * deviation_of_share(test, heap))
       check.faults.push_back(missing_volume(test, heap));
+    else if (share_of_cone_width(test, heap) > widest_skirt + sure * deviation_of_share(test, heap))
+      check.faults.push_back(too_much_volume(test, heap));
     else
       check.notes.push_back((step == "step1."   ? ""
                              : step == "step2." ? "after the drop, "

@@ -145,6 +145,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     reader.known("format");
     reader.text("title", lab.title, Need::required);
     read_provenance(reader, lab.provenance);
+    std::vector<std::string> assumed;
+    reader.texts("assumed", assumed, Need::optional);
     Questions questions(reader);
     const std::size_t before = faults.size();
     read_kind(reader, lab.test);
@@ -166,7 +168,8 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
         faults.push_back(std::move(fault));
     read_repeats(reader, lab, lab.repeats);
     for (const FilePlace& one : places_in_files(lab.test))
-      if (one.often_unstated && has_place(document, one.place)) lab.stated.push_back(one.place);
+      if (one.often_unstated && has_place(document, one.place) && std::ranges::count(assumed, one.place) == 0)
+        lab.stated.push_back(one.place);
     if (values_are_good(faults, before)) {
       ReadingCheck check = check_readings(lab.test, lab.measurements);
       for (Fault& fault : check.faults) faults.push_back(std::move(fault));

@@ -70,6 +70,7 @@ void judge_scatter(const std::string& place, const ReadingKind& kind, const std:
 
 void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measurement, Questions& questions) {
   const Range range{kind.possible.smallest, kind.possible.largest};
+  const std::size_t before = reader.faults().size();
   std::vector<double> repeats;
   if (reader.numbers("repeats", repeats, range, Need::optional, 2)) {
     average(repeats, measurement);
@@ -79,6 +80,9 @@ void read_one(ObjectReader& reader, const ReadingKind& kind, Measurement& measur
     reader.refuse("value", "stands beside \"repeats\"", "leave it out: the mean of the repeats is taken");
   else
     reader.number("value", measurement.value, range, Need::required);
+  if (!kind.bounded_by.empty())
+    for (std::size_t k = before; k < reader.faults().size(); ++k)
+      reader.faults()[k].remedy += "; its largest value is " + std::string(kind.bounded_by);
 
   double least = 0;
   const bool stated = reader.number("standard_deviation", least, deviations, Need::optional);
@@ -107,10 +111,11 @@ std::string form_of(const ReadingKind& kind, const nlohmann::json* content) {
                            : R"({"value": ..., "standard_deviation": ...}, or {"repeats": [...]})";
 }
 
-/// Readings of one heap, or of one before and after the drop, have an order that no heap turns round.
+/// Readings of one heap, or of one before and after the drop, have an order that no heap turns round. What differs from
+/// heap to heap is the same in both; so a single deviation is much.
 void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
                   const std::vector<Measurement>& measurements) {
-  constexpr double sure = 3;  // standard deviations of the difference of two means
+  constexpr double sure = 1;  // standard deviations of the difference of two means
   const auto error = [](const Measurement& one) { return one.standard_deviation / std::sqrt(one.repeats); };
   for (const Measurement& smaller : measurements) {
     for (const Ceiling& ceiling : find_kind(kinds, smaller.observable)->ceilings) {
@@ -120,7 +125,9 @@ void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
       document.fault("measurements",
                      smaller.observable + " (" + shown(smaller.value) + ") contradicts " + larger->observable + " (" +
                          shown(larger->value) + "): " + std::string(ceiling.why),
-                     "look for swapped readings, or give standard deviations that allow for the difference");
+                     "look for swapped readings: " + smaller.observable + " " + shown(larger->value) + " and " +
+                         larger->observable + " " + shown(smaller.value) +
+                         "; or give standard deviations that allow for the difference");
     }
   }
 }

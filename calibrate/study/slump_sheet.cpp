@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
+#include "calibrate/study/written_readings.h"
 #include "core/apparatus/reading_kind.h"
 
 namespace pastefit {
@@ -45,10 +48,11 @@ std::string reading_fault_place(std::string_view name) {
   return "reading " + printable(name);
 }
 
-/// Three lengths in mm from "200/100/300" or "8/4/12 in". Nothing if it is none.
+/// Three lengths in mm from "200/100/300" or "8/4/12 in": a unit at the end is that of all, otherwise each has its own.
+/// Nothing if it is none.
 std::optional<std::array<double, 3>> lengths_in(const std::string& text) {
   std::array<double, 3> out{};
-  std::optional<Unit> unit;
+  std::array<std::optional<Unit>, 3> units;
   std::size_t start = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::size_t end = i + 1 < out.size() ? text.find('/', start) : text.size();
@@ -56,11 +60,16 @@ std::optional<std::array<double, 3>> lengths_in(const std::string& text) {
     const auto number = written_number(std::string_view(text).substr(start, end - start));
     if (!number) return std::nullopt;
     out[i] = number->value;
-    if (number->unit) unit = number->unit;
+    units[i] = number->unit;
     start = end + 1;
   }
-  if (unit && unit->key != "mm") return std::nullopt;
-  for (double& length : out) length = rounded(length * (unit ? unit->factor : 1), 6);
+  const auto with_unit = std::ranges::count_if(units, [](const auto& unit) { return unit.has_value(); });
+  if (with_unit > 0 && with_unit < 3 && !(with_unit == 1 && units[2])) return std::nullopt;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::optional<Unit>& unit = units[i] ? units[i] : units[2];
+    if (unit && unit->key != "mm") return std::nullopt;
+    out[i] = rounded(out[i] * (unit ? unit->factor : 1), 6);
+  }
   return out;
 }
 
@@ -81,17 +90,35 @@ ordered_json apparatus_json(const std::string& mould) {
   return {{"preset", mould}};
 }
 
+/// The same with the sheet's drops, and on a table that the heap does not leave: that of a preset is an assumption.
+ordered_json apparatus_json(const Sheet& sheet, const SlumpTest& test, const ordered_json& measurements) {
+  constexpr double room = 1.3;
+  ordered_json out = apparatus_json(sheet.mould);
+  if (sheet.drops > 0) out["drop_plate"] = {{"drops", sheet.drops}};
+  const auto spread = measurements.find("step1.spread_mm");
+  if (test.drop || spread == measurements.end()) return out;
+  const double widest_mm = spread->contains("value")
+                               ? spread->at("value").get<double>()
+                               : std::ranges::max(spread->at("repeats").get<std::vector<double>>());
+  if (widest_mm > mm * test.table_length_m) out["table_length_mm"] = rounded(room * widest_mm, 2);
+  return out;
+}
+
 const SlumpTest& slump_of(const Test& test) {
   return std::get<SlumpTest>(test);
 }
 
 /// Radii about that of the preset, a quarter of it to either side: equal spheres lie in layers and shear off along
-/// them. Of another mould, as many grains as an Abrams cone has with 8 mm.
+/// them. Of another mould, and of a preset with too few, as many grains as an Abrams cone has with 8 mm.
 ordered_json grains_json(const Test& test, bool preset) {
-  constexpr double of_opening = 0.08;
+  constexpr double many = 1600, too_few = 500;
+  constexpr double largest_of_opening = 0.08;
   const Mould& mould = slump_of(test).mould;
   const double opening_mm = 1e3 * std::min(2 * narrower_radius_m(mould), mould.height_m);
-  const double radius_mm = preset ? 1e3 * specimen_of(test).grains.radius_m : of_opening * opening_mm;
+  const double preset_mm = 1e3 * specimen_of(test).grains.radius_m, count = grains_needed(test);
+  const double of_many_mm = preset_mm * std::cbrt(count / many);
+  const double radius_mm =
+      preset && count >= too_few ? preset_mm : std::min(of_many_mm, largest_of_opening * opening_mm);
   return {{"distribution", "uniform"},
           {"smallest_mm", rounded(0.75 * radius_mm, 3)},
           {"largest_mm", rounded(1.25 * radius_mm, 3)}};
@@ -99,8 +126,11 @@ ordered_json grains_json(const Test& test, bool preset) {
 
 /// The deviation of one reading: as published for this mould, else the share that is published for a height. Of an
 /// angle of repose nothing is published; 1.5 degrees is what calibrations of wheat assume (data/lab/wheat-repose.json).
+/// Of a time EN 12350-8 publishes a repeatability of 0.66 s, which is 2.8 deviations; a tenth of one that is longer.
 double deviation_of(const ReadingKind& kind, const Test& test, double value) {
   constexpr double share_of_mass = 0.01, share_of_height = 0.025, of_angle_deg = 1.5;
+  constexpr double of_time_s = 0.66 / 2.8, share_of_time = 0.1;
+  if (kind.key.ends_with("_s")) return rounded(std::max(of_time_s, share_of_time * value), 2);
   if (kind.published_deviation > 0) return rounded(kind.published_deviation, 2);
   if (kind.key.ends_with("_deg")) return of_angle_deg;
   if (kind.key == "fill.mass_kg") return rounded(share_of_mass * value, 2);
@@ -123,6 +153,41 @@ void add_note(ordered_json& lab, const std::string& note) {
   lab["provenance"]["notes"] = notes + (notes.empty() ? "" : "; ") + note;
 }
 
+/// Whether a flow is given in per cent: the increase of the width, over the mould's base.
+bool gives_flow_in_percent(const std::string& mould) {
+  return mould == "astm-c1437";
+}
+
+/// A flow after the drops of a table [mm], which may be given in per cent of the mould's base.
+Result<std::vector<double>> flow_mm(const std::string& where, const std::string& text, const Sheet& sheet,
+                                    const SlumpTest& test) {
+  const double base_mm = 2 * mm * test.mould.base_radius_m;
+  const auto of_percent = [&](double percent) { return rounded(base_mm * (1 + percent / 100), 6); };
+  if (text.find('%') == std::string::npos) {
+    auto lengths = written_readings(where, text, "mm");
+    const bool unit = std::ranges::any_of(text, [](unsigned char letter) { return std::isalpha(letter) != 0; });
+    if (!lengths.ok() || unit || !gives_flow_in_percent(sheet.mould)) return lengths;
+    const std::string one = shown(lengths.value()[0]);
+    return Fault{
+        where, "has no unit, and ASTM C1437 gives a flow in per cent of the mould's base",
+        "\"" + one + " %\", which is " + shown(of_percent(lengths.value()[0])) + " mm wide, or \"" + one + " mm\""};
+  }
+  std::string bare = text;
+  std::erase(bare, '%');
+  auto percents = written_readings(where, bare, "");
+  if (!percents.ok()) return percents;
+  std::vector<double> out;
+  for (const double percent : percents.value()) out.push_back(of_percent(percent));
+  return out;
+}
+
+Result<std::vector<double>> values_of_reading(const std::string& name, const std::string& text, std::string_view key,
+                                              const Sheet& sheet, const SlumpTest& test) {
+  if (key == "after_drops.spread_mm") return flow_mm(reading_fault_place(name), text, sheet, test);
+  const auto unit = unit_of_key(key);
+  return written_readings(reading_fault_place(name), text, unit ? unit->key : "");
+}
+
 /// "measurements": what the sheet says.
 ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
   auto out = ordered_json::object();
@@ -138,8 +203,11 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
                         near ? "did you mean " + *near + "?" : "e.g. slump=180 or spread=330"});
       continue;
     }
-    const auto unit = unit_of_key(key);
-    const auto values = written_readings(reading_fault_place(name), text, unit ? unit->key : "");
+    if (out.contains(std::string(key))) {
+      faults.push_back({reading_fault_place(name), "is given twice", "once, repeats as \"180, 175, 190\""});
+      continue;
+    }
+    const auto values = values_of_reading(name, text, key, sheet, slump_of(test));
     if (!values.ok()) {
       faults.insert(faults.end(), values.faults().begin(), values.faults().end());
       continue;
@@ -244,7 +312,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
 
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
 /// of them alone tells the strength.
-ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements) {
+/// A time of the flow tells the viscosity, of laws that have one.
+ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm) {
   if (is_dry(measurements)) return dry_parameters();
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
@@ -253,7 +322,42 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   };
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
-  return parameters_of(laws.laws(), both);
+  ordered_json out = parameters_of(laws.laws(), both);
+  bool timed = false;
+  for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
+  if (timed && laws.law == "bridge" && laws.target == "lammps") {
+    const double most_pa_s = rounded(0.4 * radius_mm, 2);  // larger ones need shorter steps, by the radius
+    out["viscosity_pa_s"] = {{"free", {rounded(most_pa_s / 100, 2), most_pa_s}}, {"scale", "log"}};
+  }
+  return out;
+}
+
+/// What of the sheet cannot be as it is typed.
+Faults doubtful_numbers(const Sheet& sheet, const std::vector<double>& densities) {
+  Faults faults;
+  if (densities.size() > 1)
+    faults.push_back({"density", "is given as " + std::to_string(densities.size()) + " numbers",
+                      "one density of the fresh material, e.g. 2350"});
+  const auto own = lengths_in(sheet.mould);
+  const bool confirmed = std::ranges::count(sheet.confirmed, "mould") > 0;
+  if (own && (*own)[1] > (*own)[0] && !confirmed)
+    faults.push_back({"mould",
+                      "is " + shown((*own)[0]) + " mm wide at its base and " + shown((*own)[1]) + " mm at its top",
+                      "BASE/TOP/HEIGHT; if it stands upside down, say --confirm mould"});
+  if (own && sheet.drops > 0)
+    faults.push_back({"--drops", "is of a preset with a table that drops",
+                      "describe the table in apparatus.drop_plate of the laboratory file"});
+  return faults;
+}
+
+/// What the program has assumed of the apparatus, for the file that says it as if it were measured.
+void note_assumptions(ordered_json& lab, const Sheet& sheet) {
+  if (lengths_in(sheet.mould)) {
+    lab["assumed"] = {"apparatus.lift_velocity_mm_s"};
+    add_note(lab, "the lift velocity is assumed: the mould is off in 3 s, at 50 mm/s or more");
+  } else if (lab["apparatus"].contains("table_length_mm")) {
+    add_note(lab, "the size of the table is assumed, because the heap is wider than the preset's");
+  }
 }
 
 std::string with_head(std::string_view head, const ordered_json& document) {
@@ -264,44 +368,6 @@ std::string with_head(std::string_view head, const ordered_json& document) {
 
 std::span<const ShortReading> short_readings() {
   return shorts;
-}
-
-Result<std::vector<double>> written_readings(const std::string& where, const std::string& text,
-                                             std::string_view unit_key) {
-  const auto unit_now = unit_of_word(unit_key);
-  const std::string own = unit_now ? " in " + std::string(unit_now->name) : "";
-  const auto wrong = [&](std::string what) {
-    return Fault{where, std::move(what), "numbers" + own + " or with their unit, e.g. \"180, 175, 190\""};
-  };
-  std::vector<WrittenNumber> numbers;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    // A number ends at a semicolon, at a comma before a space, or at a space before a digit.
-    std::size_t end = start;
-    for (; end < text.size(); ++end) {
-      const char next = end + 1 < text.size() ? text[end + 1] : ' ';
-      const bool digit = (next >= '0' && next <= '9') || next == '-' || next == '.';
-      if (text[end] == ';' || (text[end] == ',' && next == ' ') || (text[end] == ' ' && digit && end > start)) break;
-    }
-    const std::string_view part = std::string_view(text).substr(start, end - start);
-    start = end + 1;
-    if (part.find_first_not_of(' ') == std::string_view::npos) continue;
-    const auto number = written_number(part);
-    if (!number) return wrong("holds " + in_quotes(part) + ", which is no number");
-    if (number->comma)
-      return Fault{where, "holds " + in_quotes(part),
-                   "a decimal point, or a space after the comma between two numbers"};
-    numbers.push_back(*number);
-  }
-  if (numbers.empty()) return wrong("is empty");
-  const std::optional<Unit> last = numbers.back().unit;
-  std::vector<double> out;
-  for (const WrittenNumber& number : numbers) {
-    const std::optional<Unit> unit = number.unit ? number.unit : last;
-    if (unit && unit->key != unit_key) return wrong("is in " + std::string(unit->name));
-    out.push_back(rounded(number.value * (unit ? unit->factor : 1), 6));
-  }
-  return out;
 }
 
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder) {
@@ -327,18 +393,21 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   ordered_json measurements;
   if (test.ok()) measurements = measurements_of(sheet, test.value(), faults);
   const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);
+  if (density.ok())
+    for (Fault& fault : doubtful_numbers(sheet, density.value())) faults.push_back(std::move(fault));
   if (test.ok() && sheet.readings.empty() && sheet.yield_stress.empty())
     faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
   if (!faults.empty()) return faults;
 
   ordered_json lab{{"format", "pastefit-lab-1"},
-                   {"title", sheet.title},
+                   {"title", one_line(sheet.title)},
                    {"provenance", {{"source", "laboratory, person, date"}}},
-                   {"apparatus", apparatus_json(sheet.mould)},
+                   {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
                    {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
                    {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
                    {"measurements", measurements}};
-  if (!sheet.confirmed.empty()) lab["confirmed"] = sheet.confirmed;
+  for (const std::string& place : sheet.confirmed) lab["confirmed"].push_back(one_line(place));
+  note_assumptions(lab, sheet);
   if (!stresses_pa.empty()) add_yield_stress(lab, stresses_pa);
   if (sheet.readings.empty()) predict_reading(lab, test.value(), stresses_pa, faults);
   if (!faults.empty()) return faults;
@@ -347,10 +416,10 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (!read.ok()) return read.faults();
   const auto chosen = laws_of(sheet, *laws, slump_of(test.value()), read.value().measurements);
   const ordered_json study{{"format", "pastefit-study-1"},
-                           {"title", sheet.title},
+                           {"title", one_line(sheet.title)},
                            {"lab", "lab.json"},
                            {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(chosen.laws)},
-                           {"parameters", parameters_for(chosen.laws, measurements)},
+                           {"parameters", parameters_for(chosen.laws, measurements, lab["grains"]["largest_mm"])},
                            {"search",
                             {{"screening", 8},
                              {"budget_simulations", 150},

@@ -19,6 +19,7 @@ struct Sheet {
   std::string title = "my paste";
   std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
   std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
+  int drops = 0;        ///< of the preset's plate or table; 0: as the preset says
   std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
   std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
   std::string target = "lammps";       ///< the program that the material is for
@@ -36,10 +37,6 @@ struct ShortReading {
   std::string_view name, key, meaning;
 };
 std::span<const ShortReading> short_readings();
-
-/// "180, 175, 190 mm" in the unit of the key: numbers between commas with a space, semicolons or spaces; a unit at the
-/// end is that of all. Error: what is no number, a comma without a space, a unit of something else.
-Result<std::vector<double>> written_readings(const std::string& where, const std::string& text, std::string_view unit);
 
 /// The apparatus that the sheet names, with its default grains. `folder` is where the laboratory file will lie.
 Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path& folder);

@@ -35,6 +35,7 @@ struct ReadingKind {
   std::string_view measure;  ///< reading that the laboratory's is compared with; another one for a slump, else `name`
   int stage = 0;             ///< of the test in which it is taken, counted from 0
   ReadingRange possible;     ///< what a laboratory can read, with room for its apparatus
+  std::string_view bounded_by{};  ///< what its largest value is, where that follows from a place in files; else empty
   std::optional<double> worst_miss{};       ///< the farthest a simulation can be off, if there is such a bound
   std::optional<double> less_than{};        ///< where `measure` is another reading: it is this less the laboratory's
   std::array<Ceiling, 2> ceilings{};        ///< what it is not above

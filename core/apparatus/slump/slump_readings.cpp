@@ -11,7 +11,10 @@ constexpr double room = 0.02;         // for the tolerances of an apparatus
 
 constexpr std::string_view highest_is_above = "the highest point of a heap is not below its height";
 constexpr std::string_view not_raised = "a drop does not raise a heap";
+constexpr std::string_view sags_within = "a top does not sag by more than the heap's height";
 constexpr std::string_view not_drawn = "a drop does not draw a heap together";
+constexpr std::string_view the_table =
+    "that of the table: apparatus.table_length_mm, or apparatus.drop_plate.length_mm";
 constexpr std::string_view published =
     "published for the slump: 21 mm as the 95 % limit between two results (ASTM C143-98), so about 7.5";
 constexpr std::string_view published_spread =
@@ -23,8 +26,10 @@ constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2"
 
 constexpr Lack no_sides{"the table falls upright, so that its heap has no free side",
                         "leave it out, or say that the plate is \"hinged\" in apparatus.drop_plate.motion"};
-constexpr Lack one_drop{"the plate is dropped once, so that there is only step 2",
-                        "name it step2, or give the number of drops in apparatus.drop_plate.drops"};
+constexpr Lack one_drop{
+    "the plate is dropped once, so that there is only step 2",
+    "give their number: 15 for EN 12350-5 (apparatus.drop_plate.drops, or --drops of pastefit new); the "
+    "spread after a single drop is step2"};
 
 /// What the sizes of mould and table allow for.
 struct SlumpRanges {
@@ -71,12 +76,12 @@ std::vector<ReadingKind> step1_kinds(const SlumpRanges& ranges) {
     ReadingKind{.name = "step1.lateral_shift_mm", .key = "step1.lateral_shift_mm", .measure = "step1.lateral_shift_mm",
                 .stage = kStep1, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
     ReadingKind{.name = "step1.spread_mm", .key = "step1.spread_mm", .measure = "step1.spread_mm", .stage = kStep1,
-                .possible = ranges.spread, .worst_miss = ranges.mould_mm,
+                .possible = ranges.spread, .bounded_by = the_table, .worst_miss = ranges.mould_mm,
                 .ceilings = {{{"step2.spread_mm", not_drawn}, {"after_drops.spread_mm", not_drawn}}}, .advised = true,
                 .checked = true,
                 .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step1.spread_orthogonal_mm", .key = "step1.spread_orthogonal_mm",
-                .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = ranges.spread,
+                .measure = "step1.spread_orthogonal_mm", .stage = kStep1, .possible = ranges.spread, .bounded_by = the_table,
                 .worst_miss = ranges.mould_mm, .repeatability = published_spread,
                 .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step1.profile_mm", .key = "step1.profile", .measure = "step1.profile_mm", .stage = kStep1,
@@ -116,17 +121,18 @@ std::vector<ReadingKind> step2_kinds(const SlumpRanges& ranges) {
     ReadingKind{.name = "step2.lateral_shift_mm", .key = "", .measure = "", .stage = kStep2,
                 .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm},
     ReadingKind{.name = "step2.spread_mm", .key = "step2.spread_mm", .measure = "step2.spread_mm", .stage = kStep2,
-                .possible = ranges.spread, .worst_miss = ranges.mould_mm,
+                .possible = ranges.spread, .bounded_by = the_table, .worst_miss = ranges.mould_mm,
                 .ceilings = {{{"after_drops.spread_mm", not_drawn}}}, .advised = true, .checked = true,
                 .repeatability = published_spread, .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step2.spread_orthogonal_mm", .key = "step2.spread_orthogonal_mm",
-                .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = ranges.spread,
+                .measure = "step2.spread_orthogonal_mm", .stage = kStep2, .possible = ranges.spread, .bounded_by = the_table,
                 .worst_miss = ranges.mould_mm, .repeatability = published_spread,
                 .published_deviation = ranges.deviation_of_spread},
     ReadingKind{.name = "step2.profile_mm", .key = "step2.profile", .measure = "step2.profile_mm", .stage = kStep2,
                 .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .from_outline = true},
     ReadingKind{.name = "step2.plateau_sag_mm", .key = "step2.plateau_sag_mm", .measure = "step2.plateau_sag_mm",
-                .stage = kStep2, .possible = ranges.sag, .worst_miss = ranges.mould_mm, .advised = true,
+                .stage = kStep2, .possible = ranges.sag, .worst_miss = ranges.mould_mm,
+                .ceilings = {{{"step2.height_mm", sags_within}, {"step1.height_mm", sags_within}}}, .advised = true,
                 .checked = true},
     ReadingKind{.name = "step2.plateau_width_mm", .key = "step2.plateau_width_mm", .measure = "step2.plateau_width_mm",
                 .stage = kStep2, .possible = ranges.on_the_table, .worst_miss = ranges.mould_mm, .advised = true,
@@ -142,7 +148,7 @@ std::vector<ReadingKind> after_drops_kinds(const SlumpRanges& ranges) {
                 .ceilings = {{{"step2.height_mm", not_raised}, {"step1.height_mm", not_raised}}}, .advised = true,
                 .checked = true, .repeatability = published, .published_deviation = ranges.deviation_of_height},
     ReadingKind{.name = "after_drops.spread_mm", .key = "after_drops.spread_mm", .measure = "after_drops.spread_mm",
-                .stage = kAfterDrops, .possible = ranges.spread, .worst_miss = ranges.mould_mm, .advised = true,
+                .stage = kAfterDrops, .possible = ranges.spread, .bounded_by = the_table, .worst_miss = ranges.mould_mm, .advised = true,
                 .checked = true, .repeatability = published_spread,
                 .published_deviation = ranges.deviation_of_spread}};
 }

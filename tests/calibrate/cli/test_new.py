@@ -69,6 +69,72 @@ class New(Desk):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("no drop plate", refused.stderr)
 
+    def test_a_flow_in_per_cent_of_the_base_is_a_width(self):
+        mortar = ["--mould", "astm-c1437", "--density", "2100"]
+        self.fails(run("new", self.out, *mortar, "--flow", "110"), 2, "per cent of the mould's base", "210 mm", '"110 mm"')
+        lab, _, _ = self.files(*mortar, "--flow", "110 %, 112 %")
+        self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["repeats"], [210, 212])
+        lab, _, _ = self.files(*mortar, "--flow", "205 mm", "--force")
+        self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["value"], 205)
+
+    def test_the_strokes_of_a_standard_are_named_and_can_be_given(self):
+        table = ["--mould", "en12350-5", "--density", "2350"]
+        _, _, said = self.files(*table, "--spread2", "400")
+        self.assertIn("15 drops", " ".join(said.split()))
+        self.fails(run("new", self.folder / "x", *table, "--flow", "400"), 2, "--drops", "15")
+        lab, _, said = self.files(*table, "--flow", "400", "--drops", "15", "--force")
+        self.assertEqual(lab["apparatus"]["drop_plate"], {"drops": 15})
+        self.assertIn("dropped 15 times", said)
+        self.assertNotIn("drops its plate once", said)
+
+    def test_a_time_has_the_deviation_of_a_time_and_frees_the_viscosity(self):
+        flow = ["--mould", "abrams", "--density", "2350", "--spread", "650"]
+        lab, study, _ = self.files(*flow, "--reading", "step1.t500_s=2.1, 2.4, 1.9")
+        self.assertEqual(lab["measurements"]["step1.t500_s"]["standard_deviation"], 0.24)
+        self.assertIn("free", study["parameters"]["viscosity_pa_s"])
+        self.assertEqual(run("simulate", self.out / "study.json", "--set", "grains.largest_mm=12").returncode in (0, 1), True)
+        lab, _, _ = self.files(*flow, "--reading", "step1.flow_time_s=12", "--force")
+        self.assertEqual(lab["measurements"]["step1.flow_time_s"]["standard_deviation"], 1.2)
+
+    def test_numbers_that_contradict_themselves_are_refused(self):
+        for arguments, words in (
+                (["--density", "2350, 1200", "--slump", "180"], ["density", "2 numbers"]),
+                (["--density", "2350", "--slump", "180", "--reading", "slump=175"], ["slump", "is given twice"]),
+                (["--density", "2350", "--slump", "102", "--spread", "600"], ["contradicts", "600"]),
+                (["--density", "2350", "--slump", "180", "--mass", "10"], ["fill.mass_kg", "kg/m3"]),
+                (["--density", "2350", "--slump", "180", "--angle", "0.6"], ["0.6 rad are 34.3775 degrees"])):
+            with self.subTest(arguments=arguments):
+                self.fails(run("new", self.out, "--mould", "abrams", *arguments), 2, *words)
+        table = ["--mould", "en12350-5", "--density", "2350"]
+        for arguments in (["--height", "100", "--height2", "112"], ["--spread", "360", "--spread2", "320"],
+                          ["--height", "118", "--sag", "150"]):
+            with self.subTest(arguments=arguments):
+                self.fails(run("new", self.out, *table, *arguments), 2, "contradicts", "swapped")
+        cone = ["--density", "2350", "--slump", "180"]
+        self.fails(run("new", self.out, "--mould", "100/200/300", *cone), 2, "mould", "at its top", "--confirm mould")
+        self.fails(run("new", self.out, "--mould", "8 in/100/300 mm", *cone), 2, "8 in/100/300 mm")
+        self.assertFalse(self.out.exists())
+        lab, _, _ = self.files("--mould", "8 in/100 mm/300 mm", *cone)
+        self.assertEqual(lab["apparatus"]["mould"]["base_diameter_mm"], 203.2)
+
+    def test_defaults_are_no_limits(self):
+        lab, _, said = self.files("--mould", "haegermann", "--density", "2100", "--spread", "310")
+        self.assertGreater(lab["apparatus"]["table_length_mm"], 310)
+        self.assertIn("is assumed", lab["provenance"]["notes"])
+        self.assertIn("mm thick on the average", " ".join(said.split()))  # the grains are thicker
+        lab, _, said = self.files("--mould", "200/100/300", "--density", "2350", "--slump", "180", "--force")
+        self.assertEqual(lab["assumed"], ["apparatus.lift_velocity_mm_s"])
+        preset, _, of_preset = self.files("--mould", "abrams", "--density", "2350", "--slump", "180", "--force")
+        grains = [re.search(r"about (\d+) of", text)[1] for text in (said, of_preset)]
+        self.assertLess(abs(int(grains[0]) - int(grains[1])), 300)
+        table = run("new", self.folder / "x", "--mould", "haegermann-table", "--density", "2100", "--flow", "310")
+        self.fails(table, 2, "apparatus.drop_plate.length_mm")
+
+    def test_the_commands_that_are_printed_can_be_pasted(self):
+        self.out = self.folder / "my mix; touch planted"
+        _, _, said = self.files(*ABRAMS)
+        self.assertIn(f"'{self.out}/study.json'", said)
+
     def test_the_template_of_a_preset_runs_and_says_what_it_lacks(self):
         for preset, words in (("haegermann-table", "15 strokes"), ("haegermann", "has no strokes"), ("mini-cone", "Kantro")):
             with self.subTest(preset):

@@ -166,6 +166,25 @@ class Sheets(Desk):
         self.fails(run("infer", study, "--from", self.folder), 2, "parameters.table_friction: acts on the table",
                    "which the test's apparatus has not")
 
+    def test_outlines_and_spread_curves_in_another_frame_are_named_before_anything_runs(self):
+        heap = [[-165, 4], [-125, 60], [-65, 130], [0, 145], [65, 130], [125, 60], [165, 4]]
+
+        def profile(points):
+            return self.lab({"step1.profile": {"points": points, "standard_deviation": 8}})
+
+        self.assertEqual(run("simulate", profile(heap)).returncode, 0)
+        self.refused(profile([[x + 165, z] for x, z in heap]), "step1.profile", "one side of the mould's axis")
+        self.refused(profile([[x, 154 - z] for x, z in heap]), "step1.profile", "higher at its ends")
+        self.refused(profile([[x / 10, z / 10] for x, z in heap]), "step1.profile", "as cm")
+
+        def curve(points):
+            return self.lab({"step1.spread_curve": {"points": points, "standard_deviation": 10}},
+                            apparatus={"preset": "abrams", "lift_velocity_mm_s": 100})
+
+        self.refused(curve([[0.5, 125], [1, 140], [3, 150]]), "step1.spread_curve", "if it is a radius")
+        self.refused(curve([[0.5, 25], [1, 28], [3, 30]]), "step1.spread_curve", "if it is in cm")
+        self.refused(curve([[1, 300], [2, 280], [3, 260]]), "step1.spread_curve", "shrinks from 300 to 260 mm")
+
     def test_a_cone_upside_down_is_lifted(self):
         # ASTM C1611, procedure B; the same material spreads as wide from either end of the cone.
         upright = {"mould": {"base_diameter_mm": 200, "top_diameter_mm": 100, "height_mm": 300}, "table_length_mm": 1200,
