@@ -20,6 +20,9 @@ namespace {
 /// Probability to call a heap of the same material another one, a reading.
 constexpr double kReadFalseAlarm = 0.05;
 
+/// The scatter of fewer heaps says next to nothing of another one.
+constexpr int kFewestPackings = 3;
+
 struct ReadOptions {
   std::vector<std::string> dumps;
   std::string card, filled, test;
@@ -44,7 +47,7 @@ std::vector<HeapReading> beside_card(const Observables& readings, const CardTest
     const auto of_card = std::ranges::find(test.observables, reading.name, &CardObservable::name);
     if (of_card != test.observables.end()) {
       one.of_card = &*of_card;
-      if (of_card->packings >= 2)
+      if (of_card->packings >= kFewestPackings)
         one.band = band_of({of_card->packings, of_card->simulated, of_card->simulated_standard_deviation},
                            {1, reading.value, 0}, kReadFalseAlarm);
     }
@@ -69,12 +72,17 @@ std::string reading_table(const std::vector<HeapReading>& readings, std::size_t 
     out += format(" %+10.3g %8s", read - card->simulated, band ? format("%.3g", *band).c_str() : "unknown");
     out += band && std::abs(read - card->simulated) > *band ? "  differs\n" : "\n";
   }
+  std::size_t accepted = packings;
+  for (const HeapReading& one : readings)
+    if (one.of_card) accepted = std::min(accepted, static_cast<std::size_t>(one.of_card->packings));
   if (packings == 1) return out + "Card: one packing, error unknown.\n";
   if (packings < 1) return out;
+  const std::string of =
+      accepted < packings ? format("%zu of the card's %zu", accepted, packings) : format("the card's %zu", packings);
   return out + format(
-                   "Scatter: standard deviation over the card's %zu packings. Noise: a heap of the\n"
+                   "Scatter: standard deviation over %s packings. Noise: a heap of the\n"
                    "card's material in another packing differs by less 95 times in 100.\n",
-                   packings);
+                   of.c_str());
 }
 
 nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings, bool agrees) {
@@ -127,15 +135,18 @@ int read_heap_of(const ReadOptions& options) {
 
   const std::size_t packings = card.value().confirmation.packings.size();
   const auto readings = beside_card(read.value(), test.value());
-  const bool agrees = std::ranges::all_of(readings, &HeapReading::agrees);
+  const bool rejected = is_rejected(test.value().test, read.value());
+  const bool agrees = !rejected && std::ranges::all_of(readings, &HeapReading::agrees);
   if (options.json) {
     print("%s", json_text(json_of(readings, packings, agrees)).c_str());
   } else {
     print("%s", reading_table(readings, packings).c_str());
     const bool compared = std::ranges::any_of(readings, [](const HeapReading& one) { return one.band.has_value(); });
-    print(!compared ? "The card has no readings of two packings or more to compare with.\n"
-          : agrees  ? "The heap agrees with the card.\n"
-                    : "The heap differs from the card's by more than the noise.\n");
+    if (rejected) print("%s.\n", remarks_on(test.value().test, {&read.value(), 1}).c_str());
+    print(rejected    ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
+          : !compared ? "The card has no readings of three packings or more to compare with.\n"
+          : agrees    ? "The heap agrees with the card.\n"
+                      : "The heap differs from the card's by more than the noise.\n");
   }
   return agrees ? kDone : kFailed;
 }

@@ -23,13 +23,12 @@ std::string grains_in_edem(const ContactModel& contact) {
 
 std::string rolling_in_edem(const ContactModel& contact) {
   if (contact.rolling == RollingModel::none || contact.rolling_friction == 0) return "2. Rolling friction: none.\n";
-  std::string out =
-      format("2. Rolling friction: %.6g. EDEM's standard model is a torque against the spin", contact.rolling_friction);
-  if (contact.rolling == RollingModel::spring_dashpot)
-    out +=
-        "; the card has a\n   spring and a dashpot with the same largest moment. Run a test before you trust the "
-        "difference";
-  return out + ".\n";
+  const bool spring = contact.rolling == RollingModel::spring_dashpot;
+  return format("2. Rolling friction: %.6g, with EDEM's rolling model ", contact.rolling_friction) +
+         (spring ? "\"Type C\" (a spring and a dashpot" : "\"RVD\" (a constant torque against the relative spin") +
+         ",\n   lever R* = r1 r2/(r1 + r2)). Not \"Standard Rolling Friction\": it takes the distance to the centre "
+         "and\n"
+         "   each body's own spin, and is twice as strong between equal grains.\n";
 }
 
 /// `surface_energy` is that of two grains.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <set>
 
 #include "calibrate/base/fault_text.h"
@@ -44,8 +45,13 @@ Result<Exporter> exporter_named(const std::string& name) {
     names.emplace(one.name);
     list += (list.empty() ? "" : ", ") + std::string(one.name);
   }
-  const auto near = nearest(name, names);
-  return Fault{"--to " + name, "is no target of an export", near ? "did you mean '" + *near + "'?" : "one of " + list};
+  std::string small;
+  for (const char letter : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  auto near = nearest(small, names);
+  for (const std::string& one : names)
+    if (!small.empty() && one.starts_with(small)) near = one;
+  return Fault{"--to " + printable(name), "is no target of an export",
+               near ? "did you mean '" + *near + "'?" : "one of " + list};
 }
 
 std::string title_of(const Card& card, const CardTest& test) {
@@ -71,6 +77,7 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   ExportScene scene;
   scene.title = title_of(card, test);
   scene.test = test.test;
+  scene.card_density_kg_m3 = card.material.grain_density_kg_m3;
   scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(specimen_of(test.test).bulk_density_kg_m3);
   scene.sizes.radii_m = {scene.radius_m()};
   auto* const slump = std::get_if<SlumpTest>(&scene.test);

@@ -27,9 +27,10 @@ struct ExportWall {
 struct ExportScene {
   std::string title;  ///< of the card, with the test's name if it has one
   Test test;
-  double grain_density_kg_m3 = 0;
-  Packing packing = {};    ///< the filled mould of a slump test; empty for other tests
-  SizeClasses sizes = {};  ///< of its grains; of other tests the mean radius
+  double grain_density_kg_m3 = 0;  ///< of the grains of the packing, which fill the mould with the bulk density
+  Packing packing = {};            ///< the filled mould of a slump test; empty for other tests
+  SizeClasses sizes = {};          ///< of its grains; of other tests the mean radius
+  std::optional<double> card_density_kg_m3 = std::nullopt;  ///< of a grain: the card's mean over its packings
 
   const SlumpTest* slump() const { return std::get_if<SlumpTest>(&test); }
   const ContactModel& contact() const { return specimen_of(test).contact; }

@@ -4,6 +4,7 @@
 
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/base/shell_word.h"
 
 namespace pastefit {
 
@@ -21,20 +22,21 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
 
 /// The heap to expect, and the command that compares that of the other program with it.
 std::string comparison_text(const ExportRequest& request, const Card& card, const CardTest& test,
-                            const std::string& heap) {
+                            const std::string& heap, bool other_law) {
   std::string out;
   const auto packings = card.confirmation.packings.size();
   if (packings >= 1 && !test.observables.empty()) {
+    const std::string heap_of = other_law ? "The card's heap, which this law does not leave" : "The heap to expect";
     out += packings == 1
-               ? "\nThe heap to expect (one packing, error unknown):\n"
-               : format("\nThe heap to expect (mean +- standard deviation of the card's %zu packings):\n", packings);
+               ? "\n" + heap_of + " (one packing, error unknown):\n"
+               : "\n" + heap_of + format(" (mean +- standard deviation of the card's %zu packings):\n", packings);
     for (const CardObservable& reading : test.observables)
       out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
              (reading.packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));
   }
   out += "\nTo compare the heap of the deck with the card's, in this folder:\n    pastefit read " + heap + " --card " +
-         std::filesystem::absolute(request.card_file).string();
-  if (!request.test.empty()) out += " --test " + request.test;
+         shell_word_if_needed(std::filesystem::absolute(request.card_file).string());
+  if (!request.test.empty()) out += " --test " + shell_word_if_needed(request.test);
   if (request.packing) out += " --packing " + std::to_string(*request.packing);
   return out + "\n";
 }
@@ -60,7 +62,8 @@ std::string export_notes(const Export& written, const Exporter& exporter, const 
   for (const auto& note : written.notes) out += "- " + note + "\n";
   if (!written.instructions.empty()) out += "\nTo run it:\n" + written.instructions;
   out += lines_of(bias_text(written));
-  if (!written.heap.empty()) out += lines_of(comparison_text(request, card, test, written.heap));
+  if (!written.heap.empty())
+    out += lines_of(comparison_text(request, card, test, written.heap, !written.own_law.empty()));
   return out;
 }
 

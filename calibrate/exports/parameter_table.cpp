@@ -2,6 +2,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/exports/elasto_plastic.h"
+#include "calibrate/exports/lammps_deck.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
@@ -65,13 +66,19 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   const double radius = specimen.grains.radius_m;
   std::vector<ParameterRow> rows{
       {"grain_radius_m", radius, "mean radius, to which the bridge's numbers belong"},
-      {"grain_density_kg_m3", scene.grain_density_kg_m3, "of the grains"},
+      {"grain_density_kg_m3", scene.card_density_kg_m3.value_or(scene.grain_density_kg_m3), "of the grains"},
       {"bulk_density_kg_m3", specimen.bulk_density_kg_m3, "of the material as the laboratory prepares it"},
       {"youngs_modulus_pa", contact.youngs_modulus_pa, "of the grains"},
       {"poissons_ratio", contact.poissons_ratio, "of the grains"},
       {"restitution", contact.restitution, "grain on grain, without attraction"},
       {"friction", contact.friction, "grain on grain"},
-      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius"}};
+      {"rolling_friction", contact.rolling_friction, "grain on grain, lever over effective radius r1 r2/(r1 + r2)"},
+      {"time_step_s", deck_time_step_s(scene), "at most: a tenth of the Rayleigh time"}};
+  if (const GrainSizes& grains = specimen.grains; grains.distribution != SizeDistribution::mono)
+    rows.insert(rows.begin() + 1,
+                {{"smallest_radius_m", grains.smallest_m, "of the grains"},
+                 {"largest_radius_m", grains.largest_m,
+                  "of the grains, distribution " + word_of(grains.distribution, size_distributions)}});
   if (contact.surface_energy_j_m2 > 0)
     rows.push_back({"surface_energy_j_m2", contact.surface_energy_j_m2, "of the grains, half the work of adhesion"});
   if (contact.cohesion_energy_density_pa > 0)

@@ -5,6 +5,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/laboratory/names.h"
+#include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {
@@ -59,10 +60,14 @@ TypeInGroup grains_to_type(const Material& material) {
 }
 
 TypeInGroup grain_on_grain(const ContactModel& contact) {
-  TypeInGroup group{"Grain on grain: " + name_for_people(contact.normal),
-                    {{"restitution", contact.restitution, "", ""}, {"sliding friction", contact.friction, "", ""}}};
+  TypeInGroup group{
+      "Grain on grain: " + name_for_people(contact.normal),
+      {{"restitution", contact.restitution, "", "damping 2 sqrt(5/6) beta sqrt(S m*), without attraction"},
+       {"sliding friction", contact.friction, "",
+        "of the " + word_of(contact.friction_basis, friction_bases) + " normal force"}}};
   if (contact.rolling != RollingModel::none)
-    group.rows.push_back({"rolling friction", contact.rolling_friction, "", name_for_people(contact.rolling)});
+    group.rows.push_back({"rolling friction", contact.rolling_friction, "",
+                          name_for_people(contact.rolling) + ", lever over R* = r1 r2/(r1 + r2)"});
   if (contact.surface_energy_j_m2 > 0)
     group.rows.push_back({"surface energy", contact.surface_energy_j_m2, "J/m2", "half the work of adhesion"});
   if (contact.cohesion_energy_density_pa > 0)
@@ -104,6 +109,8 @@ TypeInGroup attraction_of(const Material& material) {
     group.rows.push_back({"surface tension", bridge.surface_tension_n_m, "N/m", ""});
     group.rows.push_back({"contact angle", bridge.contact_angle_rad, "rad", ""});
   }
+  group.rows.push_back({"formation gap", milli * bridge_gaps(contact, {radius, radius, radius}).formation_m, "mm",
+                        "all gaps with s = 2 R*/R, forces with s^2, of other sizes"});
   group.rows.push_back({"c", at_touch, "N", "attraction at touch"});
   group.rows.push_back({"d_c", -milli * rupture_gap(bridge, radius), "mm", "rupture (negative: a gap)"});
   group.rows.push_back(
