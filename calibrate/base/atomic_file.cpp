@@ -49,11 +49,33 @@ std::string kind_of_special_file(const std::filesystem::path& path) {
   }
 }
 
+namespace {
+
+Faults unwritable(const std::filesystem::path& file, int error) {
+  return {{file.string(), std::string("cannot be written: ") + std::strerror(error),
+           "a folder that can be written, on a disk with free space"}};
+}
+
+/// A new file beside this one. Somebody else may have put a link or a file of their own where it would be: such a name
+/// is passed over, and never followed or overwritten.
+int open_beside(const std::filesystem::path& file, std::filesystem::path& beside) {
+  constexpr int most_names = 100;
+  const std::string begin = file.string() + "." + std::to_string(::getpid());
+  for (int i = 0; i < most_names; ++i) {
+    beside = begin + (i == 0 ? "" : "-" + std::to_string(i)) + ".part";
+    const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
+
+}  // namespace
+
 Faults write_atomically(const std::filesystem::path& file, std::string_view content) {
   if (const std::string special = kind_of_special_file(file); !special.empty())
     return {{file.string(), "is " + special + ", and only a regular file is replaced", "choose another name"}};
-  const auto beside = std::filesystem::path(file.string() + "." + std::to_string(::getpid()) + ".part");
-  const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::filesystem::path beside;
+  const int descriptor = open_beside(file, beside);
   bool written = descriptor >= 0 && write_all(descriptor, content) && ::fsync(descriptor) == 0;
   int error = errno;
   if (descriptor >= 0 && ::close(descriptor) != 0 && written) {
@@ -66,11 +88,22 @@ Faults write_atomically(const std::filesystem::path& file, std::string_view cont
   }
   if (!written) {
     if (descriptor >= 0) ::unlink(beside.c_str());
-    return {{file.string(), std::string("cannot be written: ") + std::strerror(error),
-             "a folder that can be written, on a disk with free space"}};
+    return unwritable(file, error);
   }
   sync_folder(file.has_parent_path() ? file.parent_path() : ".");
   return {};
+}
+
+Faults probe_beside(const std::filesystem::path& file, std::size_t bytes) {
+  std::filesystem::path beside;
+  const int descriptor = open_beside(file, beside);
+  const bool written = descriptor >= 0 && write_all(descriptor, std::string(bytes, '.'));
+  const int error = errno;
+  if (descriptor >= 0) {
+    ::close(descriptor);
+    ::unlink(beside.c_str());
+  }
+  return written ? Faults{} : unwritable(file, error);
 }
 
 }  // namespace pastefit

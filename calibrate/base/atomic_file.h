@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,5 +18,9 @@ std::string kind_of_special_file(const std::filesystem::path& path);
 /// Errors: something that is no regular file has the name, the folder cannot be written or the disk is full; what was
 /// there is then as it was.
 Faults write_atomically(const std::filesystem::path& file, std::string_view content);
+
+/// Whether the file could be written: so many bytes are written beside it, under a name that nothing has, and removed.
+/// Errors: as `write_atomically`.
+Faults probe_beside(const std::filesystem::path& file, std::size_t bytes);
 
 }  // namespace pastefit

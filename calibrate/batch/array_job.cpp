@@ -1,5 +1,8 @@
 #include "calibrate/batch/array_job.h"
 
+#include <algorithm>
+
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/shell_word.h"
 #include "calibrate/store/program.h"
 
@@ -21,9 +24,16 @@ std::string studies_of(const ArrayJob& job) {
   return out + ")\n";
 }
 
-/// A file that Slurm writes the output to.
+/// A file that Slurm writes the output to, in whose name it replaces %a by the element's number. A % of the folder's
+/// own name is doubled.
 std::string output_line(const ArrayJob& job, const std::string& name) {
-  return "#SBATCH --output=" + shell_word((job.out / name).string()) + " --open-mode=append\n";
+  std::string folder;
+  for (const char letter : job.out.string()) folder += letter == '%' ? std::string("%%") : std::string(1, letter);
+  return "#SBATCH --output=" + shell_word((std::filesystem::path(folder) / name).string()) + " --open-mode=append\n";
+}
+
+std::string output_of_part(int part) {
+  return part == 1 ? "slurm-%a.txt" : "slurm-" + std::to_string(part) + "-%a.txt";
 }
 
 constexpr const char* kElement = R"sh(
@@ -47,11 +57,28 @@ exit $status
 
 }  // namespace
 
+Faults unusable_in_job(const ArrayJob& job) {
+  Faults faults;
+  const auto check = [&](const std::string& where, const std::string& path, bool pattern) {
+    const auto bad = [&](unsigned char letter) {
+      return letter < 0x20 || letter == 0x7f || (pattern && letter == '\\');
+    };
+    if (std::ranges::any_of(path, bad))
+      faults.push_back({where,
+                        in_quotes(path) + " has a line break, a control character or a backslash, which no option "
+                                          "of Slurm can have",
+                        "a folder with another name"});
+  };
+  check("--out", job.out.string(), true);
+  check("the working folder", job.directory.string(), false);
+  return faults;
+}
+
 std::string array_job_script(const ArrayJob& job) {
   const std::string last = std::to_string(job.studies.size() - 1);
   return heading_of_job(job, "Calibrates one study per element.", "pastefit") + "#SBATCH --array=0-" + last +
          "\n#SBATCH --cpus-per-task=" + std::to_string(job.workers) + "\n#SBATCH --requeue --signal=B:USR1@120\n" +
-         output_line(job, "slurm-%a.txt") + studies_of(job) + kElement + shell_word(job.program.string()) +
+         output_line(job, output_of_part(job.part)) + studies_of(job) + kElement + shell_word(job.program.string()) +
          " batch \"${studies[SLURM_ARRAY_TASK_ID]}\" --out " + shell_word(job.out.string()) +
          " --workers \"$SLURM_CPUS_PER_TASK\" --no-table &\n" + kWait;
 }

@@ -31,6 +31,8 @@ Result<std::vector<BatchStudy>> read_batch(const std::vector<std::string>& files
   for (const std::string& file : files) {
     const std::string name = batch_name(file);
     const auto [first, is_new] = first_of.emplace(name, file);
+    if (name == "." || name == "..")
+      faults.push_back({file, "has no name that a folder of the batch can have", "give the file another name"});
     if (!is_new)
       faults.push_back({file, "has the name \"" + name + "\" in this batch, as " + first->second + " has",
                         "give each study once, and each under another name of its file or folder"});

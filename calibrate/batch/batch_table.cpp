@@ -73,9 +73,10 @@ void add(BatchRow& row, const Card& card) {
   }
 }
 
-/// The text as one cell.
+/// The text as one cell. A spreadsheet would compute one that begins as a formula does: it gets an apostrophe.
 std::string quoted(const std::string& text) {
   std::string line = one_line(text);
+  if (!line.empty() && std::string_view("=+-@").find(line[0]) != std::string_view::npos) line.insert(0, 1, '\'');
   if (line.find_first_of(",\"") == std::string::npos) return line;
   std::string out = "\"";
   for (const char letter : line) out += letter == '"' ? std::string("\"\"") : std::string(1, letter);

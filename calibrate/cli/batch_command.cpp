@@ -117,48 +117,71 @@ Faults calibrate_one(const BatchStudy& one, const BatchArguments& options, const
 /// Calibrates what is not finished, one after the other.
 Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments& options,
                      const std::atomic<bool>& stop) {
+  Faults all;
   for (std::size_t i = 0; i < batch.size() && !stop; ++i) {
     const BatchStudy& one = batch[i];
     const bool finished = is_finished(one);
     note("%zu of %zu: %s%s\n", i + 1, batch.size(), one.name.c_str(), finished ? ": finished before" : "");
     if (finished) continue;
-    if (auto faults = calibrate_one(one, options, stop); !faults.empty()) return faults;
+    // What one study meets stops no other.
+    for (const Fault& fault : calibrate_one(one, options, stop)) all.push_back(fault);
     const BatchRow row = row_of(one);
     print("%s: %s%s%s\n", one.name.c_str(), row.verdict.c_str(), row.reasons.empty() ? "" : ": ", row.reasons.c_str());
     std::fflush(stdout);
   }
-  return {};
+  return all;
 }
 
 int run_on_this_machine(const std::vector<BatchStudy>& batch, const BatchArguments& options) {
   const std::atomic<bool>& stop = listen_for_stop();
-  if (!options.table)
-    if (const auto faults = calibrate_all(batch, options, stop); !faults.empty()) return report(faults, kFailed);
+  const Faults faults = options.table ? Faults{} : calibrate_all(batch, options, stop);
   std::vector<BatchRow> rows;
   for (const BatchStudy& one : batch) rows.push_back(row_of(one));
   if (!options.no_table)
-    if (const auto faults = write_table(rows, options.out); !faults.empty()) return report(faults, kFailed);
+    if (const auto unwritten = write_table(rows, options.out); !unwritten.empty()) return report(unwritten, kFailed);
   if (stop) std::fprintf(stderr, "pastefit: interrupted; the same command goes on\n");
   const auto confirmed = std::ranges::count(rows, "confirmed", &BatchRow::verdict);
   if (!options.no_table) print("%td of %zu studies are confirmed\n", confirmed, rows.size());
-  return options.table || confirmed == std::ssize(rows) ? kDone : kFailed;
+  if (!faults.empty()) return report(faults, kFailed);
+  const bool whole = std::ranges::all_of(batch, is_finished);  // with its page
+  return options.table || (whole && confirmed == std::ssize(rows)) ? kDone : kFailed;
+}
+
+/// The scripts of the arrays that the batch needs, by name: Slurm has a limit on the elements of one.
+std::vector<std::pair<std::string, std::string>> array_scripts(const ArrayJob& whole) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (std::size_t begin = 0; begin < whole.studies.size(); begin += kMostElements) {
+    ArrayJob part = whole;
+    const auto first = whole.studies.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto count = std::min(kMostElements, whole.studies.size() - begin);
+    part.studies.assign(first, first + static_cast<std::ptrdiff_t>(count));
+    part.part = static_cast<int>(out.size()) + 1;
+    const std::string name = out.empty() ? kArrayScript : format("batch-%d.sbatch", part.part);
+    out.emplace_back(name, array_job_script(part));
+  }
+  return out;
 }
 
 /// Writes the scripts, and says how they are submitted.
 int write_jobs(const BatchArguments& options) {
   std::error_code error;
-  ArrayJob job{fs::read_symlink("/proc/self/exe", error), fs::current_path(error), options.out, options.studies,
-               options.workers > 0 ? options.workers : kElementWorkers};
-  const fs::path out = options.out, array = out / kArrayScript, table = out / kTableScript;
+  const ArrayJob job{fs::read_symlink("/proc/self/exe", error), fs::current_path(error), options.out, options.studies,
+                     options.workers > 0 ? options.workers : kElementWorkers};
+  if (const Faults unusable = unusable_in_job(job); !unusable.empty()) return report(unusable);
+  const fs::path out = options.out, table = out / kTableScript;
   fs::create_directories(out, error);
-  auto faults = write_atomically(array, array_job_script(job));
+  std::string submitted;
+  Faults faults;
+  for (const auto& [name, script] : array_scripts(job)) {
+    if (faults.empty()) faults = write_atomically(out / name, script);
+    if (faults.empty()) note("wrote %s\n", (out / name).c_str());
+    submitted += ":$(sbatch --parsable " + shell_word((out / name).string()) + ")";
+  }
   if (faults.empty()) faults = write_atomically(table, table_job_script(job));
   if (!faults.empty()) return report(faults, kFailed);
-  note("wrote %s\nwrote %s\n", array.c_str(), table.c_str());
-  const std::string submit = "sbatch --dependency=afterany:$(sbatch --parsable " + shell_word(array.string()) + ") " +
-                             shell_word(table.string());
+  note("wrote %s\n", table.c_str());
   note("to run them, %d cores each, and then make the table:\n", job.workers);
-  print("%s\n", submit.c_str());
+  print("sbatch --dependency=afterany%s %s\n", submitted.c_str(), shell_word(table.string()).c_str());
   return kDone;
 }
 

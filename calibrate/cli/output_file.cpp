@@ -35,9 +35,7 @@ Faults output_file_faults(const std::string& option, const fs::path& file, bool 
     return {{where, "there is no folder " + folder.string(), "make it, or choose another"}};
   if (!force && fs::exists(file, error))
     return {{where, "is there already", "choose another name, or replace it with --force"}};
-  const fs::path probe = file.string() + ".pastefit-probe";
-  Faults faults = write_atomically(probe, ".");
-  fs::remove(probe, error);
+  Faults faults = probe_beside(file, 1);
   for (Fault& fault : faults) fault.where = where;
   return faults;
 }

@@ -21,12 +21,17 @@ bool is_loop(const std::string& line, double& seconds, int& ranks) {
   std::string loop, time, of, on;
   auto words = line_stream(line);
   words >> loop >> time >> of >> seconds >> on >> ranks;
-  return words && loop == "Loop" && time == "time" && of == "of" && on == "on";
+  constexpr double longest_s = 1e9;
+  constexpr int most_ranks = 10'000'000;
+  const bool possible = seconds >= 0 && seconds <= longest_s && ranks >= 1 && ranks <= most_ranks;
+  return words && possible && loop == "Loop" && time == "time" && of == "of" && on == "on";
 }
 
 /// "99.5% CPU use with ...".
 bool is_share(const std::string& line, double& percent) {
-  return line.find("% CPU use") != std::string::npos && line_stream(line) >> percent && percent > 0;
+  constexpr double most_percent = 1e5;
+  return line.find("% CPU use") != std::string::npos && line_stream(line) >> percent && percent > 0 &&
+         percent <= most_percent;
 }
 
 }  // namespace

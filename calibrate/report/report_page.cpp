@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/shell_word.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"
@@ -65,7 +66,8 @@ Faults write_curves(const std::filesystem::path& folder, const Findings& finding
 }
 
 Faults write_page(const std::filesystem::path& folder, const Findings& findings) {
-  return write_atomically(folder / kPage, page_of(findings, "pastefit report " + folder.string()));
+  return write_atomically(folder / kPage,
+                          page_of(findings, "pastefit report " + shell_word_if_needed(folder.string())));
 }
 
 }  // namespace pastefit

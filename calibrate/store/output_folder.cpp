@@ -65,10 +65,8 @@ Result<OutputFolder> OutputFolder::open(const fs::path& folder, const std::vecto
     return Fault{where, "has " + std::to_string(space.available >> 20) + " MB of free space",
                  "at least " + std::to_string((space_bytes >> 20) + 1) + " MB; free some, or choose another disk"};
 
-  const auto probe = out.file(".pastefit-probe");
-  auto faults = write_atomically(probe, std::string(4096, '.'));
-  fs::remove(probe, error);
-  if (!faults.empty()) {
+  constexpr std::size_t kProbeBytes = 4096;
+  if (auto faults = probe_beside(out.file("pastefit-probe"), kProbeBytes); !faults.empty()) {
     faults[0].where = where;
     return faults;
   }

@@ -201,6 +201,41 @@ class Batch(Desk):
             subprocess.run(["bash", "-n", self.out / name], check=True)
         self.assertEqual(sorted(os.listdir(self.out)), ["batch-table.sbatch", "batch.sbatch"])
 
+    def test_a_percent_sign_in_a_path_is_no_wildcard_of_slurm_and_a_line_break_no_command(self):
+        studies = write_studies(self.folder, 1)
+        out = self.folder / "45%aggregate"
+        self.assertEqual(run("batch", *studies, "--out", out, "--slurm").returncode, 0)
+        for name in ("batch.sbatch", "batch-table.sbatch"):
+            line, = (line for line in (out / name).read_text().splitlines() if line.startswith("#SBATCH --output="))
+            self.assertIn("45%%aggregate/slurm-", line)
+        for evil in ("mix\ntouch planted\n#", "mix\\one"):
+            self.fails(run("batch", *studies, "--out", self.folder / evil, "--slurm"), 2, "--out", "line break")
+        inside = self.folder / "a\nb"
+        inside.mkdir()
+        self.fails(run("batch", *studies, "--out", "out", "--slurm", cwd=inside), 2, "working folder")
+
+    def test_more_studies_than_an_array_of_slurm_has_elements_are_several_arrays(self):
+        study, = write_studies(self.folder, 1)
+        files = [study]
+        for number in range(1000):
+            files.append(study.with_name(f"more-{number}.json"))
+            files[-1].write_text(study.read_text())
+        result = run("batch", *files, "--out", self.out, "--slurm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        arrays = {name: re.search(r"--array=0-(\d+)", (self.out / name).read_text())[1]
+                  for name in ("batch.sbatch", "batch-2.sbatch")}
+        self.assertEqual(arrays, {"batch.sbatch": "999", "batch-2.sbatch": "0"})
+        self.assertEqual(result.stdout.count(":$(sbatch --parsable "), 2)
+
+    def test_no_cell_of_the_table_is_a_formula(self):
+        study, = write_studies(self.folder, 1)
+        content = json.loads(study.read_text())
+        content["title"] = "=HYPERLINK(0)"
+        study.write_text(json.dumps(content))
+        run("batch", study, "--out", self.out, "--table")
+        row, = csv.DictReader((self.out / "batch.csv").read_text().splitlines())
+        self.assertEqual(row["title"], "'=HYPERLINK(0)")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -71,6 +71,23 @@ class SpecialFiles(Desk):
                     self.fails(quickly(*command, kinds[name], *force), 2, "symbolic link")
         self.assert_as_before(kinds)
 
+    def test_planted_links_are_not_followed_and_files_of_others_not_overwritten(self):
+        card, victim = coarse_card(), self.folder / "victim"
+        victim.write_text("somebody's")
+        out = self.folder / "new.json"
+        for name in ("new.json.pastefit-probe", ".pastefit-probe"):
+            (self.folder / name).symlink_to(victim)
+        # The number of the next process can be foretold: a shell that becomes the program keeps its own.
+        script = ('for name in new.json.$$.part; do ln -s victim "$name"; done; echo mine >new.json.$$-1.part; '
+                  'exec "$0" "$@"')
+        result = subprocess.run(["sh", "-c", script, PROGRAM, "rescale", card, "--radius", "11", "--packings", "0", "--out", out],
+                                cwd=self.folder, capture_output=True, text=True, **HASTY)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(victim.read_text(), "somebody's")
+        self.assertIn("pastefit-card", out.read_text())
+        mine, = self.folder.glob("new.json.*-1.part")
+        self.assertEqual(mine.read_text(), "mine\n")
+
     def test_a_device_takes_what_is_written_and_stays_one(self):
         kinds = self.special_files()
         if "device" not in kinds:
