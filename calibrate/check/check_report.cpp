@@ -23,10 +23,10 @@ std::string text_of(const CheckedFile& checked) {
   const auto& check = checked.check;
   std::string out = checked.file.string() + ": " + one_line(check.card) + "\n";
   if (!check.readings.empty())
-    out += format("  %-34s %12s %12s %12s %12s\n", "reading", "card", "now", "difference", "band");
+    out += format("  %-26s %10s %10s %10s %10s\n", "reading", "card", "now", "difference", "band");
   for (const auto& reading : check.readings)
-    out += format("  %-34s %12.6g %12.6g %+12.3g %12.3g%s\n", reading.name.c_str(), reading.expected, reading.got,
-                  reading.got - reading.expected, reading.band, reading.agrees() ? "" : "   outside");
+    out += format("  %-26s %10.6g %10.6g %+10.3g %10.3g%s\n", reading.name.c_str(), reading.expected, reading.got,
+                  reading.got - reading.expected, reading.band, reading.agrees() ? "" : " outside");
   if (check.simulations > 0)
     out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
                   std::string(name_of(check.bits)).c_str(), check.false_alarm);
@@ -39,7 +39,7 @@ ordered_json to_json(const std::vector<CheckedFile>& checked) {
                    {"disagree", count_of(checked, CheckVerdict::disagrees)},
                    {"not_checked", count_of(checked, CheckVerdict::not_checked)},
                    {"cards", ordered_json::array()}};
-  for (const auto& [file, check] : checked) {
+  for (const auto& [file, check, seconds] : checked) {
     ordered_json readings = ordered_json::object();
     for (const auto& reading : check.readings)
       readings[reading.name] = {{"expected", reading.expected}, {"expected_runs", reading.expected_count},
@@ -53,6 +53,7 @@ ordered_json to_json(const std::vector<CheckedFile>& checked) {
                             {"reason", check.reason},
                             {"false_alarm", check.false_alarm},
                             {"simulations", check.simulations},
+                            {"seconds", seconds},
                             {"readings", std::move(readings)}});
   }
   return out;
@@ -60,11 +61,14 @@ ordered_json to_json(const std::vector<CheckedFile>& checked) {
 
 std::string junit_of(const std::vector<CheckedFile>& checked) {
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  out += format("<testsuite name=\"pastefit check\" tests=\"%zu\" failures=\"%ld\" errors=\"%ld\">\n", checked.size(),
-                static_cast<long>(count_of(checked, CheckVerdict::disagrees)),
+  double seconds = 0;
+  for (const CheckedFile& one : checked) seconds += one.seconds;
+  out += format("<testsuite name=\"pastefit check\" time=\"%.3f\" tests=\"%zu\" failures=\"%ld\" errors=\"%ld\">\n",
+                seconds, checked.size(), static_cast<long>(count_of(checked, CheckVerdict::disagrees)),
                 static_cast<long>(count_of(checked, CheckVerdict::not_checked)));
   for (const auto& one : checked) {
-    out += "  <testcase classname=\"pastefit.check\" name=\"" + xml_text(one.file.string()) + "\">\n";
+    out += "  <testcase classname=\"pastefit.check\" name=\"" + xml_text(one.file.string()) +
+           format("\" time=\"%.3f\">\n", one.seconds);
     const auto tag = one.check.verdict == CheckVerdict::disagrees     ? "failure"
                      : one.check.verdict == CheckVerdict::not_checked ? "error"
                                                                       : "";

@@ -13,6 +13,7 @@ namespace pastefit {
 struct CheckedFile {
   std::filesystem::path file;
   CardCheck check;
+  double seconds = 0;  ///< of the wall clock
 };
 
 /// The answer for a card as a person reads it: a table of readings, and a sentence.

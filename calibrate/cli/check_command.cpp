@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
@@ -49,13 +51,13 @@ int rebaseline_all(const CheckCommand& options) {
   WorkLine line("simulations", simulations);
   const CheckEngine engine = counted(CheckEngine::ours(), line);
   for (auto& card : cards) {
-    auto changed = rebaselined(std::move(card), options.why, options.packings, options.check, engine);
+    auto changed = rebaselined(std::move(card), one_line(options.why), options.packings, options.check, engine);
     if (!changed.ok()) return report(changed.faults(), kFailed);
     card = std::move(changed).value();
   }
   line.clear();
   for (std::size_t i = 0; i < cards.size(); ++i) {
-    if (const auto unwritten = write_atomically(options.cards[i], json_text(to_json(cards[i]))); !unwritten.empty())
+    if (const auto unwritten = write_card(options.cards[i], cards[i]); !unwritten.empty())
       return report(unwritten, kFailed);
     const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
     print("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
@@ -97,6 +99,7 @@ int check_all(const CheckCommand& options) {
   std::vector<CheckedFile> checked;
   for (std::size_t i = 0; i < cards.size(); ++i) {
     CheckedFile one{options.cards[i], {}};
+    const auto start = std::chrono::steady_clock::now();
     const Result<Card>& card = cards[i];
     if (!card.ok()) {
       one.check.card = "unreadable card";
@@ -105,6 +108,7 @@ int check_all(const CheckCommand& options) {
       one.check =
           lab ? check_against(card.value(), *lab, options.check, engine) : check(card.value(), options.check, engine);
     }
+    one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     line.clear();
     if (!options.json && !is_standard_output(options.junit)) print("%s", text_of(one).c_str());
     checked.push_back(std::move(one));

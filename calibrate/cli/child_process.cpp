@@ -35,7 +35,7 @@ std::string content_of(int file) {
 
 /// Waits for the child. Its own handler takes each signal once: who types Ctrl-C sends SIGINT to both, and Slurm
 /// SIGTERM, so that SIGHUP is the one that it has not had.
-int wait_for(pid_t child, const std::atomic<bool>& stop) {
+int wait_for(pid_t child, const std::atomic<bool>& stop, const std::function<void()>& meanwhile) {
   bool told = false;
   int state = 0;
   for (;;) {
@@ -46,13 +46,14 @@ int wait_for(pid_t child, const std::atomic<bool>& stop) {
       ::kill(child, SIGHUP);
       told = true;
     }
+    if (meanwhile) meanwhile();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
 
 /// Starts a process that calls `become`, which does not come back, and waits for its end.
 template <class Become>
-ChildEnd run_child(int output, const std::atomic<bool>& stop, Become become) {
+ChildEnd run_child(int output, const std::atomic<bool>& stop, const std::function<void()>& meanwhile, Become become) {
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) fail("fork");
   if (child == 0) {
@@ -60,7 +61,7 @@ ChildEnd run_child(int output, const std::atomic<bool>& stop, Become become) {
     if (::getppid() == parent) become();
     ::_exit(kNotStarted);
   }
-  const int state = wait_for(child, stop);
+  const int state = wait_for(child, stop, meanwhile);
   ChildEnd end;
   if (WIFSIGNALED(state))
     end.signal = WTERMSIG(state);
@@ -81,17 +82,18 @@ ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::
   argv.push_back(nullptr);
   const int output = ::memfd_create("pastefit-output", MFD_CLOEXEC);
   if (output < 0) fail("memfd_create");
-  return run_child(output, stop, [&] {
+  return run_child(output, stop, {}, [&] {
     ::dup2(output, STDOUT_FILENO);
     ::execv("/proc/self/exe", argv.data());
   });
 }
 
 ChildEnd run_in_shell(const std::string& command, const std::filesystem::path& folder,
-                      const std::filesystem::path& output_file, const std::atomic<bool>& stop) {
+                      const std::filesystem::path& output_file, const std::atomic<bool>& stop,
+                      const std::function<void()>& meanwhile) {
   const int output = ::open(output_file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (output < 0) fail("open");
-  return run_child(output, stop, [&] {
+  return run_child(output, stop, meanwhile, [&] {
     const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing < 0 || ::chdir(folder.c_str()) != 0) return;
     ::dup2(nothing, STDIN_FILENO);

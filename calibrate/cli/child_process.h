@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,9 @@ struct ChildEnd {
 ChildEnd run_this_program(const std::vector<std::string>& arguments, const std::atomic<bool>& stop);
 
 /// Runs a command of the shell in `folder` and waits for its end, as above; it reads nothing. Both of its outputs go to
-/// the file `output`, and into the answer.
+/// the file `output`, and into the answer. `meanwhile`: called while it runs.
 ChildEnd run_in_shell(const std::string& command, const std::filesystem::path& folder,
-                      const std::filesystem::path& output, const std::atomic<bool>& stop);
+                      const std::filesystem::path& output, const std::atomic<bool>& stop,
+                      const std::function<void()>& meanwhile = {});
 
 }  // namespace pastefit

@@ -1,14 +1,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 
+#include "calibrate/base/file_lock.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/further_confirmation.h"
 #include "calibrate/cli/commands.h"
@@ -19,6 +25,7 @@
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/report/card_text.h"
+#include "calibrate/search/memory.h"
 
 namespace pastefit {
 
@@ -41,9 +48,13 @@ class RunsFolder {
  public:
   explicit RunsFolder(const std::string& given) : temporary_(given.empty()) {
     std::error_code error;
-    path_ =
-        temporary_ ? fs::temp_directory_path(error) / format("pastefit-confirm-%d", ::getpid()) : fs::absolute(given);
+    if (temporary_)
+      path_ = made_by_nobody_else(fs::temp_directory_path(error) / "pastefit-confirm-XXXXXX");
+    else
+      path_ = fs::absolute(given, error);
   }
+  bool exists() const { return !path_.empty(); }
+  const fs::path& path() const { return path_; }
   fs::path of(std::uint64_t packing) const { return path_ / ("packing-" + std::to_string(packing)); }
   void done() const {
     std::error_code error;
@@ -51,6 +62,12 @@ class RunsFolder {
   }
 
  private:
+  /// A new folder that only this user can read; empty if none could be made.
+  static fs::path made_by_nobody_else(const fs::path& pattern) {
+    std::string name = pattern.string();
+    return ::mkdtemp(name.data()) ? fs::path(name) : fs::path();
+  }
+
   const bool temporary_;
   fs::path path_;
 };
@@ -74,6 +91,7 @@ Result<Asked> asked_for(const Card& card, const ConfirmOptions& options) {
   if (!has_deck(test.value().test))
     return Fault{test.value().name.empty() ? "the card's test" : "test " + test.value().name,
                  "has no deck: another program cannot run it", "choose another test with --test"};
+  if (Faults faults = validate_memory(test.value().test, 1); !faults.empty()) return faults;
   return Asked{std::move(with_grains), std::move(test).value()};
 }
 
@@ -86,8 +104,9 @@ Faults unusable_options(const ConfirmOptions& options) {
   if (std::istringstream(options.launch) >> first; !first.empty() && !is_program(first))
     faults.push_back({"--launch", "there is no program " + one_line(first),
                       "install an MPI (Debian's openmpi-bin), or leave --launch out for one rank"});
-  if (!options.out.empty())
-    for (Fault& fault : output_faults("--out", options.out, options.force)) faults.push_back(std::move(fault));
+  for (Fault& fault : options.out.empty() ? output_file_faults("CARD", options.card, true)
+                                          : output_faults("--out", options.out, options.force))
+    faults.push_back(std::move(fault));
   if (!options.runs.empty())
     for (Fault& fault : output_folder_faults("--runs", options.runs)) faults.push_back(std::move(fault));
   return faults;
@@ -121,6 +140,34 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
   return out;
 }
 
+/// The card as it is now: another confirmation may have been written on it meanwhile. Error: its material is another.
+Result<Card> card_now(const ConfirmOptions& options, const Card& confirmed) {
+  auto now = read_card(options.card);
+  if (!now.ok()) return now.faults();
+  const auto without_confirmations = [](Card card) {
+    card.further_confirmations.clear();
+    return to_json(card);
+  };
+  if (without_confirmations(now.value()) == without_confirmations(confirmed)) return now;
+  return Fault{options.card, "became another card while this one was simulated", "confirm that card"};
+}
+
+/// Adds the confirmation to the card and writes that, or prints it.
+int deliver(const ConfirmOptions& options, const Card& confirmed, const FurtherConfirmation& further) {
+  const FileLock lock(options.card);
+  auto card = card_now(options, confirmed);
+  if (!card.ok()) return report(card.faults(), kFailed);
+  card.value().further_confirmations.push_back(further);
+  const auto text = readable_text(card.value());
+  if (!text.ok()) return report(text.faults(), kFailed);
+  const std::string out = options.out.empty() ? options.card : options.out;
+  if (!is_standard_output(out))
+    print("%s", options.json ? text.value().c_str() : further_confirmation_text(further).c_str());
+  if (const auto unwritten = write_output(out, text.value()); !unwritten.empty()) return report(unwritten, kFailed);
+  if (!is_stream(out)) note("wrote %s\n", out.c_str());
+  return kDone;
+}
+
 int confirm(const ConfirmOptions& options) {
   Faults faults = unusable_options(options);
   const auto card = read_card(options.card);
@@ -134,19 +181,20 @@ int confirm(const ConfirmOptions& options) {
   if (!program.ok()) return report(program.faults());
 
   const RunsFolder folder(options.runs);
+  if (!folder.exists())
+    return report({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
+                    "set TMPDIR to a folder that can be written, or name one with --runs"}},
+                  kFailed);
   const auto runs = run_all(asked.value(), {options.launch, program.value()}, folder, options, stop);
   if (!runs.ok()) return report(runs.faults(), kFailed);
-  folder.done();
-  Card confirmed = card.value();
-  confirmed.further_confirmations.push_back(
-      further_confirmation(confirmed, of_card.value(), asked.value().test.test, runs.value()));
-  const std::string out = options.out.empty() ? options.card : options.out, text = json_text(to_json(confirmed));
-  if (!is_standard_output(out))
-    print("%s",
-          options.json ? text.c_str() : further_confirmation_text(confirmed.further_confirmations.back()).c_str());
-  if (const auto unwritten = write_output(out, text); !unwritten.empty()) return report(unwritten, kFailed);
-  if (!is_stream(out)) note("wrote %s\n", out.c_str());
-  return kDone;
+  const int status =
+      deliver(options, card.value(),
+              further_confirmation(card.value(), of_card.value(), asked.value().test.test, runs.value()));
+  if (status == kDone)
+    folder.done();
+  else
+    std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs goes on from there\n", folder.path().c_str());
+  return status;
 }
 
 }  // namespace

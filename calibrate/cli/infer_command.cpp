@@ -5,6 +5,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/card/card.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/card/card_study.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
@@ -94,7 +95,7 @@ int infer_again(const InferOptions& options) {
   const std::string summary = summary_of(card, findings);
   print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
   if (!folder) return kDone;
-  auto faults = write_atomically(folder->file(kResults[0]), json_text(to_json(card)));
+  auto faults = write_card(folder->file(kResults[0]), card);
   if (faults.empty()) faults = write_atomically(folder->file(kResults[1]), summary);
   if (!faults.empty()) return report(faults, kFailed);
   note("wrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());

@@ -8,6 +8,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/batch/interpolation.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
@@ -52,7 +53,9 @@ int interpolate(const InterpolateArguments& options) {
   if (!faults.empty()) return report(faults);
   const auto card = interpolated_card(batch.value(), mix.value());
   if (!card.ok()) return report(card.faults());
-  const std::string card_text = json_text(to_json(card.value()));
+  const auto readable = readable_text(card.value());
+  if (!readable.ok()) return report(readable.faults(), kFailed);
+  const std::string& card_text = readable.value();
   if (!is_standard_output(options.out)) print("%s", options.json ? card_text.c_str() : text_of(card.value()).c_str());
   if (options.out.empty()) return kDone;
   if (const auto failed = write_output(options.out, card_text); !failed.empty()) return report(failed, kFailed);

@@ -7,8 +7,10 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/base/shell_word.h"
 #include "calibrate/cli/child_process.h"
+#include "calibrate/cli/status_line.h"
 #include "calibrate/exports/heap_dump.h"
 #include "calibrate/exports/lammps_deck.h"
 
@@ -20,7 +22,11 @@ namespace {
 
 const std::string kLog = "log.lammps", kOutput = "output.txt";
 
+/// Nothing of what is no regular file, which may have no end, or is too large for a log or a deck.
 std::string content_of_file(const fs::path& file) {
+  constexpr std::uintmax_t largest = 256u << 20;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > largest) return {};
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -51,6 +57,14 @@ std::string tail_of(const std::string& text) {
   if (const auto line = tail.find('\n'); text.size() > kMost && line != std::string::npos) tail.erase(0, line + 1);
   while (tail.ends_with('\n')) tail.pop_back();
   return lines_of(tail);
+}
+
+/// Where a run is, as its output says: of a run that hangs always the same.
+std::string last_line_of(const fs::path& file) {
+  constexpr std::size_t most = 60;
+  std::string line = tail_of(content_of_file(file));
+  if (const auto before = line.rfind('\n'); before != std::string::npos) line.erase(0, before + 1);
+  return one_line(line.substr(0, most));
 }
 
 /// Why a process that has ended left no heap; nothing if nothing is wrong with it.
@@ -98,7 +112,11 @@ Result<LammpsHeap> run_in_lammps(const ExportScene& scene, const LammpsLaunch& l
   const std::string command =
       "exec " + launch.launcher + " " + shell_word(launch.program.string()) + " -in " + kLammpsDeck;
   try {
-    const ChildEnd end = run_in_shell(command, folder, folder / kOutput, stop);
+    StatusLine line;
+    const ChildEnd end = run_in_shell(command, folder, folder / kOutput, stop, [&] {
+      if (line.is_due()) line.show(format("LAMMPS, %.0f s gone: ", line.gone_s()) + last_line_of(folder / kOutput));
+    });
+    line.clear();
     if (auto faults = ill_end(end, folder); !faults.empty()) return faults;
   } catch (const std::system_error& failed) {
     return Fault{"LAMMPS", std::string("could not be started: ") + failed.what(), "check memory and disk"};

@@ -5,6 +5,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
@@ -61,7 +62,9 @@ int rescale(const RescaleOptions& options) {
                                 counted(CheckEngine::ours(), line));
     if (!result.ok()) return report(result.faults(), kFailed);
   }
-  const std::string card_text = json_text(to_json(result.value()));
+  const auto readable = readable_text(result.value());
+  if (!readable.ok()) return report(readable.faults(), kFailed);
+  const std::string& card_text = readable.value();
   if (!is_standard_output(options.out)) print("%s", options.json ? card_text.c_str() : text_of(result.value()).c_str());
   if (options.out.empty()) return kDone;
   if (const auto faults = write_output(options.out, card_text); !faults.empty()) return report(faults, kFailed);

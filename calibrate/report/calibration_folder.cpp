@@ -1,9 +1,7 @@
 #include "calibrate/report/calibration_folder.h"
 
-#include <nlohmann/json.hpp>
-
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/card/card_file.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 
@@ -16,7 +14,7 @@ std::vector<std::string> calibration_files(const Study& study) {
 }
 
 Faults write_card(const OutputFolder& folder, const Card& card, const std::string& summary) {
-  auto faults = write_atomically(folder.file(kCardFile), json_text(to_json(card)));
+  auto faults = write_card(folder.file(kCardFile), card);
   return faults.empty() ? write_atomically(folder.file(kSummary), summary) : faults;
 }
 

@@ -18,6 +18,10 @@ import os, sys, time
 assert sys.argv[1:] == ["-in", "in.slump"], sys.argv
 how = "{how}"
 log = "LAMMPS (1 Jan 2000)\nLoop time of 3 on 2 procs for 10 steps with 9 atoms\n50.0% CPU use with 2 MPI tasks x no OpenMP threads\n"
+if how == "impossible":
+    log = "LAMMPS (1 Jan 2000)\nLoop time of 1e999 on 99999999999999 procs for 10 steps with 9 atoms\n1e999% CPU use\n"
+if how == "slow":
+    time.sleep(2)
 with open("runs.txt", "a") as runs:
     runs.write("run\n")
 print(log * (2 if how == "copies" else 1), end="", flush=True)
@@ -105,6 +109,41 @@ class Confirm(Desk):
                 self.fails(result, 1, "1 error", "packing 80001", *words)
                 self.assertEqual(result.stdout, "")
                 self.assertEqual(self.card.read_bytes(), before)
+
+    def test_a_log_without_end_or_with_impossible_numbers_leaves_a_card_that_can_be_read(self):
+        self.assertEqual(self.confirm("impossible").returncode, 0)
+        self.assertEqual(run("show", self.card).returncode, 0)
+        for log in self.runs.glob("packing-*/log.lammps"):
+            log.unlink()
+            log.symlink_to("/dev/zero")
+        self.assertEqual(self.confirm().returncode, 0)
+        self.assertEqual(run("show", self.card).returncode, 0)
+
+    def test_two_confirmations_at_once_are_both_on_the_card(self):
+        command = ["confirm", self.card, "--program", self.engine("slow"), "--packings", "2"]
+        both = [subprocess.Popen([PROGRAM, *map(str, command), "--radius", radius], stdout=subprocess.DEVNULL)
+                for radius in ("13", "14")]
+        self.assertEqual([one.wait(120) for one in both], [0, 0])
+        self.assertEqual(sorted(one["radius_m"] for one in json.loads(self.card.read_text())["further_confirmations"]),
+                         [0.013, 0.014])
+
+    def test_a_card_that_cannot_be_replaced_is_said_before_anything_runs(self):
+        link = self.folder / "link.json"
+        link.symlink_to(self.card)
+        self.fails(run("confirm", link, "--program", self.engine(), "--runs", self.runs), 2, "CARD", "symbolic link")
+        self.assertFalse(self.runs.exists())
+
+    def test_a_card_that_became_another_keeps_the_runs(self):
+        command = ["confirm", self.card, "--program", self.engine("slow"), "--runs", self.runs, "--packings", "2"]
+        with subprocess.Popen([PROGRAM, *map(str, command)], stderr=subprocess.PIPE, text=True) as process:
+            time.sleep(1)
+            card = json.loads(self.card.read_text())
+            card["title"] = "another"
+            self.card.write_text(json.dumps(card))
+            err = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 1, err)
+        self.assertIn("the runs are kept in", err)
+        self.assertEqual(len(list(self.runs.glob("packing-*/heap.dump"))), 2)
 
     def test_what_cannot_be_used_is_bad_input_and_nothing_runs(self):
         before = self.card.read_bytes()
