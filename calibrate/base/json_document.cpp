@@ -243,7 +243,12 @@ bool has_format(const json& document, std::string_view expected, Faults& faults)
     return true;
   }
   if (format->is_string() && format->get_ref<const std::string&>() == expected) return true;
-  faults.push_back({"format", "is " + text_of(*format), remedy + ", or give the file that is meant"});
+  const bool lab_for_study = format->is_string() &&
+                             format->get_ref<const std::string&>().starts_with("pastefit-lab-") &&
+                             expected.starts_with("pastefit-study-");
+  faults.push_back({"format", "is " + text_of(*format),
+                    lab_for_study ? "give the study of this laboratory file: pastefit new writes both"
+                                  : remedy + ", or give the file that is meant"});
   return !(format->is_string() && format->get_ref<const std::string&>().starts_with("pastefit-"));
 }
 

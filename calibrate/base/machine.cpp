@@ -1,6 +1,7 @@
 #include "calibrate/base/machine.h"
 
 #include <gnu/libc-version.h>
+#include <sched.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
@@ -20,7 +21,9 @@ std::string machine_type() {
 }
 
 int processors() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // more than the set has room for
 }
 
 double memory_available_bytes() {

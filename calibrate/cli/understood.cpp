@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/machine.h"
 #include "calibrate/base/processor_time.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
@@ -53,7 +53,7 @@ std::string time_expected(const Study& study, int threads) {
   }
   one_s /= tests;
   const int fewest = (search.screening + search.packings + search.confirmation_packings) * tests;
-  const int cores = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores = threads > 0 ? threads : processors();
   const auto at_once = std::min(cores, search.budget_simulations);
   const auto wall = [&](int simulations) { return one_s * simulations / at_once; };
   return "  time                     " +

@@ -35,7 +35,7 @@ const std::string kBuild =
 
 /// " &" and a name with its number, on a line of its own.
 std::string number(const char* name, double value) {
-  return format(" &\n             %s %.17g", name, value);
+  return format(" &\n             %s ", name) + exact(value);
 }
 
 template <class T, std::size_t N>

@@ -207,6 +207,17 @@ void strike_off(const SlumpTest& test, const RunOptions& options, Packing& packi
   take_grains(world, packing);
 }
 
+/// Large grains that grow push small ones between them away: where sizes differ widely, it is them that failed.
+void blame_sizes(Packing& packing) {
+  constexpr double wide = 3;
+  if (!packing.failure || packing.failure->reason == FailureReason::stopped || packing.radii.empty()) return;
+  const auto [smallest, largest] = std::ranges::minmax(packing.radii);
+  if (largest < wide * smallest) return;
+  packing.failure->message += "; the mould is being filled with grains the largest of which is " +
+                              std::to_string(std::lround(largest / smallest)) +
+                              " times the smallest: take sizes nearer to each other, e.g. without the finest";
+}
+
 }  // namespace
 
 double grains_to_fill(const SlumpTest& test) {
@@ -260,6 +271,7 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
                                fraction,
                                kEmptiest,
                                "the grains bridge in the mould and leave it partly empty; take smaller grains"};
+  blame_sizes(*packing);
   const Fit fit = fit_of(test.mould, make_particles(packing->centres, packing->radii, 1), smaller.grains.radius_m);
   packing->roughness_m = fit.roughness_m;
   packing->gap_m = fit.gap_m;
