@@ -1,6 +1,10 @@
 #include "calibrate/python/custom_problem.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "calibrate/base/json_reader.h"
 #include "calibrate/search/strategies.h"
@@ -64,6 +68,23 @@ std::vector<StudyReading> read_readings(ObjectReader& document) {
   return readings;
 }
 
+/// In a candidate and its answer all of these stand side by side, under their names.
+Faults clashing_names(const CustomProblem& problem) {
+  constexpr std::array<std::string_view, 4> own{"_id", "seed", "error", "traceback"};
+  Faults faults;
+  const auto check = [&](const std::string& place, const std::string& name) {
+    if (std::ranges::count(own, name) > 0)
+      faults.push_back({place + "." + name, "is a key of every candidate or answer", "another name"});
+  };
+  for (const Parameter& parameter : problem.parameters) check("parameters", parameter.name);
+  for (const StudyReading& reading : problem.readings) {
+    check("measurements", reading.name);
+    if (std::ranges::count(problem.parameters, reading.name, &Parameter::name) > 0)
+      faults.push_back({"measurements." + reading.name, "is the name of a parameter, too", "another name"});
+  }
+  return faults;
+}
+
 }  // namespace
 
 Result<CustomProblem> problem_from_json(const nlohmann::json& document) {
@@ -78,6 +99,7 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document) {
     problem.readings = read_readings(reader);
     read_search_options(reader, 1, problem.search);
   }
+  for (Fault& fault : clashing_names(problem)) faults.push_back(std::move(fault));
   if (faults.empty()) faults = validate(problem.search, static_cast<int>(problem.parameters.size()));
   if (!faults.empty()) return faults;
   return problem;

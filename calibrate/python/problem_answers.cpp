@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibrate/base/content_hash.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
@@ -39,8 +40,9 @@ Faults ProblemAnswers::read(const std::string& first_line) {
   while (std::getline(in, line)) {
     cut = in.eof();
     try {
-      take(json::parse(line));
-    } catch (const json::exception&) {  // no answer: it is asked again
+      const json kept = json::parse(line);
+      if (is_answer(kept)) take(kept);  // what is damaged is asked again
+    } catch (const json::exception&) {
     }
   }
   return cut ? append("") : Faults{};
@@ -51,6 +53,29 @@ Faults ProblemAnswers::append(const std::string& line) const {
   out << line << std::endl;
   if (out) return {};
   return {{file_, "cannot be written", "a file in a folder that can be written, on a disk with space"}};
+}
+
+namespace {
+
+/// Of a line of the file, without the key itself.
+std::string hash_of_line(json line) {
+  line.erase("hash");
+  return content_hash(line.dump());
+}
+
+bool are_numbers(const json& list, std::size_t count) {
+  return list.is_array() && list.size() == count &&
+         std::ranges::all_of(list, [](const json& one) { return one.is_number() && std::isfinite(one.get<double>()); });
+}
+
+}  // namespace
+
+/// Whether a line of the file is what `keep` wrote for this problem.
+bool ProblemAnswers::is_answer(const json& kept) const {
+  if (!kept.is_object() || kept.value("hash", "") != hash_of_line(kept)) return false;
+  const bool failed = kept.contains("failure") && !kept.at("failure").is_null();
+  return kept.contains("point") && are_numbers(kept.at("point"), problem_.parameters.size()) && kept.contains("seed") &&
+         (failed || (kept.contains("readings") && are_numbers(kept.at("readings"), problem_.readings.size())));
 }
 
 void ProblemAnswers::take(const json& kept) {
@@ -82,6 +107,7 @@ Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const Engine
             {"failure", to_json(failure_of(answer, names))}};
   if (line["failure"].is_null())
     for (const std::string& name : names) line["readings"].push_back(answer.readings.find(name).value());
+  line["hash"] = hash_of_line(line);
   if (auto faults = append(line.dump()); !faults.empty()) return faults;
   take(line);
   return find(candidate).value();

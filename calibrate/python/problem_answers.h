@@ -47,6 +47,7 @@ class ProblemAnswers : public Answers {
   ProblemAnswers(CustomProblem problem, std::string file);
   Faults read(const std::string& first_line);
   Faults append(const std::string& line) const;
+  bool is_answer(const nlohmann::json& kept) const;
   void take(const nlohmann::json& kept);
 
   const CustomProblem problem_;

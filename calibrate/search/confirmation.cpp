@@ -39,8 +39,10 @@ std::optional<double> within_by_index(const Response& response, double allowed) 
   const double root_of_count = std::sqrt(sample.count), freedom = sample.count - 1;
   const double needed = boost::math::quantile(boost::math::normal_distribution<>(), 1 - allowed);
   const double margin = (1 - sample.mean) / sample.standard_deviation;
-  return boost::math::cdf(boost::math::non_central_t_distribution<>(freedom, root_of_count * needed),
-                          root_of_count * margin);
+  constexpr double certain = 1e3;
+  const double place = root_of_count * margin;
+  if (std::abs(place) > certain) return place > 0 ? 1 : 0;
+  return boost::math::cdf(boost::math::non_central_t_distribution<>(freedom, root_of_count * needed), place);
 }
 
 }  // namespace

@@ -173,8 +173,9 @@ std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, c
 double Surrogate::MisfitPosterior::improvement(double bound) const {
   bound -= certain_;
   if (bound <= 0) return 0;
-  if (variance_ <= 0) return std::max(0.0, bound - mean_);
+  constexpr double narrow = 1e8;  // shape beyond which the gamma distribution is its mean, and its sums do not converge
   const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;
+  if (!(shape < narrow)) return std::max(0.0, bound - mean_);
   return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));
 }
 

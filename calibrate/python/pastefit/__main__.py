@@ -3,11 +3,12 @@
 import argparse
 import concurrent.futures as futures
 import contextlib
+import math
 import sys
 from typing import Any, ContextManager, List, Optional
 
 from . import InputError, calibrate
-from .workers import processors
+from .workers import end_with_parent, processors
 
 _DESCRIPTION = """Calibrates a study as the program `pastefit calibrate` does, with the same card, and the simulations
 spread over processes of this machine (the default), the ranks of MPI, or the workers of a Dask cluster:
@@ -16,6 +17,20 @@ spread over processes of this machine (the default), the ranks of MPI, or the wo
     mpiexec -n 65 python3 -m mpi4py.futures -m pastefit calibrate STUDY --out DIR
     python3 -m pastefit calibrate STUDY --out DIR --dask ADDRESS
 """
+
+
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is no number of seconds")
+    return value
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 100_000:
+        raise argparse.ArgumentTypeError(f"{text} is not from 1 to 100000")
+    return value
 
 
 def _arguments(words: Optional[List[str]]) -> argparse.Namespace:
@@ -29,16 +44,23 @@ def _arguments(words: Optional[List[str]]) -> argparse.Namespace:
     earlier.add_argument("--resume", action="store_true", help="go on with what DIR holds")
     earlier.add_argument("--force", action="store_true", help="replace what DIR holds")
     verb.add_argument("--quiet", action="store_true", help="no progress")
-    verb.add_argument("--time", metavar="SECONDS", type=float, default=0, help="end with the best so far after this time")
+    verb.add_argument("--time", metavar="SECONDS", type=_seconds, default=0, help="end with the best so far after this time")
     where = verb.add_mutually_exclusive_group()
-    where.add_argument("--processes", metavar="N", type=int, help="of this machine; one for each core if it is not given")
+    where.add_argument("--processes", metavar="N", type=_count, help="of this machine; one for each core if it is not given")
     where.add_argument("--dask", metavar="ADDRESS", help="of a scheduler, tcp://host:8786, or its file")
     return parser.parse_args(words)
 
 
 def _dask_client(address: str) -> ContextManager[Any]:
-    from dask.distributed import Client
-    return Client(scheduler_file=address) if address.endswith(".json") else Client(address)
+    where = f"--dask {address}"
+    try:
+        from dask.distributed import Client
+    except ImportError as error:
+        raise InputError([(where, f"cannot be used: {error}", "install dask and distributed, or leave it out")]) from error
+    try:
+        return Client(scheduler_file=address) if address.endswith(".json") else Client(address)
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError([(where, f"cannot be reached: {error}", "tcp://host:8786, or the scheduler's file")]) from error
 
 
 def _executor(arguments: argparse.Namespace) -> ContextManager[Any]:
@@ -48,7 +70,7 @@ def _executor(arguments: argparse.Namespace) -> ContextManager[Any]:
     if "mpi4py.futures" in sys.modules and arguments.processes is None:
         from mpi4py.futures import MPIPoolExecutor
         return MPIPoolExecutor()
-    return futures.ProcessPoolExecutor(arguments.processes or processors())
+    return futures.ProcessPoolExecutor(arguments.processes or processors(), initializer=end_with_parent)
 
 
 def main(words: Optional[List[str]] = None) -> int:

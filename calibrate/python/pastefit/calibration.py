@@ -1,16 +1,19 @@
 """A calibration: study in, card out."""
 
 import json
+import math
+import numbers
 import os
 import tempfile
 import uuid
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _core, html, interrupt, progress as progress_module
 from .card import Card, reading_table
-from .documents import table
+from .documents import number_of, table
+from .faults import InputError
 from .progress import Show
 from .study import Described, Study
 from .workers import WorkerDied, Workers
@@ -106,6 +109,17 @@ def _asked_of(workers: Workers) -> Callable[[str, Callable[[], bool]], Optional[
     return ask
 
 
+def _faults_of(resume: bool, force: bool, threads: int, wall_budget_s: float) -> List[Tuple[str, str, str]]:
+    faults = []
+    if resume and force:
+        faults.append(("resume", "is given with force=True, which would delete what is to be resumed", "one of both"))
+    if not isinstance(threads, numbers.Integral) or isinstance(threads, bool) or threads < 0:
+        faults.append(("threads", f"is {threads!r}", "a whole number, 0 for one of each core"))
+    if number_of(wall_budget_s) is None or not 0 <= wall_budget_s < math.inf:
+        faults.append(("wall_budget_s", f"is {wall_budget_s!r}", "seconds, 0 for no limit"))
+    return faults
+
+
 def calibrate(study: Union[Study, str, "os.PathLike[str]"], *, out: Union[str, "os.PathLike[str]", None] = None,
               executor: Any = None, progress: Show = None, resume: bool = False, force: bool = False, threads: int = 0,
               wall_budget_s: float = 0, page: bool = True) -> CalibrationResult:
@@ -122,6 +136,9 @@ def calibrate(study: Union[Study, str, "os.PathLike[str]"], *, out: Union[str, "
     simulation, and KeyboardInterrupt is raised; the same call with `resume=True` goes on. Other errors of an executor are
     raised as RuntimeError.
     """
+    faults = _faults_of(resume, force, threads, wall_budget_s)
+    if faults:
+        raise InputError(faults)
     if not isinstance(study, Study):
         study = Study.load(study)
     if out is None:

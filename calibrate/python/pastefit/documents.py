@@ -2,9 +2,12 @@
 
 import json
 import math
-from typing import Any, Dict, Iterable, Mapping, Sequence, Tuple
+import numbers
+from typing import Any, Dict, Iterable, Iterator, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
+
+from .faults import InputError
 
 
 def _plain(value: Any) -> Any:
@@ -16,15 +19,53 @@ def _plain(value: Any) -> Any:
     return str(value)
 
 
+def _is_finite(number: Any) -> bool:
+    try:
+        return math.isfinite(number)
+    except OverflowError:  # a whole number beyond any floating one
+        return False
+
+
+def _faults_in(value: Any, place: str) -> Iterator[Tuple[str, str, str]]:
+    """What of a document no JSON can hold, with its place."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = _plain(value)
+    if isinstance(value, Mapping):
+        for key, one in value.items():
+            yield from _faults_in(one, f"{place}.{key}" if place else str(key))
+    elif isinstance(value, (list, tuple)):
+        for number, one in enumerate(value):
+            yield from _faults_in(one, f"{place}[{number}]")
+    elif isinstance(value, (int, float)) and not _is_finite(value):
+        shown = str(value) if isinstance(value, float) else "a whole number that is too large"
+        yield place, f"is {shown}", "a finite number; leave out what is missing"
+    elif isinstance(value, str) and printable(value) != value:
+        yield place, "is no text that UTF-8 can hold", "text without lone surrogates"
+
+
+def printable(text: str) -> str:
+    """The text with a question mark for what UTF-8 cannot hold."""
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
 def text_of(document: Any) -> str:
-    """The document as JSON. Errors: ValueError for a number that is not finite."""
+    """The document as JSON. Errors: `InputError` for each number that is not finite, with its place."""
+    faults = list(_faults_in(document, ""))
+    if faults:
+        raise InputError(faults)
     return json.dumps(document, default=_plain, allow_nan=False)
 
 
-def without_nan(value: float) -> Any:
-    """The number, None if it is none."""
-    number = float(value)
-    return number if math.isfinite(number) else None
+def number_of(value: Any) -> Optional[float]:
+    """A number of Python or NumPy, also as an array without dimensions; None if it is none, NaN is one."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
+        return None
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def table(rows: Sequence[Mapping[str, Any]], columns: Iterable[Tuple[str, Any]]) -> np.ndarray:

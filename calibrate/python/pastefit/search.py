@@ -2,15 +2,18 @@
 
 import concurrent.futures as futures
 import json
+import math
+import numbers
 import os
 import shutil
 import tempfile
+import traceback
 import weakref
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core, progress as progress_module
 from .calibration import CalibrationResult
-from .documents import text_of, without_nan
+from .documents import number_of, printable, text_of
 from .faults import InputError
 from .problem import Problem
 from .progress import Show
@@ -20,6 +23,7 @@ from .workers import WorkerDied, Workers
 Candidate = Dict[str, Any]
 Simulator = Callable[[Candidate], Mapping[str, float]]
 _OWN_KEYS = ("_id", "seed")
+_MOST_EQUAL_ERRORS = 3  # with which a simulator may begin
 
 
 class Search:
@@ -103,18 +107,25 @@ class Search:
         """
         answers = []
         for place, result in enumerate(results):
-            answer: Dict[str, Any] = {"_id": self._id_of(result, place)}
+            answer: Dict[str, Any] = {"_id": self._id_of(result, place), "readings": {}}
             if result.get("error") is not None:
-                answer["error"] = str(result["error"])
+                answer["error"] = printable(str(result["error"]))
             own = {*_OWN_KEYS, *self.variables, "error"}
-            answer["readings"] = {name: without_nan(value) for name, value in result.items()
-                                  if name not in own and isinstance(value, (int, float)) or name in self.observables}
+            for name, value in result.items():
+                number = number_of(value)
+                if name in self.observables and number is None:
+                    answer.setdefault("error", printable(f"The simulator gave {value!r:.60} for {name}, which is no number."))
+                if name in self.observables or (name not in own and number is not None):
+                    answer["readings"][name] = number if number is not None and math.isfinite(number) else None
             answers.append(answer)
         self._search.ingest(text_of(answers))
 
     def _id_of(self, result: Mapping[str, Any], place: int) -> int:
-        if result.get("_id") is not None:
-            return int(result["_id"])
+        given = result.get("_id")
+        if isinstance(given, numbers.Integral) and not isinstance(given, bool) and given >= 0:
+            return int(given)
+        if given is not None:
+            raise InputError([(f"results[{place}]._id", f"is {given!r:.60}", "the whole number that suggest() gave")])
         keys = [*self.variables, "seed"]
         for number, asked in self._asked.items():
             if all(result.get(key) == asked[key] for key in keys):
@@ -138,7 +149,8 @@ class Search:
         """Has every candidate simulated, to the end.
 
         simulator: a function that takes a candidate and returns its readings by name. An error in it is a failed
-        simulation with its message. executor: whatever has `submit` and gives futures, several simulations at a time; a
+        simulation with its message; three equal ones before any answer are a broken simulator, and raised as RuntimeError
+        with their traceback. executor: whatever has `submit` and gives futures, several simulations at a time; a
         process pool needs a function of a module. A worker that dies is asked again; the third time it is a failed
         simulation. progress: as `calibrate`. Ctrl-C: KeyboardInterrupt; what was answered is in the store.
         """
@@ -156,20 +168,51 @@ class Search:
     def _drive(self, pool: futures.Executor, at_once: int, call: Callable[[Candidate], Dict[str, Any]],
                show: Callable[[Dict[str, Any]], None]) -> None:
         under_way: Dict[futures.Future, Candidate] = {}
+        first = _FirstErrors()
         try:
             while True:
                 if len(under_way) < at_once:
                     under_way.update({pool.submit(call, one): one for one in self.suggest(at_once - len(under_way))})
+                if not under_way and first.kept:
+                    self.ingest(first.take())
+                    continue
                 if not under_way:
                     return
                 done = futures.wait(under_way, return_when=futures.FIRST_COMPLETED).done
-                self.ingest([one.result() for one in done])
+                self.ingest(first.without([one.result() for one in done]))
                 for one in done:
                     del under_way[one]
                 told = json.loads(self._search.progress())
                 show({**told, "budget": told["budget"] or self.study.budget_simulations})
         finally:
-            self._given_back += under_way.values()
+            held = {answer["_id"]: dict(self._asked[answer["_id"]]) for answer in first.kept}
+            self._given_back += {**held, **{one["_id"]: one for one in under_way.values()}}.values()
+
+
+class _FirstErrors:
+    """The errors with which a simulator begins. They are held back until it has given another answer: a simulator that
+    cannot work at all leaves nothing in the store."""
+
+    def __init__(self) -> None:
+        self.kept: List[Dict[str, Any]] = []
+        self._over = False
+
+    def take(self) -> List[Dict[str, Any]]:
+        kept, self.kept = self.kept, []
+        return kept
+
+    def without(self, answers: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
+        """What of these and of those before is to be ingested now. Errors: RuntimeError for a broken simulator."""
+        for place, answer in enumerate(answers):
+            raised = "traceback" in answer and all(answer["error"] == one["error"] for one in self.kept)
+            if self._over or not raised:
+                self._over = True
+                return self.take() + answers[place:]
+            self.kept.append(answer)
+            if len(self.kept) == _MOST_EQUAL_ERRORS:
+                raise RuntimeError(f"The simulator failed {_MOST_EQUAL_ERRORS} times in the same way, and never answered:\n"
+                                   + answer["traceback"])
+        return []
 
 
 def _answer(simulator: Simulator, candidate: Candidate) -> Dict[str, Any]:
@@ -177,7 +220,7 @@ def _answer(simulator: Simulator, candidate: Candidate) -> Dict[str, Any]:
     try:
         return {**simulator(dict(candidate)), "_id": candidate["_id"]}
     except Exception as error:
-        return {"_id": candidate["_id"], "error": f"{type(error).__name__}: {error}"}
+        return {"_id": candidate["_id"], "error": f"{type(error).__name__}: {error}", "traceback": traceback.format_exc()}
 
 
 def _caller(simulator: Simulator, workers: Optional[Workers]) -> Callable[[Candidate], Dict[str, Any]]:

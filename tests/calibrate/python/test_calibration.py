@@ -6,7 +6,9 @@ usage: test_calibration.py PROGRAM SOURCE_DIR [unittest options]
 import contextlib
 import importlib.util
 import io
+import math
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -75,6 +77,38 @@ class Calibration(Desk):
         again = pf.calibrate(study, out=self.out, resume=True, page=False)
         self.assertEqual(again.simulated, 0)
         self.assertEqual(again.card, first.card)
+
+    def test_options_that_contradict_each_other_or_are_no_numbers_are_told_before_anything_runs(self):
+        for options, word in (({"resume": True, "force": True}, "resume"), ({"threads": -1}, "threads"),
+                              ({"threads": 1.5}, "threads"), ({"wall_budget_s": math.nan}, "wall_budget_s"),
+                              ({"wall_budget_s": -1}, "wall_budget_s")):
+            fault, = self.faults(pf.calibrate, self.study_file(), out=self.out, **options)
+            self.assertEqual(fault.where, word)
+        self.assertFalse(self.out.exists())
+
+    def test_options_of_the_command_line_that_cannot_be_used_end_in_status_2_without_a_traceback(self):
+        for options in (["--processes", "0"], ["--processes", "-1"], ["--time", "nan"], ["--dask", "nowhere.json"]):
+            result = subprocess.run([sys.executable, "-m", "pastefit", "calibrate", str(self.study_file()), "--out",
+                                     str(self.out), *options], capture_output=True, text=True, timeout=120)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertNotIn("Traceback", result.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_workers_end_soon_after_a_driver_that_was_killed(self):
+        driver = subprocess.Popen([sys.executable, "-m", "pastefit", "calibrate", str(self.study_file()), "--out",
+                                   str(self.out), "--processes", "2", "--quiet"], start_new_session=True)
+        workers = []
+        deadline = time.monotonic() + 60
+        while len(workers) < 2 and time.monotonic() < deadline and driver.poll() is None:
+            workers = [int(one) for task in pathlib.Path(f"/proc/{driver.pid}/task").glob("*/children")
+                       for one in task.read_text().split()]
+            time.sleep(0.05)
+        driver.kill()
+        driver.wait()
+        self.assertGreater(len(workers), 0)
+        while any(pathlib.Path(f"/proc/{one}").exists() for one in workers) and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.assertEqual([one for one in workers if pathlib.Path(f"/proc/{one}").exists()], [])
 
     def test_a_study_that_cannot_be_calibrated_is_told_so_before_anything_runs(self):
         fault, = self.faults(pf.calibrate, pf.Study(coarse_study(strategy="defualt")), out=self.out)

@@ -1,6 +1,7 @@
 """The search with anybody's simulator. usage: test_search.py PROGRAM SOURCE_DIR [unittest options]"""
 
 import concurrent.futures as futures
+import json
 import math
 import pathlib
 import os
@@ -80,6 +81,60 @@ class Problem(Desk):
         places = [fault.where for fault in self.faults(pf.Problem, content)]
         self.assertEqual(sorted(places), ["measurements.flow_time_s.standard_deviation", "measurments",
                                           "parameters.sliding.free"])
+
+    def test_names_that_a_candidate_has_itself_are_refused(self):
+        for name in ("seed", "_id", "error", "angle_deg"):
+            fault, = self.faults(pf.Problem, repose(parameters={name: {"free": [0, 1]}}))
+            self.assertIn(name, fault.where)
+        fault, = self.faults(pf.Problem, repose(measurements={"error": {"value": 1, "standard_deviation": 1}}, tolerances={}))
+        self.assertIn("measurements.error", fault.where)
+
+    def test_lines_of_a_store_that_are_damaged_are_asked_again_and_never_believed(self):
+        problem, file = pf.Problem(repose()), self.folder / "answers"
+        whole = pf.Search(problem, store=file, engine="drum").run(drum)
+        lines = file.read_text().splitlines(keepends=True)
+        first = json.loads(lines[1])
+        for damage in ({**first, "point": []}, {**first, "point": [0.5] * 500}, {**first, "readings": [1]},
+                       {**first, "readings": first["readings"] * 1000}, {**first, "seed": -1}, {**first, "hash": "0" * 16},
+                       {**first, "readings": [value + 1 for value in first["readings"]]}, [], 7, {}):
+            file.write_text("".join([lines[0], json.dumps(damage) + "\n", *lines[2:]]))
+            calls = []
+            again = pf.Search(problem, store=file, engine="drum").run(lambda candidate: calls.append(1) or drum(candidate))
+            self.assertEqual((again.status, again.parameters, len(calls)), (whole.status, whole.parameters, 1))
+
+    def test_a_broken_simulator_is_asked_three_times_and_leaves_nothing_behind(self):
+        calls, file = [], self.folder / "answers"
+
+        def broken(candidate):
+            calls.append(1)
+            return {"angle_deg": undefined_name}  # noqa: F821
+
+        search = pf.Search(pf.Problem(repose()), store=file, engine="drum")
+        with self.assertRaisesRegex(RuntimeError, "(?s)3 times in the same way.*undefined_name"):
+            search.run(broken)
+        self.assertEqual(len(calls), 3)
+        self.assertEqual(len(file.read_text().splitlines()), 1)
+        self.assertEqual(search.run(drum).status, "confirmed")
+
+    def test_what_is_no_number_is_a_failed_simulation_with_its_message(self):
+        for value in (None, "", "18", [18], 10**400, True, "\ud800", math.nan):
+            calls = []
+
+            def simulator(candidate):
+                calls.append(1)
+                return {**drum(candidate), **({"angle_deg": value} if len(calls) == 3 else {})}
+
+            found = pf.Search(pf.Problem(repose()), engine="drum").run(simulator)
+            failed = [one["message"] for one in found.evaluations if one["failure"]]
+            self.assertEqual(len(failed), 1, value)
+            self.assertIn("angle_deg", failed[0])
+
+    def test_a_reading_that_no_parameter_moves_and_that_is_far_off_ends_the_search_with_a_result(self):
+        for off in (1e3, 1e9):
+            measurements = {**repose()["measurements"], "temperature": {"value": off, "standard_deviation": 1}}
+            problem = pf.Problem(repose(measurements=measurements))
+            found = pf.Search(problem, engine="drum").run(lambda candidate: {**drum(candidate), "temperature": 0.0})
+            self.assertIn(found.status, ("out_of_reach", "unconfirmed"))
 
     def test_a_problem_goes_on_where_its_file_ends(self):
         store, asked = self.folder / "answers.jsonl", []
@@ -187,6 +242,14 @@ class Search(Desk):
         while search.suggest():
             pass
         self.assertEqual(search.result().simulated, 0)
+
+    def test_an_id_is_the_whole_number_that_was_given(self):
+        search = pf.Search(study(), engine="closed form")
+        one, = search.suggest(1)
+        for wrong in (1.9, str(one["_id"]), True, -1):
+            fault, = self.faults(search.ingest, [{**one, **height(one), "_id": wrong}])
+            self.assertIn("_id", fault.where)
+        search.ingest([{**one, **height(one), "_id": np.int64(one["_id"])}])
 
     def test_errors_and_nan_are_failed_runs_with_their_message(self):
         for simulator, message in ((fails_when_weak, "ValueError: it flowed away"),
