@@ -92,6 +92,12 @@ class Readme(unittest.TestCase):
             verdict = re.search(r"^The material (meets|does not meet) the laboratory[:,] .*$", result.stdout, re.M)
             self.assertIsNotNone(verdict, result.stdout)
             print(verdict.group(0))
+            # The sample is what the command gives, with every instruction set that rounds once.
+            sample = re.search(r"a summary like this one \(shortened\):\n\n((?:    .*\n)+)", README)[1]
+            plain = " ".join(result.stdout.split())
+            if "SSE2" not in subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout:
+                for line in sample.splitlines():
+                    self.assertIn(" ".join(line.split()), plain)
             for file in ("card.json", "summary.txt", "evaluations.sqlite", "report.html"):
                 self.assertTrue((pathlib.Path(folder) / "my-paste/out" / file).exists(), file)
             self.assertTrue((pathlib.Path(folder) / "my-paste/film/grains.pvd").exists())
