@@ -16,10 +16,10 @@ constexpr std::size_t worthwhile_confirmations = 4;
 
 }  // namespace
 
-bool ConfirmationPhase::confirm(bool whatever_it_does) {
+bool ConfirmationPhase::confirm(bool whatever_it_does, const UnitPoint& asked) {
   state_.history.enter("confirmation");
   state_.history.hold_back(0);
-  const UnitPoint candidate = state_.ranking().best();
+  const UnitPoint candidate = asked.size() > 0 ? asked : state_.ranking().best();
   if (!judge(candidate, state_.fresh_packings(first_packings()), whatever_it_does)) return false;
   ++rounds_;
   if (!confirmed_) state_.refuted.push_back(candidate);

@@ -13,8 +13,8 @@ class ConfirmationPhase {
   /// Asks the candidate on fresh packings, and on half as many more while their noise hides the answer; true if it
   /// holds. A quarter of them is asked first: if it is unlikely then that it will do, the others are saved, but for
   /// `whatever_it_does`. With `SearchOptions::max_pending`, when workers would be idle meanwhile, all are asked at
-  /// once.
-  bool confirm(bool whatever_it_does);
+  /// once. `asked`: the candidate to be judged instead, e.g. one that no smooth model would choose.
+  bool confirm(bool whatever_it_does, const UnitPoint& asked = {});
   /// The confirmation that is reported was broken off, or left undecided: the rest of its packings, and half as many
   /// more while their noise hides the answer, if the budget has them. They may prove wrong what broke it off.
   void finish();

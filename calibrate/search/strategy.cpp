@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "calibrate/search/bracket.h"
 #include "calibrate/search/candidate_search.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/confirmation_phase.h"
@@ -31,6 +32,8 @@ class Strategy {
     history.hold_back(state_.options.confirmation_packings);
     if (with_coarse_) screen_coarsely(state_);
     if (history.training_data().empty()) screen(state_);
+    if (!with_coarse_ && find_strategy(state_.options.strategy)->kind == StrategyKind::surrogate)
+      if (const auto found = bracket(state_); found && confirmation_.confirm(true, *found)) return conclude();
     if (!history.singles().empty() && is_out_of_reach()) {
       history.evaluate({&out_of_reach_->nearest, 1}, state_.common);
       if (!history.stop_requested() && state_.ranking().best().size() > 0) confirmation_.confirm(true);

@@ -136,6 +136,18 @@ class Problem(Desk):
             found = pf.Search(problem, engine="drum").run(lambda candidate: {**drum(candidate), "temperature": 0.0})
             self.assertIn(found.status, ("out_of_reach", "unconfirmed"))
 
+    def test_a_response_that_jumps_is_found_by_halving(self):
+        def jumps(candidate):
+            return {"height": 10 + 290 / (1 + math.exp(-12 * (math.log10(candidate["strength"]) - 4.3)))}
+
+        problem = pf.Problem({
+            "title": "threshold", "parameters": {"strength": {"free": [1, 1e6], "scale": "log"}},
+            "measurements": {"height": {"value": 120, "standard_deviation": 7}},
+            "search": {"budget_simulations": 80, "packings": 1, "confirmation_packings": 2, "examination_simulations": 12}})
+        found = pf.Search(problem, engine="closed form").run(jumps)
+        self.assertEqual(found.status, "confirmed", found.reason)
+        self.assertLess(abs(jumps(found.parameters)["height"] - 120), 7)
+
     def test_a_problem_goes_on_where_its_file_ends(self):
         store, asked = self.folder / "answers.jsonl", []
 

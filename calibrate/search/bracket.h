@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "calibrate/search/strategy_state.h"
+
+namespace pastefit {
+
+/// Where one parameter is free, a response may jump: a heap stands or flows by a small change of a threshold, and a
+/// smooth model of it says that what lies within the jump is out of reach. If no simulation has a reading beyond the
+/// laboratory's, both ends of the range are simulated. Neighbours on either side of the laboratory that differ by many
+/// tolerances are then halved until one of them meets it. Returns one that was found by halving
+/// and meets the laboratory on its packing; nothing otherwise, and for several parameters.
+std::optional<UnitPoint> bracket(StrategyState& state);
+
+}  // namespace pastefit
