@@ -210,10 +210,13 @@ Fault foreign_parameter(const ContactModel& laws, std::string place, std::string
 Test with_contact_of(Test test, std::span<const double> values) {
   assert(values.size() == kinds.size());
   ContactModel& contact = specimen_of(test).contact;
-  contact = {.normal = contact.normal,
-             .rolling = contact.rolling,
-             .friction_basis = contact.friction_basis,
-             .bridge = {.shape = contact.bridge.shape, .formation = contact.bridge.formation}};
+  ContactModel chosen;
+  chosen.normal = contact.normal;
+  chosen.rolling = contact.rolling;
+  chosen.friction_basis = contact.friction_basis;
+  chosen.bridge.shape = contact.bridge.shape;
+  chosen.bridge.formation = contact.bridge.formation;
+  contact = chosen;
   const auto make = [&, radius = specimen_of(test).grains.radius_m](auto law) {
     law.make(contact, radius, [&](std::string_view name) {
       assert(names(law, name));

@@ -322,7 +322,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   };
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
-  ordered_json out = parameters_of(laws.laws(), both);
+  ordered_json out = starting_parameters(laws.laws(), both);
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {

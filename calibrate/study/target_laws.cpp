@@ -16,7 +16,7 @@ namespace {
 // of SJKR the cube of its energy density).
 constexpr std::string_view slippery = R"({"free": [0.05, 0.3], "scale": "log"})", slips = R"({"value": 0.15})",
                            rolls = R"({"free": [0, 0.5]})", rolls_well = R"({"value": 0.02})";
-constexpr StartingParameter friction{"friction", slippery, slips, "between grains; heaps with more shear off"};
+constexpr StartingParameter sliding{"friction", slippery, slips, "between grains; heaps with more shear off"};
 constexpr StartingParameter rolling{"rolling_friction", rolls, rolls_well, "between grains"};
 
 constexpr std::array<StartingParameter, 5> of_epa{{
@@ -39,27 +39,27 @@ constexpr std::array<StartingParameter, 7> of_bridge{{
      "gap at rupture over R"},
     {"formation_ratio", R"({"value": 0.3})", R"({"value": 1})",
      "gap at which a bridge forms over the one at which it ruptures"},
-    friction,
+    sliding,
     rolling,
 }};
 
 constexpr std::array<StartingParameter, 3> of_jkr{{
     {"adhesion_pa", R"({"free": [10, 5000], "scale": "log"})", R"({"free": [10, 5000], "scale": "log"})",
      "surface energy over R"},
-    friction,
+    sliding,
     rolling,
 }};
 
 constexpr std::array<StartingParameter, 3> of_sjkr{{
     {"cohesion_energy_density_pa", R"({"free": [15000, 120000], "scale": "log"})",
      R"({"free": [15000, 120000], "scale": "log"})", "attraction over the area in which grains meet"},
-    friction,
+    sliding,
     rolling,
 }};
 
 constexpr std::array<StartingLaws, 4> known_laws{{
     {"bridge", "hertz", "polynomial", of_bridge, "the polynomial liquid bridge of Platzer & Fimbinger (2022)"},
-    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which heaps stand at every slump"},
+    {"epa", "epa", "none", of_epa, "elasto-plastic adhesion (EEPA), of which stiff heaps stand, too"},
     {"jkr", "jkr", "none", of_jkr, "JKR, grains that stick where they touch"},
     {"sjkr", "sjkr", "none", of_sjkr, "LIGGGHTS' simplified JKR"},
 }};
@@ -166,7 +166,7 @@ nlohmann::ordered_json contact_of(const TargetLaws& laws) {
   return out;
 }
 
-nlohmann::ordered_json parameters_of(const StartingLaws& laws, bool both) {
+nlohmann::ordered_json starting_parameters(const StartingLaws& laws, bool both) {
   nlohmann::ordered_json out;
   for (const StartingParameter& one : laws.parameters)
     if (const std::string_view text = both ? one.of_two : one.of_one; !text.empty())

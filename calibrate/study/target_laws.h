@@ -59,6 +59,6 @@ std::string with_laws(const std::string& study, const TargetLaws& laws);
 
 /// "contact" and "parameters" of a study; `both`: a height and a spread are fitted.
 nlohmann::ordered_json contact_of(const TargetLaws& laws);
-nlohmann::ordered_json parameters_of(const StartingLaws& laws, bool both);
+nlohmann::ordered_json starting_parameters(const StartingLaws& laws, bool both);
 
 }  // namespace pastefit
