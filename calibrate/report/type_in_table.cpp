@@ -59,15 +59,15 @@ TypeInGroup grains_to_type(const Material& material) {
   return group;
 }
 
-TypeInGroup grain_on_grain(const ContactModel& contact) {
-  TypeInGroup group{
-      "Grain on grain: " + name_for_people(contact.normal),
-      {{"restitution", contact.restitution, "", "damping 2 sqrt(5/6) beta sqrt(S m*), without attraction"},
-       {"sliding friction", contact.friction, "",
-        "of the " + word_of(contact.friction_basis, friction_bases) + " normal force"}}};
+TypeInGroup grain_on_grain(const ContactModel& contact, double radius) {
+  TypeInGroup group{"Grain on grain: " + name_for_people(contact.normal),
+                    {{"restitution", contact.restitution, "", "without attraction"},
+                     {"sliding friction", contact.friction, "",
+                      "of the " + word_of(contact.friction_basis, friction_bases) + " normal force"}}};
   if (contact.rolling != RollingModel::none)
-    group.rows.push_back({"rolling friction", contact.rolling_friction, "",
-                          name_for_people(contact.rolling) + ", lever over R* = r1 r2/(r1 + r2)"});
+    group.rows.insert(group.rows.end(),
+                      {{"rolling friction", contact.rolling_friction, "", name_for_people(contact.rolling)},
+                       {"lever of rolling friction", milli * 0.5 * radius, "mm", "R* of two mean grains"}});
   if (contact.surface_energy_j_m2 > 0)
     group.rows.push_back({"surface energy", contact.surface_energy_j_m2, "J/m2", "half the work of adhesion"});
   if (contact.cohesion_energy_density_pa > 0)
@@ -110,7 +110,7 @@ TypeInGroup attraction_of(const Material& material) {
     group.rows.push_back({"contact angle", bridge.contact_angle_rad, "rad", ""});
   }
   group.rows.push_back({"formation gap", milli * bridge_gaps(contact, {radius, radius, radius}).formation_m, "mm",
-                        "all gaps with s = 2 R*/R, forces with s^2, of other sizes"});
+                        "goes with R*, a force with R*^2"});
   group.rows.push_back({"c", at_touch, "N", "attraction at touch"});
   group.rows.push_back({"d_c", -milli * rupture_gap(bridge, radius), "mm", "rupture (negative: a gap)"});
   group.rows.push_back(
@@ -135,7 +135,8 @@ std::vector<TypeInGroup> type_in_table(const Card& card) {
   const ContactModel& contact = card.material.contact;
   const bool bridges = contact.bridge.shape != BridgeShape::none;
   const bool attracts = bridges || contact.normal != NormalLaw::hertz;
-  std::vector<TypeInGroup> groups{grains_to_type(card.material), grain_on_grain(contact)};
+  std::vector<TypeInGroup> groups{grains_to_type(card.material),
+                                  grain_on_grain(contact, card.material.grains.radius_m)};
   if (bridges) groups.push_back(attraction_of(card.material));
   for (const CardTest& one : card.tests) {
     Test test = one.test;

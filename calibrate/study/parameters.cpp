@@ -214,6 +214,7 @@ Test with_contact_of(Test test, std::span<const double> values) {
   chosen.normal = contact.normal;
   chosen.rolling = contact.rolling;
   chosen.friction_basis = contact.friction_basis;
+  chosen.rolling_friction = contact.rolling_friction;  // older cards name it without a law that has it
   chosen.bridge.shape = contact.bridge.shape;
   chosen.bridge.formation = contact.bridge.formation;
   contact = chosen;

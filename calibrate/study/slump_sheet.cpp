@@ -294,7 +294,7 @@ struct ChosenLaws {
 /// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
 /// both, heaps that keep more than half of their height get elasto-plastic adhesion: those of a bridge shear off.
 /// Others get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed
-/// flows, because only a bridge has a viscosity.
+/// flows, because only a bridge has a viscosity, and sheets of a yield stress alone.
 ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
                    std::span<const Measurement> measured) {
   constexpr double stands = 0.5;
@@ -302,6 +302,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
   if (!sheet.law.empty() || !bridge || !epa) return {named, std::string(named.why)};
   if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
     return {*bridge, "The flow is timed, and of the laws only a bridge has a viscosity"};
+  if (sheet.readings.empty())
+    return {*bridge, "A yield stress is known, and of the laws a bridge has a strength in Pa"};
   const auto* height = find_measurement(measured, "step1.height_mm");
   if (height && height->value > 1e3 * stands * test.mould.height_m)
     return {*epa,

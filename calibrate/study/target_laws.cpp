@@ -69,12 +69,14 @@ constexpr std::array<TargetLaws, 7> known_targets{{
      "LAMMPS runs every law of these with the style that the export brings"},
     {"lammps", "lammps", "epa", "spring_dashpot", "elastic",
      "LAMMPS runs elasto-plastic adhesion with the style that the export brings"},
-    {"liggghts", "liggghts", "epa", "spring_dashpot", "elastic", "LIGGGHTS has elasto-plastic adhesion as edinburgh"},
     {"liggghts", "liggghts", "sjkr", "spring_dashpot", "elastic", "LIGGGHTS has SJKR, and no polynomial bridge"},
+    {"liggghts", "liggghts", "epa", "spring_dashpot", "elastic",
+     "LIGGGHTS has elasto-plastic adhesion with linear springs, which match the card's at one overlap"},
     {"yade", "yade", "bridge", "spring_dashpot", "elastic",
      "Yade runs the bridge in Python, with friction of the elastic force"},
-    {"edem", "edem-notes", "epa", "constant_torque", "elastic", "EDEM has elasto-plastic adhesion as EEPA"},
     {"edem", "edem-notes", "jkr", "constant_torque", "elastic", "EDEM has JKR, and no liquid bridge of this kind"},
+    {"edem", "edem-notes", "epa", "constant_torque", "elastic",
+     "EDEM has elasto-plastic adhesion as EEPA, whose pull-off matches the card's at one depth of contact"},
 }};
 
 template <class List>

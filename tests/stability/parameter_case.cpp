@@ -16,10 +16,10 @@ namespace pastefit {
 namespace {
 
 // Parameter j of corner n is at its upper end where n and column j have an odd number of bits in common. No four or
-// fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Found one after the other,
-// each the smallest that will do.
-constexpr std::array<unsigned, 20> kColumns{1,   2,   4,   8,   15,  16,  32,  51,  64,  85,
-                                            106, 128, 150, 171, 219, 237, 247, 256, 279, 297};
+// fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Nine bits have no more than
+// 23 such columns (Wagner's code of length 23 and distance 5); found by drawing.
+constexpr std::array<unsigned, 23> kColumns{1,   2,  4,   8,   16,  32, 64,  128, 256, 267, 346, 499,
+                                            279, 95, 447, 149, 365, 62, 121, 143, 500, 220, 178};
 
 constexpr bool have_strength_4() {
   for (const unsigned a : kColumns)

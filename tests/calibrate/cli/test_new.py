@@ -181,9 +181,9 @@ class New(Desk):
 
     def test_the_target_has_its_own_law(self):
         epa, bridge = ("epa", "none", "adhesion_ratio"), ("hertz", "polynomial", "strength_pa")
-        laws = {("lammps",): bridge, ("lammps", "--law", "epa"): epa, ("liggghts",): epa,
-                ("liggghts", "--law", "sjkr"): ("sjkr", "none", "cohesion_energy_density_pa"), ("yade",): bridge, ("edem",): epa,
-                ("edem", "--law", "jkr"): ("jkr", "none", "adhesion_pa")}
+        laws = {("lammps",): bridge, ("lammps", "--law", "epa"): epa, ("liggghts", "--law", "epa"): epa,
+                ("liggghts",): ("sjkr", "none", "cohesion_energy_density_pa"), ("yade",): bridge, ("edem", "--law", "epa"): epa,
+                ("edem",): ("jkr", "none", "adhesion_pa")}
         for target, (normal, attraction, strength) in laws.items():
             with self.subTest(target):
                 _, study, said = self.files(*ABRAMS, "--for", *target, "--force")
@@ -214,7 +214,7 @@ class New(Desk):
         self.assertEqual(timed, "hertz")
         self.assertIn("only a bridge has a viscosity", why)
         self.assertEqual(normal_of("--height", "90", "--spread", "510", "--law", "epa")[0], "epa")
-        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "epa")
+        self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "jkr")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--law", "ebridge"), 2, "one of bridge, epa, jkr, sjkr")
 
