@@ -7,9 +7,10 @@ usage: laws.py PROGRAM TABLE.csv [--sheets structural,en,stiff,uci:79,...] [--la
 
 structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120 mm with
 spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height. uci:NN: a concrete of Yeh's slump tests,
-uci:all: those whose spread is at most 1.1 of that width. Rows that stand in the table are not run again. Each material is
-simulated on packings 201 to 216, which no search has seen; of its heaps those that stand are averaged. core_s is the
-processor time of the calibration, core_s_to_card its share of the simulations up to the end of the confirmation.
+uci:all: those whose spread is at most 1.1 of that width. The law `new` is what `pastefit new` chooses by itself. Rows that
+stand in the table are not run again. Each material is simulated on packings 201 to 216, which no search has seen; of its heaps
+those that stand are averaged. core_s is the processor time of the calibration, core_s_to_card its share of the simulations up
+to the end of the confirmation.
 """
 import argparse
 import concurrent.futures
@@ -90,7 +91,7 @@ def seconds_of(process):
 def run(program, sheet, words, law, seed, options):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        done = subprocess.run([program, "new", folder, *words, "--law", law], capture_output=True, text=True)
+        done = subprocess.run([program, "new", folder, *words, *([] if law == "new" else ["--law", law])], capture_output=True, text=True)
         if done.returncode:
             raise SystemExit(f"{sheet}: {done.stderr}")
         study = without_comments((folder / "study.json").read_text())

@@ -4,6 +4,7 @@ import argparse
 import concurrent.futures as futures
 import contextlib
 import math
+import os
 import sys
 from typing import Any, ContextManager, List, Optional
 
@@ -57,6 +58,8 @@ def _dask_client(address: str) -> ContextManager[Any]:
         from dask.distributed import Client
     except ImportError as error:
         raise InputError([(where, f"cannot be used: {error}", "install dask and distributed, or leave it out")]) from error
+    if address.endswith(".json") and not os.path.isfile(address):  # the client would wait for it without an end
+        raise InputError([(where, "is not there", "tcp://host:8786, or the scheduler's file")])
     try:
         return Client(scheduler_file=address) if address.endswith(".json") else Client(address)
     except (OSError, ValueError, TypeError) as error:
