@@ -286,7 +286,7 @@ async function printed(name, paper) {
   return { first, rest: all - first, sheets: [...pdf.toString("latin1").matchAll(/\/Type\s*\/Page\b/g)].length };
 }
 
-test("on paper the page begins with one sheet to hand over, with answer, numbers and signature", async () => {
+test("on paper the page begins with one sheet to hand over, with answer and numbers", async () => {
   const paper = await openPage(browser, file, { viewport: sheet });
   await filmIsThere(paper);
   assert.equal(await paper.locator("#certificate").isVisible(), false, "on a screen there is none");
@@ -299,7 +299,6 @@ test("on paper the page begins with one sheet to hand over, with answer, numbers
     String(new Date().getFullYear()),
     content.provenance.program,
     content.provenance.study_hash,
-    "Signature",
     ...content.verdict.reservations,
     ...content.type_in.flatMap(({ title, rows }) => [
       title,
@@ -307,6 +306,8 @@ test("on paper the page begins with one sheet to hand over, with answer, numbers
     ]),
   ];
   for (const one of wanted) assert.ok(certificate.includes(one), one);
+  assert.ok(certificate.includes(`NOT CONFIRMED: ${content.verdict.unconfirmed}`));
+  assert.ok(!certificate.includes("Signature"), "what is not confirmed is not signed");
   const measured = content.tests[0].readings.filter((one) => one.measured !== undefined);
   assert.equal(
     await paper.locator("#certificate .packing").count(),
@@ -323,13 +324,20 @@ test("on paper the page begins with one sheet to hand over, with answer, numbers
   await paper.context().close();
 });
 
-test("the certificate of a test with two drawings is one sheet as well", { skip: !dropped }, async () => {
-  const paper = await openPage(browser, dropped, { viewport: sheet });
-  const { first } = await printed("print-drop", paper);
-  assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
-  assert.equal(await paper.locator("#certificate .sheet-drawing").count(), 2);
-  await paper.context().close();
-});
+test(
+  "the certificate of a confirmed material of two drawings is one sheet as well, to be signed",
+  { skip: !dropped },
+  async () => {
+    const paper = await openPage(browser, dropped, { viewport: sheet });
+    const { first } = await printed("print-drop", paper);
+    assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
+    assert.equal(await paper.locator("#certificate .sheet-drawing").count(), 2);
+    const certificate = await paper.locator("#certificate").innerText();
+    assert.ok(certificate.includes("Signature"));
+    assert.ok(!certificate.includes("NOT CONFIRMED"));
+    await paper.context().close();
+  },
+);
 
 test("every reading shows its error in the table, that of its difference as well", async () => {
   const content = await contentOf(page);
