@@ -292,21 +292,18 @@ test("on paper the page begins with one sheet to hand over, with answer and numb
   assert.equal(await paper.locator("#certificate").isVisible(), false, "on a screen there is none");
   const { first, rest, sheets } = await printed("print", paper);
   assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
-  const content = await contentOf(paper);
-  const certificate = await paper.locator("#certificate").innerText();
+  const [content, certificate] = [await contentOf(paper), await paper.locator("#certificate").innerText()];
   const wanted = [
+    `NOT CONFIRMED: ${content.verdict.unconfirmed}`,
     content.title,
     String(new Date().getFullYear()),
     content.provenance.program,
     content.provenance.study_hash,
     ...content.verdict.reservations,
-    ...content.type_in.flatMap(({ title, rows }) => [
-      title,
-      ...rows.map(({ quantity, value }) => `${quantity}\t${value}`),
-    ]),
+    ...content.type_in.map(({ title }) => title),
+    ...content.type_in.flatMap(({ rows }) => rows.map(({ quantity, value }) => `${quantity}\t${value}`)),
   ];
   for (const one of wanted) assert.ok(certificate.includes(one), one);
-  assert.ok(certificate.includes(`NOT CONFIRMED: ${content.verdict.unconfirmed}`));
   assert.ok(!certificate.includes("Signature"), "what is not confirmed is not signed");
   const measured = content.tests[0].readings.filter((one) => one.measured !== undefined);
   assert.equal(
@@ -325,16 +322,14 @@ test("on paper the page begins with one sheet to hand over, with answer and numb
 });
 
 test(
-  "the certificate of a confirmed material of two drawings is one sheet as well, to be signed",
+  "the sheet of a confirmed material with two drawings is one as well, to be signed",
   { skip: !dropped },
   async () => {
     const paper = await openPage(browser, dropped, { viewport: sheet });
     const { first } = await printed("print-drop", paper);
     assert.ok(first <= sheet.height, `the certificate is ${first} pixels high, a sheet ${sheet.height}`);
     assert.equal(await paper.locator("#certificate .sheet-drawing").count(), 2);
-    const certificate = await paper.locator("#certificate").innerText();
-    assert.ok(certificate.includes("Signature"));
-    assert.ok(!certificate.includes("NOT CONFIRMED"));
+    assert.match(await paper.locator("#certificate").innerText(), /^(?!.*NOT CONFIRMED).*Signature/s);
     await paper.context().close();
   },
 );
