@@ -5,7 +5,6 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
-#include "calibrate/search/confirmation.h"
 #include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
@@ -140,10 +139,11 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
     card.tests.push_back(card_test_of(study, i, values, shown.packings.at(0), baselines.at(i)));
   card.material = material_of(study, values, card.tests.front());
 
-  const Verdict verdict = verdict_on(shown, rejected_share_of(study));
-  card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::holds,
+  const double share = rejected_share_of(study);
+  const Verdict verdict = verdict_on(evidence_of(shown), share);
+  card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::meets,
                        fresh && verdict == Verdict::refuted};
-  if (shown.rejected > 0) card.confirmation.rejected_share = rejected_share_of(study);
+  card.confirmation.rejected_share = share;
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

@@ -87,7 +87,7 @@ struct Confirmation {
   double misfit = 0;                    ///< largest difference of a fitted reading over its tolerance; 1 is asked for
   bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
   bool refuted = false;  ///< likewise it does not: its readings, or the heaps that a laboratory would reject
-  /// Of heaps that a laboratory would reject, at most; nothing if none of them was one.
+  /// Of heaps that a laboratory would reject, at most; 1: not judged; nothing in older cards of which none was one.
   std::optional<double> rejected_share = std::nullopt;
 };
 

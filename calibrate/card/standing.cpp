@@ -2,23 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/laboratory/test.h"
-#include "calibrate/search/confirmation.h"
 
 namespace pastefit {
 
 namespace {
 
+bool is_fitted(const CardObservable& one) {
+  return one.measured && one.weight > 0 && one.tolerance > 0;
+}
+
 /// The fitted reading that is farthest off, in tolerances.
 struct Farthest {
   std::string name;
-  double off = 0, tolerance = 0, standard_error = 0;
-  double share() const { return tolerance > 0 ? off / tolerance : 0; }
-  double noise() const { return tolerance > 0 ? standard_error / tolerance : 0; }
+  double off = 0, tolerance = 1;
+  double share() const { return off / tolerance; }
 };
 
 Farthest farthest_of(const Card& card) {
@@ -26,9 +29,8 @@ Farthest farthest_of(const Card& card) {
   for (const CardTest& test : card.tests) {
     if (test.hold_out) continue;
     for (const CardObservable& one : test.observables) {
-      if (!one.measured || one.weight <= 0 || one.tolerance <= 0) continue;
-      const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated - *one.measured), one.tolerance,
-                              standard_error(one).value_or(0)};
+      if (!is_fitted(one)) continue;
+      const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated - *one.measured), one.tolerance};
       if (farthest.name.empty() || this_one.share() > farthest.share()) farthest = this_one;
     }
   }
@@ -75,6 +77,42 @@ std::string rejected_in_words(const Card& card) {
 
 }  // namespace
 
+Evidence evidence_of(std::span<const CardTest> tests) {
+  Evidence out;
+  std::vector<double> indices;
+  for (const CardTest& test : tests) {
+    if (test.hold_out) continue;
+    for (const CardObservable& one : test.observables)
+      if (is_fitted(one))
+        out.add_reading(one.simulated - *one.measured, standard_error(one).value_or(0), one.tolerance);
+    indices.resize(std::max(indices.size(), test.baseline.runs.size()), std::nan(""));
+    for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
+      indices[i] =
+          std::fmax(indices[i], rejection_index(test.test, test.baseline.runs[i].observables).value_or(std::nan("")));
+  }
+  for (const double index : indices) out.add_heap(index);
+  return out;
+}
+
+double rejected_share_of(const Card& card, std::span<const CardTest> tests) {
+  const auto may_be = [](const CardTest& one) { return !one.hold_out && rejection_index(one.test, {}).has_value(); };
+  if (std::ranges::none_of(tests, may_be)) return 1;
+  return card.confirmation.rejected_share.value_or(SearchOptions{}.rejected_share);
+}
+
+Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, std::vector<std::uint64_t> packings) {
+  const Evidence evidence = evidence_of(tests);
+  const double share = rejected_share_of(card, tests);
+  const Verdict verdict = verdict_on(evidence, share);
+  const bool of_laboratory = evidence.readings > 0 && !card.interpolated;
+  return {std::move(packings),
+          true,
+          evidence.error,
+          of_laboratory && verdict == Verdict::meets,
+          of_laboratory && verdict == Verdict::refuted,
+          share};
+}
+
 /// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
 std::vector<AtBound> parameters_at_bounds(const Card& card) {
   constexpr double near = 0.01;
@@ -95,7 +133,7 @@ std::string what_to_try(const Card& card) {
     return "calibrate with grains of this size, or measure the bias (pastefit rescale --packings)";
   if (!confirmation.fresh) return "go on with --resume, with a larger search.budget_simulations";
   const Farthest farthest = farthest_of(card);
-  const Verdict of_readings = verdict_on(confirmation.misfit, farthest.noise());
+  const Verdict of_readings = verdict_on_readings(evidence_of(card.tests));
   if (of_readings == Verdict::undecided) return "more packings of the confirmation (search.confirmation_packings)";
   std::string bounds;
   for (const AtBound& one : parameters_at_bounds(card))
@@ -128,7 +166,7 @@ std::string cause_unconfirmed(const Card& card) {
                   1e3 * card.rescaled.back().from_radius_m);
   if (!confirmation.fresh) return "not simulated on packings that the search had not seen";
   const Farthest farthest = farthest_of(card);
-  const Verdict of_readings = verdict_on(confirmation.misfit, farthest.noise());
+  const Verdict of_readings = verdict_on_readings(evidence_of(card.tests));
   if (of_readings == Verdict::refuted) return off_in_words(farthest);
   if (confirmation.refuted) return rejected_in_words(card);
   if (of_readings == Verdict::undecided)

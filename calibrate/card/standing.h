@@ -1,11 +1,26 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "calibrate/card/card.h"
+#include "calibrate/judge/verdict.h"
 
 namespace pastefit {
+
+/// What the runs of some tests that are fitted say of the material: their readings by mean and scatter, and their
+/// heaps. Shape: one heap for each packing of the first of them; the one that is nearest to being rejected of its
+/// tests.
+Evidence evidence_of(std::span<const CardTest> tests);
+
+/// What share of the heaps of these tests may be rejected, by the card's confirmation; in cards that did not keep it
+/// the default of studies; 1: a laboratory rejects none of this kind.
+double rejected_share_of(const Card& card, std::span<const CardTest> tests);
+
+/// Judges a material by its tests, simulated on these packings, which the search had not seen.
+Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, std::vector<std::uint64_t> packings);
 
 /// Why the card does not count as confirmed, as a part of a sentence, e.g. "6 of 8 heaps sheared off, 1 in 5 allowed";
 /// empty for a confirmed card.

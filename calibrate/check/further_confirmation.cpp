@@ -1,12 +1,10 @@
 #include "calibrate/check/further_confirmation.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/check/misfit.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/check/runs.h"
-#include "calibrate/search/confirmation.h"
 
 namespace pastefit {
 
@@ -25,6 +23,8 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
   out.core_s = done.core_s;
   CardTest there = test;
   there.observables.clear();
+  there.test = simulated;
+  there.baseline.runs = done.runs;
   for (const CardObservable& of_card : test.observables) {
     const auto sample = sample_of(column_of(heaps, of_card.name));
     if (sample.count == 0) continue;
@@ -38,10 +38,10 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
     out.readings.push_back(std::move(reading));
     there.observables.push_back(std::move(observable));
   }
-  const Misfit misfit = fitted_misfit({&there, 1});
-  if (misfit.readings == 0) return out;
-  out.misfit = misfit.difference;
-  out.meets_laboratory = !card.interpolated && verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
+  if (evidence_of({&there, 1}).readings == 0) return out;
+  const Confirmation confirmation = confirmation_by(card, {&there, 1}, out.packings);
+  out.misfit = confirmation.misfit;
+  out.meets_laboratory = confirmation.meets_laboratory;
   return out;
 }
 

@@ -18,7 +18,7 @@ struct EngineRuns {
 /// The runs beside the card's own confirmation. `test` is the card's; `simulated` the same as it ran there, maybe with
 /// other grains. The bias of a reading is the mean there less the card's, over heaps that a laboratory would accept;
 /// its standard error sqrt(s^2/n + s_card^2/n_card). Whether the material meets the laboratory is judged by
-/// `verdict_on`; an interpolated one, and a test of which nothing is fitted, never does. Requirement: one run at least.
+/// `confirmation_by`, readings and heaps; an interpolated one, and a test of which nothing is fitted, never does. Requirement: one run at least.
 FurtherConfirmation further_confirmation(const Card& card, const CardTest& test, const Test& simulated,
                                          const EngineRuns& runs);
 

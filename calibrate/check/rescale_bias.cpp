@@ -4,9 +4,8 @@
 #include <numeric>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/check/misfit.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/check/runs.h"
-#include "calibrate/search/confirmation.h"
 
 namespace pastefit {
 
@@ -61,12 +60,7 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
     }
     test.baseline = {engine.program, engine.machine, std::move(runs).value()};
   }
-  auto& confirmation = after.confirmation;
-  confirmation.packings = packings;
-  confirmation.fresh = true;
-  const Misfit misfit = fitted_misfit(after.tests);
-  confirmation.misfit = misfit.difference;
-  confirmation.meets_laboratory = !after.interpolated && verdict_on(misfit.difference, misfit.noise) == Verdict::holds;
+  after.confirmation = confirmation_by(after, after.tests, packings);
   return after;
 }
 

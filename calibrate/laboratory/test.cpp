@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/laboratory/accepted.h"
+#include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
 
 namespace pastefit {
@@ -156,7 +156,7 @@ std::string_view rejected_runs(const Test& test) {
 }
 
 bool is_rejected(const Test& test, const Observables& run) {
-  return rejection_index(test, run).value_or(0) > 1;
+  return is_rejected(rejection_index(test, run).value_or(0));
 }
 
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs) {

@@ -98,7 +98,7 @@ std::optional<double> rejection_index(const Test& test, const Observables& run);
 std::string_view rejected_runs(const Test& test);
 /// Whether the standards have a laboratory reject this run and repeat it.
 bool is_rejected(const Test& test, const Observables& run);
-/// The runs of a test that a laboratory would accept (`accepted.h`).
+/// The runs of a test that a laboratory would accept (`judge/verdict.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
 std::string remarks_on(const Test& test, std::span<const Observables> runs);
 ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);

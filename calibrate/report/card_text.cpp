@@ -88,6 +88,14 @@ std::string rescaling_lines(const Card& card) {
   return out;
 }
 
+/// Why a material whose readings are met does not count as meeting the laboratory; nothing if they are not.
+std::string doubt_about(const FurtherConfirmation& one) {
+  const std::size_t heaps = one.packings.size(), rejected = heaps - static_cast<std::size_t>(one.accepted);
+  if (one.meets_laboratory || *one.misfit > 1) return "";
+  if (rejected > 0) return format("; %zu of %zu heaps are ones that a laboratory would reject", rejected, heaps);
+  return format("; %zu packings are too few to be certain of it (--packings)", heaps);
+}
+
 }  // namespace
 
 std::string further_confirmation_text(const FurtherConfirmation& one) {
@@ -101,7 +109,7 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
            (reading.standard_error ? format(" +- %.2g\n", *reading.standard_error) : " (error unknown)\n");
   if (!one.misfit) return out;
   return out + "  The material " + (one.meets_laboratory ? "meets" : "is not shown to meet") +
-         format(" the laboratory there: largest error %.2f of its tolerance.\n", *one.misfit);
+         format(" the laboratory there: largest error %.2f of its tolerance", *one.misfit) + doubt_about(one) + ".\n";
 }
 
 std::string text_of(const Card& card) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts what is known
 
-// A confirmation with these counts holds (`verdict_on`).
+// A material with these counts meets the laboratory (`verdict_on`).
 constexpr int confirmed_heaps = 16, confirmed_rejected = 2;
 
 constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger than any

@@ -1,7 +1,7 @@
 #include "calibrate/search/conclusion.h"
 
 #include "calibrate/base/format.h"
-#include "calibrate/search/confirmation.h"
+#include "calibrate/judge/verdict.h"
 
 namespace pastefit {
 
@@ -15,8 +15,9 @@ std::string tolerance_in_words(const MisfitUnit& unit) {
 std::string doubt_about(const Calibration& result, const MisfitUnit& unit, double rejected_share,
                         const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
-  const Verdict verdict = verdict_on(told, rejected_share);
-  if (verdict != verdict_on(told)) {
+  const Evidence evidence = evidence_of(told);
+  const Verdict verdict = verdict_on(evidence, rejected_share);
+  if (verdict != verdict_on_readings(evidence)) {
     const std::string heaps = format("Of the best candidate's %zu heaps a laboratory would reject %d",
                                      told.evaluations.size(), told.rejected);
     if (verdict == Verdict::refuted && told.rejected > 0)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "calibrate/search/confirmation.h"
+#include "calibrate/judge/verdict.h"
 
 namespace pastefit {
 namespace {
@@ -34,21 +34,22 @@ bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint6
   Verdict verdict = Verdict::undecided;
   while (true) {
     confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
+    const Evidence evidence = evidence_of(confirmation);
     const std::size_t asked = fresh.size();
     if (asked >= least)
-      verdict = verdict_on(confirmation, state_.scoring().rejected_share());
+      verdict = verdict_on(evidence, state_.scoring().rejected_share());
     else if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely)
       verdict = Verdict::refuted;
-    if (asked >= least && packings_to_decide(confirmation) > most_confirmations * static_cast<double>(all)) break;
+    if (asked >= least && packings_to_decide(evidence) > most_confirmations * static_cast<double>(all)) break;
     if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested()) break;
-    const bool by_share = verdict_on(confirmation) != Verdict::undecided;  // the readings are told
+    const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are told
     if (by_share && !whatever_it_does && asked >= worthwhile_confirmations * all) break;
     const std::size_t more = asked < all ? all - asked : further_packings();
     if (!state_.affordable(more)) break;
     std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
   }
   if (state_.history.stop_requested()) return false;
-  confirmed_ = verdict == Verdict::holds;
+  confirmed_ = verdict == Verdict::meets;
   report(confirmation);
   return true;
 }
@@ -71,11 +72,11 @@ void ConfirmationPhase::report(const Response& confirmation) {
       tried.push_back(one.packings.front());
   std::vector<std::uint64_t> joined = tried;
   std::ranges::copy(confirmation.packings, std::back_inserter(joined));
-  const Response evidence = state_.history.recall(confirmation.point, joined);
+  const Response all = state_.history.recall(confirmation.point, joined);
   const bool first = confirmation_.point.size() == 0 || confirmation_.point == confirmation.point;
   const double share = state_.scoring().rejected_share();
-  if (!confirmed_ && !first && shortfall(evidence, share) >= shortfall(best_, share)) return;
-  best_ = evidence;
+  if (!confirmed_ && !first && shortfall(evidence_of(all), share) >= shortfall(evidence_of(best_), share)) return;
+  best_ = all;
   search_ = state_.history.recall(confirmation.point, tried);
   confirmation_ = confirmation;
 }
@@ -85,7 +86,8 @@ void ConfirmationPhase::finish() {
   if (confirmed_ || confirmation_.packings.empty() || state_.history.stop_requested()) return;
   const bool broken_off =
       confirmation_.packings.size() < static_cast<std::size_t>(state_.options.confirmation_packings);
-  if (!broken_off && verdict_on(confirmation_, state_.scoring().rejected_share()) != Verdict::undecided) return;
+  if (!broken_off && verdict_on(evidence_of(confirmation_), state_.scoring().rejected_share()) != Verdict::undecided)
+    return;
   (void)judge(confirmation_.point, confirmation_.packings, true);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibrate/base/statistics.h"
-#include "calibrate/laboratory/accepted.h"
+#include "calibrate/judge/verdict.h"
 #include "calibrate/optimisers/problem.h"
 #include "core/result.h"
 
@@ -26,7 +26,7 @@ struct Evaluation {
   /// How near it is to one that a laboratory would repeat, e.g. a heap that sheared off; NaN: not judged.
   double rejection_index = std::numeric_limits<double>::quiet_NaN();
 
-  bool is_rejected() const { return rejection_index > 1; }
+  bool is_rejected() const { return pastefit::is_rejected(rejection_index); }
 };
 
 /// What a candidate answers on a set of packings: the mean over those that a laboratory would accept (`accepted`),
@@ -68,12 +68,19 @@ inline bool has_reading(const Response& response, Eigen::Index k) {
   return !response.censored || k >= response.observables.size() || !std::isnan(response.observables[k]);
 }
 
-/// Those that a laboratory would accept (`laboratory/accepted.h`).
+/// Those that a laboratory would accept (`judge/verdict.h`).
 inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evaluations) {
   std::vector<bool> rejected;
   for (const Evaluation& one : evaluations) rejected.push_back(one.is_rejected());
   std::vector<const Evaluation*> out;
   for (const std::size_t i : accepted(rejected)) out.push_back(&evaluations[i]);
+  return out;
+}
+
+/// What it says of its candidate.
+inline Evidence evidence_of(const Response& response) {
+  Evidence out{.error = response.normalised_error, .noise = response.noise, .whole = is_whole(response)};
+  for (const Evaluation& one : response.evaluations) out.add_heap(one.rejection_index);
   return out;
 }
 

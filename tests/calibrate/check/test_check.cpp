@@ -312,6 +312,38 @@ TEST_CASE("the bias of another grain size is measured, with its error") {
   CHECK(measured.value().tests[0].baseline.runs.size() == 4);
 }
 
+TEST_CASE("a card for other grains is judged as in a search: by its readings, and by the heaps that sheared off") {
+  Card before = quick_card({100, 104});
+  CardObservable height;
+  height.name = "step1.height_axis_mm";
+  height.measured = 60;
+  height.weight = 1;
+  height.tolerance = 5;
+  before.tests[0].observables = {height};
+  const auto after = rescaled(before, 0.006);
+  REQUIRE(after.ok());
+  const auto judged = [&](double height_mm, std::uint64_t sheared) {
+    CheckEngine engine = quick_engine("here", {});
+    engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
+      Outcome outcome;
+      const std::uint64_t packing = test.packing_seed - 70'001;
+      outcome.observables.set("step1.height_axis_mm", height_mm + static_cast<double>(packing % 2));
+      outcome.observables.set("step1.lateral_shift_mm", packing < sheared ? 300 : 5 + static_cast<double>(packing % 3));
+      return outcome;
+    });
+    const auto card = with_measured_bias(before, after.value(), 8, {}, engine);
+    REQUIRE(card.ok());
+    return card.value().confirmation;
+  };
+  CHECK(judged(60, 0).meets_laboratory);
+  CHECK_FALSE(judged(60, 4).meets_laboratory);
+  CHECK(judged(60, 4).refuted);
+  CHECK(judged(60, 4).misfit < 1);
+  CHECK_FALSE(judged(60, 7).meets_laboratory);
+  CHECK(judged(80, 0).refuted);
+  CHECK_FALSE(judged(62, 0).refuted);
+}
+
 TEST_CASE("the answers are text, JSON and JUnit, with what a card is called escaped") {
   CardCheck good, bad, unread;
   good.card = "good";

@@ -1,5 +1,3 @@
-#include "calibrate/search/confirmation.h"
-
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
@@ -51,29 +49,6 @@ struct Judged {
 };
 
 }  // namespace
-
-TEST_CASE("a candidate holds, is refuted, or the noise hides which") {
-  struct Case {
-    double normalised_error, noise;
-    Verdict verdict;
-  };
-  const Case cases[] = {
-      {0, 0, Verdict::holds},          {1, 0, Verdict::holds},
-      {1.002, 0, Verdict::refuted},    {0, 1, Verdict::holds},
-      {0, 1.002, Verdict::undecided},  {0.6, 0.79, Verdict::holds},
-      {0.6, 0.81, Verdict::undecided}, {0.996, 0.64, Verdict::undecided},
-      {1.2, 0.6, Verdict::refuted},    {1.2, 0.8, Verdict::undecided},
-      {2.602, 2.4, Verdict::refuted},  {2.598, 2.4, Verdict::undecided},
-  };
-  for (const Case& one : cases) {
-    CAPTURE(one.normalised_error, one.noise);
-    CHECK(verdict_on(one.normalised_error, one.noise) == one.verdict);
-  }
-  Response failed;
-  failed.point = UnitPoint::Constant(2, 0.5);
-  failed.failed = true;
-  CHECK(verdict_on(failed) == Verdict::refuted);
-}
 
 TEST_CASE("the noise of a mean is the scatter of its packings over the root of their number") {
   Synthetic objective;
@@ -178,82 +153,7 @@ TEST_CASE("packings are not asked for where their scatter says that no affordabl
   ConfirmationPhase& phase = judged.phase;
   CHECK_FALSE(phase.confirm(true));
   CHECK(phase.confirmation().packings.size() == 8);
-  CHECK(packings_to_decide(phase.confirmation()) > 64);
-}
-
-namespace {
-
-/// The mean of so many heaps, which meets the laboratory.
-Response heaps_with(int rejected, int heaps) {
-  Response response;
-  response.point = UnitPoint::Constant(1, 0.5);
-  response.residuals = Eigen::VectorXd::Zero(1);
-  response.evaluations.resize(static_cast<std::size_t>(heaps));
-  response.packings.resize(static_cast<std::size_t>(heaps));
-  response.rejected = rejected;
-  return response;
-}
-
-}  // namespace
-
-TEST_CASE("heaps that a laboratory would reject are counted: few of many hold, many refute, few of few say nothing") {
-  // P(p <= 0.2) of a beta distribution of k + 1 and n - k + 1 is that of more than k of n + 1 in a binomial one.
-  CHECK(verdict_on(heaps_with(0, 4), 0.2) == Verdict::undecided);  // 0.67
-  CHECK(verdict_on(heaps_with(0, 8), 0.2) == Verdict::holds);      // 0.87
-  CHECK(verdict_on(heaps_with(1, 8), 0.2) == Verdict::undecided);  // 0.56
-  CHECK(verdict_on(heaps_with(3, 8), 0.2) == Verdict::refuted);    // 0.09
-  CHECK(verdict_on(heaps_with(1, 16), 0.2) == Verdict::holds);     // 0.88
-  CHECK(verdict_on(heaps_with(2, 16), 0.2) == Verdict::undecided);
-  CHECK(verdict_on(heaps_with(8, 8), 1) == Verdict::holds);
-  Response off = heaps_with(0, 8);
-  off.normalised_error = 2;
-  CHECK(verdict_on(off, 0.2) == Verdict::refuted);
-}
-
-TEST_CASE("of candidates that are not confirmed the one whose worst trouble is least is reported") {
-  Response off = heaps_with(0, 8), sheared = heaps_with(6, 32);
-  off.normalised_error = 1.9;
-  off.misfit = 0.1;  // by weights of a noise that was not known yet
-  sheared.normalised_error = 0.6;
-  sheared.misfit = 0.2;
-  CHECK(shortfall(off, 0.2) == Approx(1.9));
-  CHECK(shortfall(sheared, 0.2) == Approx(6.0 / 32 / 0.2));
-  CHECK(shortfall(sheared, 0.1) == Approx(6.0 / 32 / 0.1));
-  CHECK(shortfall(sheared, 1) == Approx(0.6));
-  CHECK(shortfall(heaps_with(0, 8), 0) == 0);
-  CHECK(std::isinf(shortfall(heaps_with(1, 8), 0)));
-  off.censored = true;
-  CHECK(std::isinf(shortfall(off, 0.2)));
-}
-
-TEST_CASE("eight heaps that all but sheared off do not hold as eight that hardly shifted do") {
-  const auto heaps = [](double mean_root, double deviation) {
-    Response response = heaps_with(0, 8);
-    for (std::size_t i = 0; i < 8; ++i)
-      response.evaluations[i].rejection_index = std::pow(mean_root + (i % 2 == 0 ? deviation : -deviation), 2);
-    return response;
-  };
-  CHECK(verdict_on(heaps(0.5, 0.15), 0.2) == Verdict::holds);
-  CHECK(verdict_on(heaps(0.85, 0.14), 0.2) == Verdict::undecided);
-  CHECK(verdict_on(heaps(0.85, 0.14), 1) == Verdict::holds);
-}
-
-TEST_CASE("one of eight heaps that sheared off does not hide that the others hardly shifted; two of them do") {
-  const auto heaps = [](int sheared) {
-    Response response = heaps_with(sheared, 8);
-    for (int i = 0; i < 8; ++i) response.evaluations[i].rejection_index = i < sheared ? 1.05 : i % 2 == 0 ? 0.2 : 0.4;
-    return response;
-  };
-  CHECK(verdict_on(heaps(1), 0.2) == Verdict::holds);
-  CHECK(verdict_on(heaps(2), 0.2) == Verdict::undecided);
-}
-
-TEST_CASE("the one heap that stands among many confirms nothing, whatever share may be rejected") {
-  Response response = heaps_with(7, 8);
-  for (std::size_t i = 0; i < 7; ++i) response.evaluations[i].rejection_index = 1.5;
-  CHECK(verdict_on(response, 1) == Verdict::undecided);
-  response.evaluations[0].rejection_index = 0.5;
-  CHECK(verdict_on(response, 1) == Verdict::holds);
+  CHECK(packings_to_decide(evidence_of(phase.confirmation())) > 64);
 }
 
 TEST_CASE("a material is confirmed for how its heaps stand, not for their mean alone", "[campaign]") {
