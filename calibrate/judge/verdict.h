@@ -51,7 +51,8 @@ enum class Verdict {
 /// count, or >= 0.8 by count where it is not known how near they came (for c = 0.2 none of 8, 1 of 16); it is refuted
 /// with P(p <= c) < 0.1 by either (3 of 8). `rejected_share` is c; 1: heaps are not judged.
 /// Where only one of several heaps is left, the scatter is not known: undecided, unless it is refuted.
-/// Limit: of a single packing the noise is not known and counts as none.
+/// Limits: of a single packing the noise is not known and counts as none. A material that truly misses by just its
+/// tolerance meets the laboratory half of the time (`calibrate/search/strategy.h` says more of errors).
 Verdict verdict_on(const Evidence& evidence, double rejected_share);
 
 /// The same of the readings alone.

@@ -2,12 +2,16 @@
 """What a confirmation tells of the share of heaps that shear off, and how many heaps a card costs.
 
 usage: confirmations.py EVALUATIONS.sqlite...
+       confirmations.py --readings
 
 Takes the heaps near the readings of concrete 79 (within 15 mm of its height and 25 mm of its spread, with the study's own grains) that
 searches stored (`standing_heaps.py --keep`), and draws confirmations from how far they shifted: as they are, or scaled so that another
 share exceeds the limit. 3,000 for each number, so that a share is known to 0.01. A candidate costs three simulations besides. The rule is
-that of calibrate/search/confirmation.h; the probability by how near heaps came is that of a normal variable of unknown mean and deviation,
+that of calibrate/judge/verdict.h; the probability by how near heaps came is that of a normal variable of unknown mean and deviation,
 drawn here (400 deviations), of a noncentral t distribution there.
+
+--readings: how often a material is confirmed whose true error is known, by the mean over 8 packings that scatter normally, and by a
+mean that is looked at after 8, 12, ..., 64 of them until it is told. 200,000 materials for each number.
 """
 import json
 import math
@@ -69,9 +73,30 @@ def confirm(indices, stages):
     return (verdict == 1).mean(), asked.mean()
 
 
+def meets(error, scatter, looks, materials=200_000):
+    """The share of materials of this true error that is confirmed; scatter: of one packing; both in tolerances."""
+    heaps = random.normal(error, scatter, (materials, max(looks)))
+    confirmed, open_ = np.zeros(materials, bool), np.ones(materials, bool)
+    for count in looks:
+        mean, noise = heaps[:, :count].mean(1), heaps[:, :count].std(1, ddof=1) / math.sqrt(count)
+        confirmed |= open_ & (mean**2 + noise**2 <= 1)
+        open_ &= ~confirmed & (mean**2 - noise**2 <= 1)
+    return confirmed.mean()
+
+
+def report_on_readings():
+    print("| true error, tolerances | " + " | ".join(f"scatter {scatter:g}: 8 packings | 8 to 64" for scatter in (0.5, 1, 2)) + " |")
+    print("|---:|" + "---:|" * 6)
+    for error in (0.6, 0.8, 1, 1.1, 1.2, 1.5, 2):
+        cells = [f"{meets(error, scatter, looks):.3f}" for scatter in (0.5, 1, 2) for looks in ((8,), range(8, 65, 4))]
+        print(f"| {error:g} | " + " | ".join(cells) + " |")
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
+    if sys.argv[1] == "--readings":
+        sys.exit(report_on_readings())
     shifts = near_heaps(sys.argv[1:])
     shared = (shifts > 1).mean()
     print(f"{len(shifts)} heaps, {100 * shared:.1f} % sheared off\n")
