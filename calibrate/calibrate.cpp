@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <span>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -113,13 +112,8 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   SimulationObjective coarse(coarse_study, store, evaluator);
 
   CalibrationResult result;
-  try {
-    result.search = search(objective, options_of_the_search(study), callbacks.progress, names_of_readings(study),
-                           names_of_free_parameters(study), asked.coarse_first ? &coarse : nullptr);
-  } catch (const std::system_error& error) {
-    return Faults{{"threads", std::string("the system starts none for the search: ") + error.what(),
-                   "end other programs, or raise the limit of processes; the same calibration goes on"}};
-  }
+  result.search = search(objective, options_of_the_search(study), callbacks.progress, names_of_readings(study),
+                         names_of_free_parameters(study), asked.coarse_first ? &coarse : nullptr);
   const Calibration& found = result.search;
   const bool any = found.best.point.size() > 0 && !found.best.failed;
   if (any) {

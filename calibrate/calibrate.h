@@ -49,8 +49,8 @@ Faults validate(const Study& study, const CalibrateOptions& options);
 /// and makes the card. All of it together spends at most `study.search.budget_simulations`. Every simulation is in the
 /// store before it is used, and what the store knows is not simulated again, so that a calibration that was stopped
 /// goes on where it was. Requirement: the store was opened for this program and the inputs of the study.
-/// Errors: what `validate` finds, and then nothing was simulated; the system starts no thread for the search; the store
-/// could not keep an evaluation.
+/// Errors: what `validate` finds, and then nothing was simulated; the store could not keep
+/// an evaluation.
 Result<CalibrationResult> calibrate(const Study& study, Store& store, const CalibrateOptions& options = {},
                                     const CalibrateCallbacks& callbacks = {});
 

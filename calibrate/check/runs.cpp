@@ -1,36 +1,26 @@
 #include "calibrate/check/runs.h"
 
-#include <algorithm>
-#include <atomic>
-#include <system_error>
-#include <thread>
+#include <future>
 
 #include "calibrate/base/machine.h"
+#include "calibrate/base/worker_pool.h"
 
 namespace pastefit {
 
 std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads) {
   std::vector<Outcome> outcomes(packings.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < packings.size(); i = next++) {
+  WorkerPool pool(threads > 0 ? threads : processors());
+  std::vector<std::shared_future<void>> runs;
+  for (std::size_t i = 0; i < packings.size(); ++i)
+    runs.push_back(pool.submit([&, i] {
       Test one = test;
       specimen_of(one).packing_seed = packings[i];
       RunOptions options;
       options.packing = engine.prepare(one, {});
       outcomes[i] = engine.run(one, options);
-    }
-  };
-  const auto cores = static_cast<std::size_t>(threads > 0 ? threads : processors());
-  std::vector<std::jthread> workers;
-  try {
-    for (std::size_t i = 1; i < std::min(cores, packings.size()); ++i) workers.emplace_back(work);
-  } catch (const std::system_error&) {
-    // As many threads as the system lets us have.
-  }
-  work();
-  workers.clear();
+    }));
+  for (const auto& run : runs) run.get();  // throws what the engine threw
   return outcomes;
 }
 

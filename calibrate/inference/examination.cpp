@@ -1,6 +1,8 @@
 #include "calibrate/inference/examination.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "calibrate/search/record.h"
 #include "calibrate/search/strategy_state.h"
@@ -23,46 +25,60 @@ std::string reason_for(bool confirmed, std::size_t packings) {
                    : "the best that was found; it is not confirmed";
 }
 
-std::optional<Inference> examine(const std::function<TrainingData(std::span<const Response>)>& evidence,
-                                 Objective& objective, const Calibration& calibration, int simulations,
-                                 std::uint64_t seed) {
-  std::vector<Response> history = calibration.history;
-  InferenceOptions options;
-  options.seed = seed;
-  const auto training_data = [&] { return evidence(history); };
-  if (training_data().points.empty()) return std::nullopt;
-  int left = simulations;
-  const auto affordable = [&] { return objective.stop_requested() ? 0 : std::min(left, objective.budget_left()); };
-  const auto simulate = [&](std::vector<UnitPoint> points, std::uint64_t round) {
-    points.resize(std::min(points.size(), static_cast<std::size_t>(affordable())));
-    const std::uint64_t packing = seed * 1000 + first_examination_packing + round;
-    for (Response& response : objective.evaluate(points, {&packing, 1})) history.push_back(std::move(response));
-    left -= static_cast<int>(points.size());
-  };
-  const UnitPoint& recommended = calibration.best.point;
-  if (const int count = std::min(simulations / 2, affordable()); count > 0)
-    simulate(candidates_to_examine(training_data(), recommended, count, options), 0);
-  Inference inference = infer(training_data(), recommended, options);
-  for (std::uint64_t round = 1; affordable() > 0; ++round) {
-    const std::vector<UnitPoint> predicted = predicted_members(inference);
-    if (predicted.empty()) break;
-    simulate(predicted, round);
-    inference = infer(training_data(), recommended, options);
+Examination::Examination(std::function<TrainingData(std::span<const Response>)> training_data,
+                         const Calibration& calibration, int simulations, std::uint64_t seed)
+    : training_data_(std::move(training_data)),
+      calibration_(calibration),
+      options_{.seed = seed},
+      simulations_(simulations),
+      left_(simulations),
+      history_(calibration.history) {}
+
+std::optional<Examination::Request> Examination::next(int affordable) {
+  const TrainingData known = training_data_(history_);
+  if (known.points.empty()) return std::nullopt;
+  const UnitPoint& recommended = calibration_.best.point;
+  Request request{{}, options_.seed * 1000 + first_examination_packing + round_};
+  const int most = std::min(left_, affordable);
+  if (round_++ == 0) {
+    const int count = std::min(simulations_ / 2, most);
+    if (count > 0) request.points = candidates_to_examine(known, recommended, count, options_);
+    if (request.points.empty()) return next(affordable);
+  } else {
+    inference_ = infer(known, recommended, options_);
+    if (most > 0) request.points = predicted_members(*inference_);
+    if (request.points.empty()) return std::nullopt;
   }
-  inference.recommended_because =
-      reason_for(calibration.status == CalibrationStatus::confirmed, calibration.confirmation.packings.size());
+  request.points.resize(std::min(request.points.size(), static_cast<std::size_t>(most)));
+  left_ -= static_cast<int>(request.points.size());
+  return request;
+}
+
+void Examination::ingest(std::vector<Response> answers) {
+  std::ranges::move(answers, std::back_inserter(history_));
+}
+
+std::optional<Inference> Examination::result() const {
+  std::optional<Inference> inference = inference_;
+  if (inference)
+    inference->recommended_because =
+        reason_for(calibration_.status == CalibrationStatus::confirmed, calibration_.confirmation.packings.size());
   return inference;
 }
 
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
                                  const Calibration& calibration, int simulations, std::uint64_t seed,
                                  const std::vector<ConditionEffect>& conditions) {
-  const auto evidence = [&](std::span<const Response> history) {
+  const auto training_data = [&](std::span<const Response> history) {
     TrainingData known = training_data_of(study, record_of(study, store, history));
     known.conditions = conditions;
     return known;
   };
-  return examine(evidence, objective, calibration, simulations, seed);
+  Examination examination(training_data, calibration, simulations, seed);
+  const auto affordable = [&] { return objective.stop_requested() ? 0 : objective.budget_left(); };
+  while (const auto request = examination.next(affordable()))
+    examination.ingest(objective.evaluate(request->points, {&request->packing, 1}));
+  return examination.result();
 }
 
 }  // namespace pastefit

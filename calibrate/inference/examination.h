@@ -19,16 +19,39 @@ std::string reason_for(bool confirmed, std::size_t packings);
 /// far apart as can be, each on one fresh packing; then, as long as there are simulations left, those that would be
 /// shown as equivalent and that only a prediction speaks for. Then infers. Central differences at the best candidate
 /// would cost as much and tell the slopes there only; these runs tell them along the whole family, and whether its
-/// members hold. Spends at most `simulations`, and no more than the objective's budget; none after a stop request.
-/// Requirement: the calibration's best candidate did not fail. `evidence`: what answers say.
-/// The answer depends on what was asked only: a resumed calibration infers the same. Nothing, where no simulation has
-/// run to its end.
-std::optional<Inference> examine(const std::function<TrainingData(std::span<const Response>)>& evidence,
-                                 Objective& objective, const Calibration& calibration, int simulations,
-                                 std::uint64_t seed);
+/// members hold. Requirement: the calibration's best candidate did not fail; it outlives the examination.
+/// The answer depends on what was asked only: a resumed calibration infers the same.
+class Examination {
+ public:
+  /// `training_data`: what answers say. `simulations`: that may be spent, on points on one packing.
+  Examination(std::function<TrainingData(std::span<const Response>)> training_data, const Calibration& calibration,
+              int simulations, std::uint64_t seed);
 
-/// The same of a study. Requirement: `objective` stores in `store`.
-/// `conditions`: what those that nobody states do to the readings.
+  /// What to simulate next, all to its end on one packing.
+  struct Request {
+    std::vector<UnitPoint> points;
+    std::uint64_t packing = 0;
+  };
+  /// Nothing once it is over. `affordable`: points on a packing that may still be simulated; 0 after a stop request.
+  std::optional<Request> next(int affordable);
+  /// The answers to the last request.
+  void ingest(std::vector<Response> answers);
+  /// Nothing, where no simulation has run to its end. Requirement: `next` gave nothing.
+  std::optional<Inference> result() const;
+
+ private:
+  const std::function<TrainingData(std::span<const Response>)> training_data_;
+  const Calibration& calibration_;
+  const InferenceOptions options_;
+  const int simulations_;
+  int left_ = 0;
+  std::uint64_t round_ = 0;
+  std::vector<Response> history_;
+  std::optional<Inference> inference_;
+};
+
+/// The same of a study, simulated by an objective; spends no more than its budget. Requirement: `objective` stores in
+/// `store`. `conditions`: what those that nobody states do to the readings.
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
                                  const Calibration& calibration, int simulations, std::uint64_t seed,
                                  const std::vector<ConditionEffect>& conditions = {});

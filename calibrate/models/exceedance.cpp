@@ -15,7 +15,6 @@ constexpr double least_scatter = 0.02;
 // Medians of the fifths of a standard normal variable, scaled to its variance.
 constexpr std::array fifths{-1.4634, -0.5988, 0.0, 0.5988, 1.4634};
 
-constexpr double clip = 2.25;  // of a value over its limit
 
 Eigen::VectorXd roots(std::span<const double> values) {
   Eigen::VectorXd out(std::ssize(values));
@@ -32,10 +31,6 @@ double normal_cdf(double deviate) {
 }
 
 }  // namespace
-
-double Exceedance::root(double value) {
-  return std::sqrt(std::clamp(value, 0.0, clip));
-}
 
 Exceedance::Exceedance(std::span<const UnitPoint> points, std::span<const double> values)
     : roots_(points, roots(values)) {}

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "calibrate/models/gaussian_process.h"
@@ -14,7 +16,7 @@ namespace pastefit {
 class Exceedance {
  public:
   /// Of a value over its limit: what is learnt, nearly normal; 1 at the limit, no more than 1.5.
-  static double root(double value);
+  static double root(double value) { return std::sqrt(std::clamp(value, 0.0, 2.25)); }
 
   /// Shapes: n >= 1 points of the unit cube, which may repeat, n values over their limit, >= 0.
   Exceedance(std::span<const UnitPoint> points, std::span<const double> values);

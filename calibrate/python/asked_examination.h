@@ -1,37 +1,38 @@
 #pragma once
 
-#include <exception>
-#include <memory>
+#include <cstddef>
 #include <optional>
-#include <thread>
+#include <span>
+#include <vector>
 
-#include "calibrate/inference/inference.h"
+#include "calibrate/inference/examination.h"
 #include "calibrate/python/answers.h"
-#include "calibrate/search/calibration.h"
 #include "calibrate/search/candidate_queue.h"
 
 namespace pastefit::python {
 
-/// `examine` with simulations that run in another engine: it waits in a thread of its own, and its candidates are
-/// suggested and answered by `queue`, as those of a search are.
+/// An `Examination` whose simulations run in another engine: its candidates are suggested and answered as those of a
+/// search are.
 class AskedExamination {
  public:
-  /// Requirements: those of `examine`; answers and calibration outlive it.
+  /// Requirements: those of `Examination`; answers and calibration outlive it.
   AskedExamination(const Answers& answers, const Calibration& found, int simulations);
-  AskedExamination(const AskedExamination&) = delete;
-  AskedExamination& operator=(const AskedExamination&) = delete;
-  ~AskedExamination();
 
-  CandidateQueue& queue();
-  /// Requirement: the queue has finished. Throws what ended the examination if that was an error.
-  const std::optional<Inference>& inference() const;
+  std::vector<Candidate> suggest(std::size_t count) { return queue_.suggest(count); }
+  void ingest(const CandidateResult& result);
+  void stop();
+  bool finished() const { return finished_; }
+  /// Requirement: it has finished.
+  std::optional<Inference> inference() const { return examination_.result(); }
 
  private:
-  class AskingObjective;
-  std::unique_ptr<AskingObjective> objective_;
-  std::optional<Inference> inference_;
-  std::exception_ptr error_;
-  std::thread thread_;
+  void advance();
+
+  const Scoring& scoring_;
+  CandidateQueue queue_;
+  Examination examination_;
+  std::vector<std::size_t> awaited_;  // candidates, by their numbers
+  bool finished_ = false;
 };
 
 }  // namespace pastefit::python

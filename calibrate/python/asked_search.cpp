@@ -50,7 +50,7 @@ std::vector<Candidate> AskedSearch::next(std::size_t count) {
   auto candidates = search_->suggest(count);
   for (const Candidate& one : candidates) asked_by_the_search_ = std::max(asked_by_the_search_, one.number + 1);
   if (!candidates.empty() || !begin_examination()) return candidates;
-  candidates = examination_->queue().suggest(count);
+  candidates = examination_->suggest(count);
   for (Candidate& one : candidates) one.number += asked_by_the_search_;
   return candidates;
 }
@@ -111,17 +111,17 @@ void AskedSearch::tell(const Candidate& candidate, const Evaluation& evaluation)
   if (!examination_) return search_->ingest({&result, 1});
   if (result.candidate < asked_by_the_search_) return;  // it came too late
   result.candidate -= asked_by_the_search_;
-  examination_->queue().ingest({&result, 1});
+  examination_->ingest(result);
 }
 
 void AskedSearch::stop() {
   stopped_ = true;
   search_->stop();
-  if (examination_) examination_->queue().stop();
+  if (examination_) examination_->stop();
 }
 
 bool AskedSearch::finished() {
-  return search_->finished() && (!begin_examination() || examination_->queue().finished());
+  return search_->finished() && (!begin_examination() || examination_->finished());
 }
 
 /// Measured against simulated, as a card has it.

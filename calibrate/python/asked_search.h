@@ -56,7 +56,6 @@ class AskedSearch {
   mutable std::mutex mutex_;             // guards what follows
   Progress progress_;
   std::string phase_;
-  // Last: their threads use all of the above.
   std::unique_ptr<Search> search_;
   std::unique_ptr<AskedExamination> examination_;
 };

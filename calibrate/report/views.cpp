@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "calibrate/base/machine.h"
-#include "calibrate/search/worker_pool.h"
+#include "calibrate/base/worker_pool.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {

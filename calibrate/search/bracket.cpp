@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pastefit {
@@ -64,23 +65,26 @@ bool is_met(const Response& one) {
 
 }  // namespace
 
-std::optional<UnitPoint> bracket(StrategyState& state) {
-  EvaluationHistory& history = state.history;
-  if (history.parameters() != 1 || history.stop_requested() || !history.any_feasible()) return std::nullopt;
-  const std::span<const std::uint64_t> first(state.common.data(), 1);
-  if (all_on_one_side(history, in_order(history)) && history.budget_left() >= 2) {
+bool BracketPhase::advance() {
+  EvaluationHistory& history = state_.history;
+  const std::span<const std::uint64_t> first(state_.common.data(), 1);
+  if (history.parameters() != 1 || history.stop_requested() || !history.any_feasible()) return true;
+  const std::vector<Response> seen = in_order(history);
+  if (!std::exchange(begun_, true) && all_on_one_side(history, seen) && history.budget_left() >= 2) {
     const std::vector<UnitPoint> ends{UnitPoint::Constant(1, 0), UnitPoint::Constant(1, 1)};
     history.try_out(ends, first);
+    return false;
   }
-  for (int halvings = 0; halvings < kMostHalvings && history.budget_left() >= 1; ++halvings) {
-    const std::vector<Response> seen = in_order(history);
-    const auto met = std::ranges::find_if(seen, is_met);
-    if (met != seen.end()) return halvings > 0 ? std::optional(met->point) : std::nullopt;
-    const std::optional<UnitPoint> middle = middle_of_jump(history, seen, halvings == 0 ? kJump : 0);
-    if (!middle || history.stop_requested()) return std::nullopt;
-    history.try_out({&*middle, 1}, first);
+  if (halvings_ == kMostHalvings || history.budget_left() < 1) return true;
+  if (const auto met = std::ranges::find_if(seen, is_met); met != seen.end()) {
+    if (halvings_ > 0) found_ = met->point;
+    return true;
   }
-  return std::nullopt;
+  const std::optional<UnitPoint> middle = middle_of_jump(history, seen, halvings_ == 0 ? kJump : 0);
+  if (!middle) return true;
+  ++halvings_;
+  history.try_out({&*middle, 1}, first);
+  return false;
 }
 
 }  // namespace pastefit

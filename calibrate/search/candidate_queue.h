@@ -1,11 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,39 +36,33 @@ struct CandidateResult {
   Evaluation evaluation;
 };
 
-/// Between a strategy, which asks and waits in a thread of its own, and whoever simulates: what is asked, and what was
-/// answered. A strategy sees an answer when it waits for it, never before, so that what it does depends on the answers
-/// and the order of asking only. Each candidate is asked once.
+/// Between the phases of a search, which ask, and whoever simulates: what is asked, and what was answered. A phase sees
+/// an answer when everything that it waits for is there, never before, so that what it does depends on the answers and
+/// the order of asking only. Each candidate is asked once. No call waits.
 class CandidateQueue {
  public:
-  /// Thrown in the strategy's thread when nobody will answer any more.
-  struct Closed {};
-
   /// `simulations`: allowed in all. `known`: answers of an earlier search with the same queue.
   CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
 
-  // For the strategy.
+  // For the phases.
   const Scoring& scoring() const { return scoring_; }
-  /// Points on a packing still allowed, by the answers that the strategy has seen.
+  /// Points on a packing still allowed, by the answers that were looked at.
   int budget_left() const { return std::max(0, simulations_ - spent_) / scoring_.simulations_each(); }
-  bool stop_requested() const;
+  bool stop_requested() const { return stopped_; }
   /// The purpose of what is asked from now on.
-  void enter(std::string_view purpose);
-  /// Asks for a point, which may end early, without waiting.
-  void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
-  /// Asks for what is not known yet and waits. Shape: one for each point, in it one for each packing.
-  std::vector<std::vector<Evaluation>> evaluate(std::span<const UnitPoint> points,
-                                                std::span<const std::uint64_t> packings, Fidelity fidelity,
-                                                bool may_end_early);
-  /// The strategy has come to its end.
-  void finish();
+  void enter(std::string_view purpose) { purpose_ = purpose; }
+  /// Asks for each point on each packing what is not known yet; the numbers of these candidates, point by point.
+  std::vector<std::size_t> ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                               Fidelity fidelity, bool may_end_early);
+  /// Whether these candidates are answered, or will not be after a stop.
+  bool is_answered(std::span<const std::size_t> numbers) const;
+  /// Their answers: what is looked at counts as spent. Requirement: `is_answered`.
+  std::vector<Evaluation> answers(std::span<const std::size_t> numbers);
 
   // For whoever simulates; see `Search`.
   std::vector<Candidate> suggest(std::size_t count);
   void ingest(std::span<const CandidateResult> results);
-  void stop();
-  void close();
-  bool finished() const;
+  void stop() { stopped_ = true; }
   std::vector<CandidateResult> results() const;
 
  private:
@@ -83,21 +75,17 @@ class CandidateQueue {
 
   std::size_t ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early);
   const Evaluation& see(std::size_t number);
-  bool is_waiting() const;
   void accept(const CandidateResult& result);
 
   const Scoring& scoring_;
   const int simulations_;
-  int spent_ = 0;             // of the strategy's thread
-  mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable changed_;
+  int spent_ = 0;
   std::string purpose_;
   std::deque<Asked> asked_;
   std::map<Key, std::size_t> numbers_;
   std::map<std::size_t, Evaluation> known_;  // answers to questions still to be asked
   std::deque<std::size_t> open_;             // asked, and not yet suggested
-  std::vector<std::size_t> awaited_;
-  bool stopped_ = false, closed_ = false, finished_ = false;
+  bool stopped_ = false;
 };
 
 }  // namespace pastefit

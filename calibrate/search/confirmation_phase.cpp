@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "calibrate/judge/verdict.h"
-
 namespace pastefit {
 namespace {
 
@@ -16,42 +14,71 @@ constexpr std::size_t worthwhile_confirmations = 4;
 
 }  // namespace
 
-bool ConfirmationPhase::confirm(bool whatever_it_does, const UnitPoint& asked) {
+void ConfirmationPhase::begin(bool whatever_it_does, const UnitPoint& asked) {
   state_.history.enter("confirmation");
   state_.history.hold_back(0);
-  const UnitPoint candidate = asked.size() > 0 ? asked : state_.ranking().best();
-  if (!judge(candidate, state_.fresh_packings(first_packings()), whatever_it_does)) return false;
-  ++rounds_;
-  if (!confirmed_) state_.refuted.push_back(candidate);
-  state_.history.hold_back(state_.options.confirmation_packings);
-  return confirmed_;
+  candidate_ = asked.size() > 0 ? asked : state_.ranking().best();
+  fresh_ = state_.fresh_packings(first_packings());
+  whatever_it_does_ = whatever_it_does;
 }
 
-bool ConfirmationPhase::judge(const UnitPoint& candidate, std::vector<std::uint64_t> fresh, bool whatever_it_does) {
+void ConfirmationPhase::begin_last() {
+  state_.history.hold_back(0);
+  last_ = whatever_it_does_ = true;
+  if (confirmed_ || confirmation_.packings.empty() || state_.history.stop_requested()) return;
+  const bool broken_off =
+      confirmation_.packings.size() < static_cast<std::size_t>(state_.options.confirmation_packings);
+  const Evidence evidence = evidence_of(confirmation_);
+  if (!broken_off && verdict_on(evidence, state_.scoring().rejected_share()) != Verdict::undecided) return;
+  candidate_ = confirmation_.point;
+  fresh_ = confirmation_.packings;
+}
+
+bool ConfirmationPhase::advance() {
+  if (candidate_.size() == 0) return true;
+  if (std::exchange(asked_, false)) {
+    const Response confirmation = state_.history.answers().front();
+    const auto [verdict, more] = look_at(confirmation);
+    if (more == 0) {
+      conclude(confirmation, verdict);
+      return true;
+    }
+    std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh_));
+  }
+  asked_ = true;
+  state_.history.evaluate({&candidate_, 1}, fresh_);
+  return false;
+}
+
+std::pair<Verdict, std::size_t> ConfirmationPhase::look_at(const Response& confirmation) const {
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
   const auto least = std::max<std::size_t>(all, 2);  // of a single packing the noise is not known
-  Response confirmation;
+  const Evidence evidence = evidence_of(confirmation);
+  const std::size_t asked = fresh_.size();
   Verdict verdict = Verdict::undecided;
-  while (true) {
-    confirmation = state_.history.evaluate({&candidate, 1}, fresh).at(0);
-    const Evidence evidence = evidence_of(confirmation);
-    const std::size_t asked = fresh.size();
-    if (asked >= least)
-      verdict = verdict_on(evidence, state_.scoring().rejected_share());
-    else if (!whatever_it_does && state_.ranking().chance_of(candidate, 1) < hardly_likely)
-      verdict = Verdict::refuted;
-    if (asked >= least && packings_to_decide(evidence) > most_confirmations * static_cast<double>(all)) break;
-    if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested()) break;
-    const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are told
-    if (by_share && !whatever_it_does && asked >= worthwhile_confirmations * all) break;
-    const std::size_t more = asked < all ? all - asked : further_packings();
-    if (!state_.affordable(more)) break;
-    std::ranges::copy(state_.fresh_packings(static_cast<int>(more)), std::back_inserter(fresh));
-  }
-  if (state_.history.stop_requested()) return false;
+  if (asked >= least)
+    verdict = verdict_on(evidence, state_.scoring().rejected_share());
+  else if (!whatever_it_does_ && state_.ranking().chance_of(candidate_, 1) < hardly_likely)
+    verdict = Verdict::refuted;
+  if (asked >= least && packings_to_decide(evidence) > most_confirmations * static_cast<double>(all))
+    return {verdict, 0};
+  if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested())
+    return {verdict, 0};
+  const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are told
+  if (by_share && !whatever_it_does_ && asked >= worthwhile_confirmations * all) return {verdict, 0};
+  const std::size_t more = asked < all ? all - asked : further_packings();
+  return {verdict, state_.affordable(more) ? more : 0};
+}
+
+void ConfirmationPhase::conclude(const Response& confirmation, Verdict verdict) {
+  const UnitPoint judged = std::exchange(candidate_, {});
+  if (state_.history.stop_requested()) return;
   confirmed_ = verdict == Verdict::meets;
   report(confirmation);
-  return true;
+  if (last_) return;
+  ++rounds_;
+  if (!confirmed_) state_.refuted.push_back(judged);
+  state_.history.hold_back(state_.options.confirmation_packings);
 }
 
 int ConfirmationPhase::first_packings() const {
@@ -79,16 +106,6 @@ void ConfirmationPhase::report(const Response& confirmation) {
   best_ = all;
   search_ = state_.history.recall(confirmation.point, tried);
   confirmation_ = confirmation;
-}
-
-void ConfirmationPhase::finish() {
-  state_.history.hold_back(0);
-  if (confirmed_ || confirmation_.packings.empty() || state_.history.stop_requested()) return;
-  const bool broken_off =
-      confirmation_.packings.size() < static_cast<std::size_t>(state_.options.confirmation_packings);
-  if (!broken_off && verdict_on(evidence_of(confirmation_), state_.scoring().rejected_share()) != Verdict::undecided)
-    return;
-  (void)judge(confirmation_.point, confirmation_.packings, true);
 }
 
 }  // namespace pastefit

@@ -39,34 +39,65 @@ int EvaluationHistory::budget_left() const {
 }
 
 void EvaluationHistory::begin(const UnitPoint& point, std::span<const std::uint64_t> packings) {
-  queue_.begin(point, packings);
+  (void)queue_.ask({&point, 1}, packings, Fidelity::fine, true);
   under_way_.push_back({point, {packings.begin(), packings.end()}});
 }
 
-Response EvaluationHistory::next_answer() {
+void EvaluationHistory::await_next() {
   const Asked asked = std::move(under_way_.front());
   under_way_.pop_front();
-  return try_out({&asked.point, 1}, asked.packings).at(0);
+  try_out({&asked.point, 1}, asked.packings);
 }
 
-std::vector<Response> EvaluationHistory::evaluate(std::span<const UnitPoint> points,
-                                                  std::span<const std::uint64_t> packings) {
-  return ask(points, packings, false);
+void EvaluationHistory::evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  await(points, packings, Fidelity::fine, false);
 }
 
-std::vector<Response> EvaluationHistory::try_out(std::span<const UnitPoint> points,
-                                                 std::span<const std::uint64_t> packings) {
-  return ask(points, packings, true);
+void EvaluationHistory::try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  await(points, packings, Fidelity::fine, true);
 }
 
-std::vector<Response> EvaluationHistory::ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                                             bool may_end_early) {
+void EvaluationHistory::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
+  await(points, packings, Fidelity::coarse, false);
+}
+
+void EvaluationHistory::await(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
+                              Fidelity fidelity, bool may_end_early) {
+  awaited_ = {queue_.ask(points, packings, fidelity, may_end_early), packings.size(), fidelity};
+}
+
+void EvaluationHistory::take_answers() {
+  if (!awaited_) return;
+  const Awaited awaited = std::move(*awaited_);
+  awaited_.reset();
+  std::vector<Response> responses = responses_to(awaited);
+  if (awaited.fidelity == Fidelity::fine) {
+    answers_ = std::move(responses);
+    keep(answers_, awaited.packings);
+  } else if (!stop_requested()) {
+    for (std::size_t k = 0; k < awaited.packings; ++k)
+      for (const Response& response : responses) {
+        Response single = scoring().response_of({response.evaluations[k]});
+        weigh(single);
+        keep_single(single, coarse_singles_);
+      }
+    report();
+  }
+}
+
+std::vector<Response> EvaluationHistory::responses_to(const Awaited& awaited) {
   std::vector<Response> responses;
-  for (std::vector<Evaluation>& evaluations : queue_.evaluate(points, packings, Fidelity::fine, may_end_early))
-    responses.push_back(scoring().response_of(std::move(evaluations)));
-  for (Response& response : responses) weigh(response);
-  const std::vector<Response> kept = without_cut_off(responses, stop_requested());
-  for (std::size_t k = 0; k < packings.size(); ++k)
+  const std::vector<Evaluation> answers = queue_.answers(awaited.numbers);
+  for (auto next = answers.begin(); next != answers.end(); next += static_cast<std::ptrdiff_t>(awaited.packings)) {
+    responses.push_back(scoring().response_of({next, next + static_cast<std::ptrdiff_t>(awaited.packings)}));
+    weigh(responses.back());
+  }
+  return responses;
+}
+
+/// Single simulations, packing by packing, and the answers as they are.
+void EvaluationHistory::keep(std::span<const Response> responses, std::size_t packings) {
+  for (std::size_t k = 0; k < packings; ++k)
     for (const Response& response : responses) {
       const std::vector<Response> single{scoring().response_of({response.evaluations[k]})};
       for (Response& one : without_cut_off(single, stop_requested())) {
@@ -74,8 +105,7 @@ std::vector<Response> EvaluationHistory::ask(std::span<const UnitPoint> points, 
         keep_single(one, singles_);
       }
     }
-  note(kept);
-  return responses;
+  note(without_cut_off({responses.begin(), responses.end()}, stop_requested()));
 }
 
 Response EvaluationHistory::recall(const UnitPoint& point, std::span<const std::uint64_t> packings) {
@@ -99,18 +129,6 @@ void EvaluationHistory::note(std::span<const Response> answered) {
       best_packings_ = response.packings.size();
     }
   }
-  report();
-}
-
-void EvaluationHistory::evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
-  const auto answered = queue_.evaluate(points, packings, Fidelity::coarse, false);
-  if (stop_requested()) return;
-  for (std::size_t k = 0; k < packings.size(); ++k)
-    for (const std::vector<Evaluation>& evaluations : answered) {
-      Response single = scoring().response_of({evaluations[k]});
-      weigh(single);
-      keep_single(single, coarse_singles_);
-    }
   report();
 }
 

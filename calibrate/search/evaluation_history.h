@@ -41,25 +41,33 @@ class EvaluationHistory {
   bool stop_requested() const { return queue_.stop_requested(); }
   int budget_left() const;  ///< points on a packing, without what is held back or under way
 
-  /// Answers of points on the same packings, in the order of the points; simulated unless they are known.
-  std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  /// Asks for points on the same packings, which run to their end, or may end early, or are of coarse grains. A phase
+  /// asks, goes back to its caller, and finds the answers when it is called again. Requirement: nothing is awaited.
+  void evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  /// The answers are in `coarse_singles`, weighed as all others.
+  void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
+  /// Whether something is awaited that is not answered yet.
+  bool is_waiting() const { return awaited_ && !queue_.is_answered(awaited_->numbers); }
+  /// Takes the answers to what was awaited, if anything was. Requirement: not `is_waiting()`.
+  void take_answers();
+  /// The answers taken last, in the order of the points; none of coarse grains.
+  const std::vector<Response>& answers() const { return answers_; }
+
   /// The answer of a point on packings on each of which it was simulated to its end; starts nothing.
   Response recall(const UnitPoint& point, std::span<const std::uint64_t> packings);
 
-  /// Begins to work on a point without waiting; its simulations are spent from now on.
+  /// Begins to work on a point that may end early, and goes on without its answer; its simulations are spent from now
+  /// on.
   void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
-  /// Waits for the earliest point that is under way: answers come in the order of asking, whichever is ready first.
-  Response next_answer();
+  /// Awaits the earliest point that is under way: answers come in the order of asking, whichever is ready first.
+  void await_next();
   /// Points begun and not yet answered, the earliest first, each with its packings.
   struct Asked {
     UnitPoint point;
     std::vector<std::uint64_t> packings;
   };
   const std::deque<Asked>& under_way() const { return under_way_; }
-
-  /// Simulates points with coarse grains and keeps the answers in `coarse_singles`, weighed as all others.
-  void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
 
   void hold_back(int packings) { held_back_ = packings; }
   /// Begins a phase: weighs anew all that was answered.
@@ -83,8 +91,16 @@ class EvaluationHistory {
   bool any_feasible() const;
 
  private:
-  std::vector<Response> ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
-                            bool may_end_early);
+  /// What a phase waits for.
+  struct Awaited {
+    std::vector<std::size_t> numbers;  // of the candidates, point by point
+    std::size_t packings = 0;          // each point on so many
+    Fidelity fidelity = Fidelity::fine;
+  };
+  void await(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, Fidelity fidelity,
+             bool may_end_early);
+  std::vector<Response> responses_to(const Awaited& awaited);
+  void keep(std::span<const Response> responses, std::size_t packings);
   void note(std::span<const Response> answered);
   static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
@@ -104,6 +120,8 @@ class EvaluationHistory {
   double common_packings_ = 1;
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1
   std::deque<Asked> under_way_;
+  std::optional<Awaited> awaited_;
+  std::vector<Response> answers_;
   std::vector<Response> responses_;
   std::vector<Response> singles_;
   std::vector<Response> coarse_singles_;

@@ -18,7 +18,7 @@
 #include "calibrate/search/record.h"
 #include "calibrate/search/run_observer.h"
 #include "calibrate/search/study_scoring.h"
-#include "calibrate/search/worker_pool.h"
+#include "calibrate/base/worker_pool.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

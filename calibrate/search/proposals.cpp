@@ -23,7 +23,20 @@ UnitPoint point_of_largest_margin(const CandidateRanking& ranking, const Surroga
 
 }  // namespace
 
-std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
+bool Proposals::look(const CandidateRanking& ranking) {
+  if (!proposal_) {
+    found_.reset();
+    proposal_ = promising(ranking);
+    coarse_tries_ = 0;
+    if (!proposal_) return true;
+  }
+  if (!try_with_coarse_grains()) return false;
+  found_ = distinct(*proposal_);
+  proposal_.reset();
+  return true;
+}
+
+std::optional<UnitPoint> Proposals::promising(const CandidateRanking& ranking) const {
   Surrogate model = ranking.surrogate();
   fantasise_answers(model);
   double least = ranking.least_misfit();
@@ -35,28 +48,34 @@ std::optional<UnitPoint> Proposals::next(const CandidateRanking& ranking) {
     const double gain = ranking.expected_margin(model, best.point) - ranking.margin_of_best();
     if (gain < worthwhile_margin) return std::nullopt;
   }
-  const UnitPoint proposal = tried_with_coarse_grains(best.point);
+  return best.point;
+}
+
+bool Proposals::try_with_coarse_grains() {
+  if (coarse_known_) {
+    const bool taught = history_.coarse_singles().size() > *coarse_known_;
+    coarse_known_.reset();
+    if (!taught) return true;
+    Surrogate model(history_.training_data(), history_.allowances(), history_.scoring().rejected_share());
+    fantasise_answers(model);
+    const auto misfit = [&](const UnitPoint& point) { return model.misfit_posterior(point).mean(); };
+    const UnitPoint better = least_point(misfit, *proposal_);
+    if (misfit(*proposal_) <= misfit(better) + model.noise() / options_.packings) return true;
+    if (++coarse_tries_ < coarse_tries) proposal_ = better;
+  }
+  if (!with_coarse_ || coarse_tries_ >= coarse_tries || history_.stop_requested()) return true;
+  coarse_known_ = history_.coarse_singles().size();
+  history_.evaluate_coarse({&*proposal_, 1}, packings_of_coarse(options_.seed, options_.packings));
+  return false;
+}
+
+std::optional<UnitPoint> Proposals::distinct(const UnitPoint& proposal) const {
   const auto is_same = [&](const auto& asked) {
     return (asked.point - proposal).template lpNorm<Eigen::Infinity>() < same_point;
   };
   if (std::ranges::any_of(history_.under_way(), is_same)) return std::nullopt;
   const auto known = std::ranges::find_if(history_.singles(), is_same);
   return known == history_.singles().end() ? proposal : known->point;
-}
-
-UnitPoint Proposals::tried_with_coarse_grains(UnitPoint proposal) {
-  for (int tries = 0; with_coarse_ && tries < coarse_tries && !history_.stop_requested(); ++tries) {
-    const std::size_t known = history_.coarse_singles().size();
-    history_.evaluate_coarse({&proposal, 1}, packings_of_coarse(options_.seed, options_.packings));
-    if (history_.coarse_singles().size() == known) break;
-    Surrogate model(history_.training_data(), history_.allowances(), history_.scoring().rejected_share());
-    fantasise_answers(model);
-    const auto misfit = [&](const UnitPoint& point) { return model.misfit_posterior(point).mean(); };
-    const UnitPoint better = least_point(misfit, proposal);
-    if (misfit(proposal) <= misfit(better) + model.noise() / options_.packings) break;
-    if (tries + 1 < coarse_tries) proposal = better;
-  }
-  return proposal;
 }
 
 /// Draws the answers of the candidates under way.

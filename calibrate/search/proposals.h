@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -30,16 +31,28 @@ class Proposals {
   Proposals(EvaluationHistory& history, bool with_coarse, const SearchOptions& options)
       : history_(history), with_coarse_(with_coarse), options_(options) {}
 
-  /// None if nothing promises more than a fiftieth of the misfit or of the tolerances, or before the next answer.
-  std::optional<UnitPoint> next(const CandidateRanking& ranking);
+  /// Looks for the next point. False: it asked for coarse simulations, and is to be called again with the same ranking.
+  bool look(const CandidateRanking& ranking);
+  /// What was found: none if nothing promises more than a fiftieth of the misfit or of the tolerances, or before the
+  /// next answer.
+  const std::optional<UnitPoint>& found() const { return found_; }
 
  private:
-  UnitPoint tried_with_coarse_grains(UnitPoint proposal);
+  /// The point of most promise, if it promises enough.
+  std::optional<UnitPoint> promising(const CandidateRanking& ranking) const;
+  /// Moves the proposal to where coarse grains see none better; false if it asked for a simulation.
+  bool try_with_coarse_grains();
+  /// None if it is under way already, and what was answered as the same point.
+  std::optional<UnitPoint> distinct(const UnitPoint& proposal) const;
   void fantasise_answers(Surrogate& model) const;
 
   EvaluationHistory& history_;
   bool with_coarse_;
   const SearchOptions& options_;
+  std::optional<UnitPoint> proposal_;  // that is tried with coarse grains
+  int coarse_tries_ = 0;
+  std::optional<std::size_t> coarse_known_;  // simulations before the one that was asked for
+  std::optional<UnitPoint> found_;
 };
 
 }  // namespace pastefit

@@ -169,45 +169,44 @@ double whole_tolerance(const EvaluationHistory& history, std::size_t reading) {
   return history.tolerance(reading) * std::sqrt(history.readings());
 }
 
-std::optional<OutOfReach> probe(EvaluationHistory& history, std::size_t reading, const ReachOptions& options,
-                                int& probes) {
-  while (!history.stop_requested()) {
-    const Nearing approach(history.singles(), reading, whole_tolerance(history, reading));
-    if (!approach.suspect() && !approach.tells_nothing()) return std::nullopt;
-    // How far they would have gone is what matters here.
-    if (const auto ended = censored(history.singles(), options.packing); !ended.empty()) {
-      if (history.budget_left() < static_cast<int>(ended.size())) return std::nullopt;
-      history.evaluate(ended, {&options.packing, 1});
-      continue;
-    }
-    if (!approach.suspect()) return std::nullopt;
-    const GaussianProcess model = approach.model();
-    const Allowance allowance{approach.deviations(), model.noise_variance()};
-    const UnitPoint hopeful = hopeful_of(approach, model, allowance);
-    if (auto found = claim(approach, model, allowance, hopeful)) return found;
-    if (probes < 1 || history.budget_left() < 1) return std::nullopt;
-    --probes;
-    const std::size_t before = history.singles().size();
-    history.evaluate({&hopeful, 1}, {&options.packing, 1});
-    if (history.singles().size() == before) return std::nullopt;  // it was known, and taught nothing
-  }
-  return std::nullopt;
-}
-
 std::string name_at(std::span<const std::string> names, std::size_t index, const char* kind) {
   return index < names.size() ? names[index] : kind + std::to_string(index + 1);
 }
 
 }  // namespace
 
-std::optional<OutOfReach> find_out_of_reach(EvaluationHistory& history, const ReachOptions& options) {
-  int probes = options.probes;
-  for (std::size_t k = 0; history.any_feasible() && k < static_cast<std::size_t>(history.readings()); ++k)
-    if (auto found = probe(history, k, options, probes)) {
-      found->reading = k;
-      return found;
-    }
-  return std::nullopt;
+bool ReachPhase::advance() {
+  for (; history_.any_feasible() && reading_ < static_cast<std::size_t>(history_.readings()); ++reading_) {
+    if (!probe(reading_)) return false;
+    if (found_) return true;
+    known_.reset();
+  }
+  return true;
+}
+
+bool ReachPhase::probe(std::size_t reading) {
+  if (history_.stop_requested()) return true;
+  if (known_ && history_.singles().size() == *known_) return true;  // it was known, and taught nothing
+  known_.reset();
+  const Nearing approach(history_.singles(), reading, whole_tolerance(history_, reading));
+  if (!approach.suspect() && !approach.tells_nothing()) return true;
+  // How far they would have gone is what matters here.
+  if (const auto ended = censored(history_.singles(), options_.packing); !ended.empty()) {
+    if (history_.budget_left() < static_cast<int>(ended.size())) return true;
+    history_.evaluate(ended, {&options_.packing, 1});
+    return false;
+  }
+  if (!approach.suspect()) return true;
+  const GaussianProcess model = approach.model();
+  const Allowance allowance{approach.deviations(), model.noise_variance()};
+  const UnitPoint hopeful = hopeful_of(approach, model, allowance);
+  found_ = claim(approach, model, allowance, hopeful);
+  if (found_) found_->reading = reading;
+  if (found_ || probes_ >= options_.probes || history_.budget_left() < 1) return true;
+  ++probes_;
+  known_ = history_.singles().size();
+  history_.evaluate({&hopeful, 1}, {&options_.packing, 1});
+  return false;
 }
 
 std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/evaluation_history.h"
+#include "calibrate/search/strategy_state.h"
 
 namespace pastefit {
 
@@ -45,7 +45,23 @@ struct ReachOptions {
 /// Simulations that ended early are run whole before anything is judged by them, or if all have ended so:
 /// how far they would have gone is the question. Limit: a narrow region of the cube that answers unlike all the rest
 /// can be overlooked; `contradicts` says when one is found after all.
-std::optional<OutOfReach> find_out_of_reach(EvaluationHistory& history, const ReachOptions& options);
+class ReachPhase : public Phase {
+ public:
+  ReachPhase(EvaluationHistory& history, const ReachOptions& options) : history_(history), options_(options) {}
+  bool advance() override;
+  const std::optional<OutOfReach>& found() const { return found_; }
+
+ private:
+  /// Asks for what tells more of a reading, or decides; false if it asked.
+  bool probe(std::size_t reading);
+
+  EvaluationHistory& history_;
+  const ReachOptions options_;
+  std::size_t reading_ = 0;
+  int probes_ = 0;                    // made
+  std::optional<std::size_t> known_;  // simulations before the last probe
+  std::optional<OutOfReach> found_;
+};
 
 /// What may come near: single simulations, whose noise helps them, or a candidate's mean over packings.
 enum class ReachOf { simulations, means };

@@ -21,26 +21,31 @@ std::vector<UnitPoint> likely_points(const StrategyState& state, int count) {
 
 }  // namespace
 
-void screen(StrategyState& state) {
-  state.history.enter("screening");
-  const std::span<const std::uint64_t> first(state.common.data(), 1);
-  const int known = static_cast<int>(state.history.singles().size());
-  int asked = 0;
-  while ((!state.history.any_feasible() || known + asked < state.options.screening) &&
-         !state.history.stop_requested()) {
-    const int missing = state.options.screening - (state.history.any_feasible() ? known + asked : 0);
-    const int count = std::min(missing, state.history.budget_left());
-    if (count < 1 || asked > state.options.budget_simulations / state.scoring().simulations_each() / 2) return;
-    const auto points = likely_points(state, asked + count);
-    state.history.try_out(std::span(points).last(static_cast<std::size_t>(count)), first);
-    asked += count;
+bool ScreeningPhase::advance() {
+  EvaluationHistory& history = state_.history;
+  if (known_ < 0) {
+    history.enter("screening");
+    known_ = static_cast<int>(history.singles().size());
   }
+  const bool enough = history.any_feasible() && known_ + asked_ >= state_.options.screening;
+  if (enough || history.stop_requested()) return true;
+  const int missing = state_.options.screening - (history.any_feasible() ? known_ + asked_ : 0);
+  const int count = std::min(missing, history.budget_left());
+  const int most = state_.options.budget_simulations / state_.scoring().simulations_each() / 2;
+  if (count < 1 || asked_ > most) return true;
+  const auto points = likely_points(state_, asked_ + count);
+  history.try_out(std::span(points).last(static_cast<std::size_t>(count)), std::span(state_.common).first(1));
+  asked_ += count;
+  return false;
 }
 
-void screen_coarsely(StrategyState& state) {
-  state.history.enter("screening");
-  const auto points = likely_points(state, state.options.screening);
-  state.history.evaluate_coarse(points, packings_of_coarse(state.options.seed, 1));
+bool CoarseScreeningPhase::advance() {
+  if (asked_) return true;
+  asked_ = true;
+  state_.history.enter("screening");
+  state_.history.evaluate_coarse(likely_points(state_, state_.options.screening),
+                                 packings_of_coarse(state_.options.seed, 1));
+  return false;
 }
 
 }  // namespace pastefit

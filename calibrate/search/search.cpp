@@ -1,46 +1,27 @@
 #include "calibrate/search/search.h"
 
 #include <deque>
-#include <exception>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "calibrate/search/strategy.h"
 
 namespace pastefit {
 
-/// A strategy is straight-line code, and optimisers call it back, so that it has a thread of its own, which waits
-/// whenever it needs an answer.
 struct Search::Run {
   Run(const Scoring& scoring, const SearchOptions& asked, SearchStart from, std::function<void(const Progress&)> told)
       : options(asked),
         start(std::move(from)),
         progress(std::move(told)),
-        queue(scoring, start.simulations, start.answers) {
-    thread = std::thread([this] {
-      try {
-        result = run_strategy(queue, options, start, progress);
-      } catch (const CandidateQueue::Closed&) {
-      } catch (...) {
-        error = std::current_exception();
-      }
-      queue.finish();
-    });
-  }
-  ~Run() {
-    queue.close();
-    thread.join();
-  }
+        queue(scoring, start.simulations, start.answers),
+        strategy(queue, options, start, progress) {}
 
   const SearchOptions options;
   const SearchStart start;
   const std::function<void(const Progress&)> progress;
   CandidateQueue queue;
-  Calibration result;
-  std::exception_ptr error;
-  std::thread thread;
+  Strategy strategy;
 };
 
 Search::Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,
@@ -53,29 +34,31 @@ Search::Search(const Scoring& scoring, const SearchOptions& options, SearchStart
 Search::~Search() = default;
 
 std::vector<Candidate> Search::suggest(std::size_t count) {
+  run_->strategy.advance();
   return run_->queue.suggest(count);
 }
 
 void Search::ingest(std::span<const CandidateResult> results) {
   run_->queue.ingest(results);
+  run_->strategy.advance();
 }
 
 void Search::stop() {
   run_->queue.stop();
+  run_->strategy.advance();
 }
 
 bool Search::finished() const {
-  return run_->queue.finished();
+  return run_->strategy.finished();
 }
 
 std::vector<CandidateResult> Search::results() const {
   return run_->queue.results();
 }
 
-Calibration Search::result() {
+const Calibration& Search::result() const {
   if (!finished()) throw std::logic_error("search: it has not finished");
-  if (run_->error) std::rethrow_exception(run_->error);
-  return run_->result;
+  return run_->strategy.result();
 }
 
 Calibration drive(Search& search, Objective& objective, Objective* coarse) {

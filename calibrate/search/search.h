@@ -24,10 +24,10 @@ namespace pastefit {
 /// What it suggests depends on the answers in the order of asking, up to `SearchOptions::max_pending` candidates under
 /// way in the phase of proposals, never on who was ready first: the same card for any number of workers. Its state is
 /// the answers it was told (`results`); a search that starts with them takes the same way without asking for them
-/// again. The phases of the default strategy, and the others: `strategy.h`. Requirements: `validate(options,
-/// scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it. One caller at a time. `progress`
-/// is called from a thread of the search's own. Errors: std::logic_error if a requirement is broken, or for an answer
-/// to what was not suggested; std::system_error if the system starts no thread for it.
+/// again. The phases of the default strategy, and the others: `strategy.h`. No call waits, and there is no thread: the
+/// search goes on within `suggest`, `ingest` and `stop`, from where `progress` is called. Requirements:
+/// `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it. One caller at
+/// a time. Errors: std::logic_error if a requirement is broken, or for an answer to what was not suggested.
 class Search {
  public:
   Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,
@@ -36,8 +36,8 @@ class Search {
   Search& operator=(const Search&) = delete;
   ~Search();
 
-  /// At most so many candidates that were not suggested before. Waits until there is one, or until there will be none
-  /// before another answer is ingested: then, and at the end, none.
+  /// At most so many candidates that were not suggested before; none, if there will be none before another answer is
+  /// ingested, and at the end.
   std::vector<Candidate> suggest(std::size_t count);
   /// An answer that is known already is ignored.
   void ingest(std::span<const CandidateResult> results);
@@ -46,8 +46,8 @@ class Search {
   bool finished() const;
   /// Every answer so far, in the order of asking.
   std::vector<CandidateResult> results() const;
-  /// Requirement: it has finished. Throws what ended the search if that was an error.
-  Calibration result();
+  /// Requirement: it has finished.
+  const Calibration& result() const;
 
  private:
   struct Run;

@@ -1,7 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "calibrate/search/confirmation_phase.h"
+#include "calibrate/search/reachability.h"
 #include "calibrate/search/strategy_state.h"
 
 namespace pastefit {
@@ -32,9 +39,63 @@ namespace pastefit {
 /// The goal of 2 and 3 is stricter than the tolerance, because a candidate is picked for its luck with its
 /// packings too; and it asks for a candidate within two standard deviations of what is known beforehand. The budget for
 /// a confirmation is kept back all along. Requirements: `validate(options, scoring.parameters(),
-/// scoring.simulations_each())` is empty. The way depends on the answers only: the same answers, the same calibration.
-/// Errors: in the status.
-Calibration run_strategy(CandidateQueue& queue, const SearchOptions& options, const SearchStart& start,
-                         const std::function<void(const Progress&)>& progress);
+/// scoring.simulations_each())` is empty; what the constructor is given outlives the strategy. The way depends on the
+/// answers only: the same answers, the same calibration. Errors: in the status.
+class Strategy {
+ public:
+  Strategy(CandidateQueue& queue, const SearchOptions& options, const SearchStart& start,
+           const std::function<void(const Progress&)>& progress);
+
+  /// Goes on as far as the answers in the queue reach.
+  void advance();
+  bool finished() const { return stage_ == Stage::over; }
+  /// Requirement: it has finished.
+  const Calibration& result() const { return result_; }
+
+ private:
+  enum class Stage {
+    coarse_screening,
+    screening,
+    bracket,
+    bracket_confirmation,
+    reach,
+    nearest,  // candidate to what is out of reach, on all common packings
+    nearest_confirmation,
+    candidates,
+    refinement,
+    confirmation,
+    last_confirmation,
+    over
+  };
+
+  void begin(Stage stage, std::unique_ptr<Phase> phase);
+  void begin_confirmation(Stage stage, bool whatever_it_does, const UnitPoint& asked = {});
+  void begin_bracket();
+  void begin_reach();
+  void begin_nearest();
+  /// The next round of candidates, if there can be one; the search before the first.
+  void begin_candidates();
+  void begin_end();
+  /// What comes after a stage that is over.
+  void go_on();
+  void go_on_after_nearest();
+  bool any_evidence() const;
+  /// Asks again what was said to be out of reach, by all that was simulated since; withdraws it if it is not.
+  bool claim_stands();
+  /// What the model did with each reading, coarse simulations corrected.
+  std::vector<Reach> reach() const;
+  void conclude();
+
+  const bool with_coarse_;
+  StrategyState state_;
+  ConfirmationPhase confirmation_;
+  std::unique_ptr<Phase> phase_;  // of the stage, but for confirmations
+  Phase* advanced_ = nullptr;     // either of them; none: nothing is to be done
+  std::span<const std::string> readings_, parameters_;
+  std::optional<OutOfReach> out_of_reach_;
+  bool searched_ = false;  // a search was begun
+  Stage stage_ = Stage::coarse_screening;
+  Calibration result_;
+};
 
 }  // namespace pastefit

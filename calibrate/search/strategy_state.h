@@ -15,6 +15,14 @@ namespace pastefit {
 /// (`inference/examination.h`).
 inline constexpr std::uint64_t first_examination_packing = 900;
 
+/// A phase of a search. It never waits: `advance` goes on as far as the answers reach, asks the history for what it
+/// needs next and returns false; it is called again once the answers are taken. It returns true when the phase is over.
+class Phase {
+ public:
+  virtual ~Phase() = default;
+  virtual bool advance() = 0;
+};
+
 /// What the phases of a strategy share: all answers, the packings on which an optimiser's candidates are compared, and
 /// the candidates that a confirmation has judged.
 class StrategyState {

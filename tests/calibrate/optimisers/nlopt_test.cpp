@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "../search/synthetic.h"
-#include "calibrate/search/simulated_problem.h"
+#include "tests/calibrate/optimisers/simulated_problem.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;

@@ -39,6 +39,16 @@ struct Judged {
   Judged(Synthetic& objective, const UnitPoint& candidate)
       : answered(objective), state(answered.queue, options, {}, unheard), phase(state) {
     state.history.evaluate({&candidate, 1}, {&state.common[0], 1});
+    answered.answers_of(state.history);
+  }
+  bool confirm(bool whatever_it_does = true) {
+    phase.begin(whatever_it_does);
+    answered.run(phase, state.history);
+    return phase.confirmed();
+  }
+  void finish() {
+    phase.begin_last();
+    answered.run(phase, state.history);
   }
 
   const SearchOptions options = generous_options(1);
@@ -151,7 +161,7 @@ TEST_CASE("packings are not asked for where their scatter says that no affordabl
   };
   Judged judged(slump, point);
   ConfirmationPhase& phase = judged.phase;
-  CHECK_FALSE(phase.confirm(true));
+  CHECK_FALSE(judged.confirm());
   CHECK(phase.confirmation().packings.size() == 8);
   CHECK(packings_to_decide(evidence_of(phase.confirmation())) > 64);
 }
@@ -223,9 +233,9 @@ TEST_CASE(
   };
   Judged judged(slump, point);
   ConfirmationPhase& phase = judged.phase;
-  CHECK_FALSE(phase.confirm(false));
+  CHECK_FALSE(judged.confirm(false));
   CHECK(phase.confirmation().packings.size() == 2);
-  phase.finish();
+  judged.finish();
   CHECK(phase.confirmed());
   CHECK(phase.confirmation().rejected == 2);
   CHECK(phase.confirmation().packings.size() == 20);
@@ -239,7 +249,7 @@ TEST_CASE("a share of rejected heaps that is nearly the allowed one is not asked
   slump.rejection_index = [](const UnitPoint&, std::uint64_t packing) { return packing % 5 == 0 ? 2.25 : 0.25; };
   Judged judged(slump, point);
   ConfirmationPhase& phase = judged.phase;
-  CHECK_FALSE(phase.confirm(false));
+  CHECK_FALSE(judged.confirm(false));
   CHECK(phase.confirmation().packings.size() == 32);
   CHECK(phase.confirmation().rejected == 6);
 }

@@ -27,6 +27,7 @@ const std::vector<std::uint64_t> common{1001, 1002};
 EvaluationHistory screened(Answered& answered, const SearchOptions& options) {
   EvaluationHistory history(answered.queue, {}, options, nobody);
   history.evaluate(screening_points(5, 12, options.seed), {common.data(), 1});
+  answered.answers_of(history);
   return history;
 }
 
@@ -39,7 +40,14 @@ struct Screened {
         history(screened(answered, options)),
         proposals(history, false, options) {}
 
-  std::optional<UnitPoint> next() { return proposals.next({history, {}}); }
+  std::optional<UnitPoint> next() {
+    CHECK(proposals.look({history, {}}));
+    return proposals.found();
+  }
+  Response next_answer() {
+    history.await_next();
+    return answered.answers_of(history).front();
+  }
 
   Synthetic objective;
   SearchOptions options;
@@ -86,7 +94,7 @@ TEST_CASE(
     }
     REQUIRE(!history.under_way().empty());
     if (history.under_way().size() > 1) ++several;
-    while (!history.under_way().empty()) history.next_answer();
+    while (!history.under_way().empty()) search.next_answer();
     const auto next = search.next();
     if (!next) continue;
     for (const Response& seen : history.singles())
@@ -138,7 +146,10 @@ TEST_CASE("what is under way is spent, and answered in the order of asking") {
   const std::vector<UnitPoint> points = screening_points(5, 3, 9);
   for (const UnitPoint& point : points) history.begin(point, common);
   CHECK(history.budget_left() == before - 6);
-  for (const UnitPoint& point : points) CHECK(history.next_answer().point == point);
+  for (const UnitPoint& point : points) {
+    history.await_next();
+    CHECK(answered.answers_of(history).front().point == point);
+  }
   CHECK(history.budget_left() == before - 6);
   CHECK(history.under_way().empty());
 }

@@ -21,6 +21,12 @@ struct Screening {
       : objective(std::move(made)), answered(objective), history(answered.queue, {}, options, progress) {
     const std::uint64_t packing = 1;
     history.try_out(screening_points(5, 12, seed), {&packing, 1});
+    answered.answers_of(history);
+  }
+  std::optional<OutOfReach> out_of_reach() {
+    ReachPhase phase(history, {});
+    answered.run(phase, history);
+    return phase.found();
   }
 };
 
@@ -44,7 +50,7 @@ TEST_CASE("a height below all that the model can do is called out of reach befor
   int called = 0, named = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Screening screened(too_stiff(seed), seed);
-    const auto found = find_out_of_reach(screened.history, {});
+    const auto found = screened.out_of_reach();
     CHECK(screened.objective.simulations <= 24);
     if (!found) continue;
     ++called;
@@ -68,7 +74,7 @@ TEST_CASE("what some material does is never called out of reach") {
     Synthetic objective = fake_slump(height, seed);
     objective.level = seed % 3 == 0 ? 40 : 0;  // some end early
     Screening screened(objective, seed);
-    CHECK_FALSE(find_out_of_reach(screened.history, {}));
+    CHECK_FALSE(screened.out_of_reach());
   }
 }
 
@@ -86,7 +92,7 @@ TEST_CASE("a height above a narrowed upper bound is out of reach, and that bound
       return wide(inside, packing);
     };
     Screening screened(weak, seed);
-    const auto found = find_out_of_reach(screened.history, {});
+    const auto found = screened.out_of_reach();
     if (!found) continue;
     ++called;
     CHECK_FALSE(found->above);
@@ -99,7 +105,26 @@ TEST_CASE("a tolerance wider than the error leaves nothing out of reach") {
   Synthetic slump = fake_slump(10, 3);
   slump.tolerance_mm = 60;
   Screening screened(std::move(slump), 3);
-  CHECK_FALSE(find_out_of_reach(screened.history, {}));
+  CHECK_FALSE(screened.out_of_reach());
+}
+
+TEST_CASE("a reading that every material misses by more than its tolerance is out of reach, alone or one of four") {
+  for (const bool alone : {true, false}) {
+    CAPTURE(alone);
+    Synthetic objective = fake_slump(10, 1);
+    objective.measured = alone ? std::vector{10.0} : std::vector{10.0, 50.0, 50.0, 50.0};
+    objective.standard_deviations.assign(objective.measured.size(), 1);
+    objective.fails = [](const UnitPoint&, std::uint64_t) { return false; };
+    objective.observe = [alone](const UnitPoint& x, std::uint64_t packing) {
+      std::vector<double> readings(alone ? 1 : 4, 50 + 0.1 * uniform(packing, 3));
+      readings[0] = 18 + 20 * x[0];  // 1.6 tolerances too much at best
+      return readings;
+    };
+    Screening screened(objective, 1);
+    const auto found = screened.out_of_reach();
+    REQUIRE(found);
+    CHECK(found->reading == 0);
+  }
 }
 
 TEST_CASE("a search that would be in vain ends after the screening, and says so") {

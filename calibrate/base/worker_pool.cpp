@@ -1,4 +1,4 @@
-#include "calibrate/search/worker_pool.h"
+#include "calibrate/base/worker_pool.h"
 
 #include <system_error>
 #include <utility>

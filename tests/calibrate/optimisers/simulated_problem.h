@@ -7,16 +7,15 @@
 #include <vector>
 
 #include "calibrate/optimisers/problem.h"
-#include "calibrate/search/response.h"
+#include "calibrate/search/objective.h"
 
 namespace pastefit {
 
 /// The misfit, and the residuals, of candidates on these packings as a problem for an optimiser.
-/// `simulations`: whatever answers like an `Objective`. `goal`: a feasible error at or below it is good enough; 0: none
+/// `simulations`: an `Objective`. `goal`: a feasible error at or below it is good enough; 0: none
 /// is. Requirements: packings are given; `simulations` and `packings` outlive the problem. Refuses when a stop is
 /// requested, and what the budget does not allow.
-template <class Simulations>
-Problem simulated_problem(Simulations& simulations, std::span<const std::uint64_t> packings, double goal = 0) {
+inline Problem simulated_problem(Objective& simulations, std::span<const std::uint64_t> packings, double goal = 0) {
   if (packings.empty()) throw std::logic_error("simulated_problem: needs packings");
   Problem problem;
   problem.parameters = simulations.parameters();
