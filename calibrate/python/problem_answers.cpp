@@ -2,91 +2,63 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/statistics.h"
-#include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit::python {
 
 using nlohmann::json;
 
+namespace {
+
+std::string key_of(const Candidate& candidate) {
+  return content_hash(json{
+      {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
+      {"seed",
+       candidate.packing}}.dump());
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, const std::string& file,
                                                       const std::string& engine) {
   json inputs = json::parse(problem.content);
   inputs.erase("title");
   if (inputs.contains("search")) inputs["search"].erase("budget_simulations");
-  const std::string first_line = json{{"engine", engine}, {"problem", inputs}}.dump();
-  std::unique_ptr<ProblemAnswers> answers(new ProblemAnswers(std::move(problem), file));
-  if (auto faults = answers->read(first_line); !faults.empty()) return faults;
-  return std::unique_ptr<Answers>(std::move(answers));
+  auto store = Store::open(file, {engine, json{{"problem", inputs}}.dump()});
+  if (!store.ok()) return store.faults();
+  if (store.value().size() > 0 && !store.value().changes().empty())
+    return Fault{file, "holds the answers of another problem", "another file; nothing of it was changed"};
+  return std::unique_ptr<Answers>(new ProblemAnswers(std::move(problem), std::move(store).value()));
 }
 
-ProblemAnswers::ProblemAnswers(CustomProblem problem, std::string file)
-    : problem_(std::move(problem)), file_(std::move(file)), scoring_(problem_.readings, problem_.parameters) {}
+ProblemAnswers::ProblemAnswers(CustomProblem problem, Store store)
+    : problem_(std::move(problem)), store_(std::move(store)), scoring_(problem_.readings, problem_.parameters) {}
 
-Faults ProblemAnswers::read(const std::string& first_line) {
-  if (!std::filesystem::exists(file_)) return append(first_line);
-  std::ifstream in(file_);
-  std::string line;
-  if (!std::getline(in, line) || line != first_line)
-    return {{file_, "holds the answers of another problem or engine", "another file; nothing of it was changed"}};
-  bool cut = in.eof();  // the last line of a run that was killed
-  while (std::getline(in, line)) {
-    cut = in.eof();
-    try {
-      const json kept = json::parse(line);
-      if (is_answer(kept)) take(kept);  // what is damaged is asked again
-    } catch (const json::exception&) {
-    }
-  }
-  return cut ? append("") : Faults{};
+/// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
+bool ProblemAnswers::is_answer(const StoredEvaluation& kept) const {
+  const auto is_there = [&](const StudyReading& reading) {
+    return std::isfinite(kept.observables.find(reading.name).value_or(std::nan("")));
+  };
+  return kept.point.size() == problem_.parameters.size() &&
+         (kept.failure || std::ranges::all_of(problem_.readings, is_there));
 }
 
-Faults ProblemAnswers::append(const std::string& line) const {
-  std::ofstream out(file_, std::ios::app);
-  out << line << std::endl;
-  if (out) return {};
-  return {{file_, "cannot be written", "a file in a folder that can be written, on a disk with space"}};
-}
-
-namespace {
-
-/// Of a line of the file, without the key itself.
-std::string hash_of_line(json line) {
-  line.erase("hash");
-  return content_hash(line.dump());
-}
-
-bool are_numbers(const json& list, std::size_t count) {
-  return list.is_array() && list.size() == count &&
-         std::ranges::all_of(list, [](const json& one) { return one.is_number() && std::isfinite(one.get<double>()); });
-}
-
-}  // namespace
-
-/// Whether a line of the file is what `keep` wrote for this problem.
-bool ProblemAnswers::is_answer(const json& kept) const {
-  if (!kept.is_object() || kept.value("hash", "") != hash_of_line(kept)) return false;
-  const bool failed = kept.contains("failure") && !kept.at("failure").is_null();
-  return kept.contains("point") && are_numbers(kept.at("point"), problem_.parameters.size()) && kept.contains("seed") &&
-         (failed || (kept.contains("readings") && are_numbers(kept.at("readings"), problem_.readings.size())));
-}
-
-void ProblemAnswers::take(const json& kept) {
-  const auto point = kept.at("point").get<std::vector<double>>();
+Evaluation ProblemAnswers::evaluation_of(const StoredEvaluation& kept) const {
   Evaluation evaluation;
-  evaluation.point = Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
-  evaluation.packing = kept.at("seed").get<std::uint64_t>();
-  evaluation.failure = failure_from_json(kept.at("failure"));
-  if (!evaluation.failure) evaluation.observables = kept.at("readings").get<std::vector<double>>();
-  const Key key{point, evaluation.packing};
-  if (known_.emplace(key, std::move(evaluation)).second) order_.push_back(key);
+  evaluation.point = Eigen::Map<const Eigen::VectorXd>(kept.point.data(), static_cast<Eigen::Index>(kept.point.size()));
+  evaluation.packing = kept.packing;
+  evaluation.failure = kept.failure;
+  if (!kept.failure)
+    for (const StudyReading& reading : problem_.readings)
+      evaluation.observables.push_back(kept.observables.find(reading.name).value());
+  return evaluation;
 }
 
 std::vector<std::string> ProblemAnswers::readings() const {
@@ -96,28 +68,29 @@ std::vector<std::string> ProblemAnswers::readings() const {
 }
 
 std::optional<Evaluation> ProblemAnswers::find(const Candidate& candidate) const {
-  const auto found = known_.find({{candidate.point.begin(), candidate.point.end()}, candidate.packing});
-  return found == known_.end() ? std::nullopt : std::optional(found->second);
+  const auto kept = store_.find(key_of(candidate));
+  return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
 }
 
 Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const EngineAnswer& answer) {
+  StoredEvaluation kept;
+  kept.key = key_of(candidate);
+  kept.point.assign(candidate.point.begin(), candidate.point.end());
+  kept.values = default_values();
+  kept.packing = candidate.packing;
   const auto names = readings();
-  json line{{"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
-            {"seed", candidate.packing},
-            {"failure", to_json(failure_of(answer, names))}};
-  if (line["failure"].is_null())
-    for (const std::string& name : names) line["readings"].push_back(answer.readings.find(name).value());
-  line["hash"] = hash_of_line(line);
-  if (auto faults = append(line.dump()); !faults.empty()) return faults;
-  take(line);
-  return find(candidate).value();
+  kept.failure = failure_of(answer, names);
+  if (!kept.failure)
+    for (const std::string& name : names) kept.observables.set(name, answer.readings.find(name).value());
+  if (auto faults = store_.add(kept); !faults.empty()) return faults;
+  return evaluation_of(kept);
 }
 
 TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
   TrainingData data;
   data.parameters = problem_.parameters;
   std::vector<const Evaluation*> good;
-  std::set<Key> seen;
+  std::set<std::pair<std::vector<double>, std::uint64_t>> seen;
   for (const Response& response : history)
     for (const Evaluation& one : response.evaluations) {
       const bool cut_off = one.failure && one.failure->reason == FailureReason::stopped;
@@ -143,12 +116,12 @@ TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
 
 nlohmann::ordered_json ProblemAnswers::evaluations() const {
   auto out = nlohmann::ordered_json::array();
-  for (const Key& key : order_) {
-    const Evaluation& one = known_.at(key);
+  for (const StoredEvaluation& one : store_.all()) {
+    if (!is_answer(one)) continue;
     nlohmann::ordered_json parameters, readings = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
-      parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], key.first[i]);
-    for (std::size_t k = 0; k < one.observables.size(); ++k) readings[problem_.readings[k].name] = one.observables[k];
+      parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
+    for (const auto& [name, value] : one.observables.all()) readings[name] = value;
     out.push_back({{"number", out.size()},
                    {"packing", one.packing},
                    {"parameters", std::move(parameters)},

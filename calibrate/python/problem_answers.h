@@ -1,24 +1,22 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calibrate/python/answers.h"
 #include "calibrate/python/custom_problem.h"
 #include "calibrate/search/reading_scoring.h"
+#include "calibrate/store/store.h"
 
 namespace pastefit::python {
 
-/// The answers to a problem, in a file of a JSON object for each line: first the problem and the engine, then answers.
+/// The answers to a problem, in a store.
 class ProblemAnswers : public Answers {
  public:
-  /// Errors: the file cannot be read or written, or is of another problem or engine.
+  /// Errors: those of `Store::open`; the file holds answers to another problem.
   static Result<std::unique_ptr<Answers>> open(CustomProblem problem, const std::string& file,
                                                const std::string& engine);
 
@@ -42,19 +40,14 @@ class ProblemAnswers : public Answers {
    protected:
     double largest_error(const StudyReading& reading) const override;
   };
-  using Key = std::pair<std::vector<double>, std::uint64_t>;  // point and packing
 
-  ProblemAnswers(CustomProblem problem, std::string file);
-  Faults read(const std::string& first_line);
-  Faults append(const std::string& line) const;
-  bool is_answer(const nlohmann::json& kept) const;
-  void take(const nlohmann::json& kept);
+  ProblemAnswers(CustomProblem problem, Store store);
+  bool is_answer(const StoredEvaluation& kept) const;
+  Evaluation evaluation_of(const StoredEvaluation& kept) const;
 
   const CustomProblem problem_;
-  const std::string file_;
+  Store store_;
   const ProblemScoring scoring_;
-  std::map<Key, Evaluation> known_;
-  std::vector<Key> order_;
 };
 
 }  // namespace pastefit::python

@@ -154,13 +154,11 @@ void demand_columns(const Row& row, std::size_t count) {
                              " belong");
 }
 
-/// Throws std::invalid_argument for what no simulation can have stored. Readings are in mm, Pa, kg or shares, none of
-/// which comes near the bound; beyond it squares of them would not be finite.
+/// Throws std::invalid_argument for what no simulation can have stored.
 void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
-  constexpr double largest_reading = 1e15;
   const auto outside = [](double value, double bound) { return !std::isnan(value) && std::abs(value) > bound; };
   for (const Observable& one : evaluation.observables.all())
-    if (outside(one.value, largest_reading)) throw std::invalid_argument(one.name + " is no reading");
+    if (outside(one.value, kLargestReading)) throw std::invalid_argument(one.name + " is no reading");
   for (const double coordinate : evaluation.point)
     if (!(coordinate >= 0 && coordinate <= 1)) throw std::invalid_argument("the point is outside of the bounds");
   for (const double value : evaluation.values)

@@ -20,6 +20,10 @@ struct StoreIdentity {
   std::string inputs;   ///< all that decides the way of the search, as JSON text (`inputs_of` a study)
 };
 
+/// Readings are in mm, Pa, kg or shares, none of which comes near it; beyond it squares of them would not be finite,
+/// and nothing of the kind is kept.
+inline constexpr double kLargestReading = 1e15;
+
 /// One finished simulation, as it is kept.
 struct StoredEvaluation {
   std::string key;                 ///< from `evaluation_key`

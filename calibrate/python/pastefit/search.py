@@ -34,8 +34,10 @@ class Search:
             search.ingest([{**one, **simulate_with_liggghts(one)} for one in candidates])
         result = search.result()
 
-    The form is that of generators in gest-api (libEnsemble, Xopt): lists of dicts of variables, and of variables with
-    observables. What it suggests depends on the answers only, not on their order or the number of workers.
+    Verbs and data are those of gest-api (libEnsemble, Xopt): lists of dicts of variables, and of variables with
+    observables. It is not one of its generators: `suggest(n)` gives fewer than n while the search waits for answers, and
+    the constructor takes a study. What it suggests depends on the answers only, not on their order or the number of
+    workers.
 
     study: whose laboratory readings are to be met, or its path; or a `Problem`, whose parameters and readings pastefit need
     not know. store: file in which every answer is kept before it is used; a search of the same study and engine with the

@@ -1,10 +1,12 @@
 """The search with anybody's simulator. usage: test_search.py PROGRAM SOURCE_DIR [unittest options]"""
 
 import concurrent.futures as futures
+import contextlib
 import json
 import math
 import pathlib
 import os
+import sqlite3
 
 import numpy as np
 from studies import Desk, coarse_study, height, main
@@ -53,6 +55,29 @@ def repose(**changes):
                        "examination_simulations": 4}, **changes}
 
 
+def rows_of(store):
+    with contextlib.closing(sqlite3.connect(store)) as database:
+        return database.execute("SELECT * FROM evaluations").fetchall()
+
+
+def fnv1a(text):
+    value = 0xcbf29ce484222325
+    for byte in text.encode():
+        value = (value ^ byte) * 0x100000001b3 % 2**64
+    return f"{value:016x}"
+
+
+def forge(store, column, value, signed):
+    """Changes the first answer; `signed`: with the checksum that belongs to what it says then."""
+    with contextlib.closing(sqlite3.connect(store)) as database:
+        database.execute(f"UPDATE evaluations SET {column} = ? WHERE sequence = 1", (value,))
+        if signed:
+            *row, _ = database.execute("SELECT * FROM evaluations WHERE sequence = 1").fetchone()
+            content = "".join(f"{len(str(one).encode())}:{one}" for one in row)
+            database.execute("UPDATE evaluations SET checksum = ? WHERE sequence = 1", (fnv1a(content),))
+        database.commit()
+
+
 def drum(candidate):
     noise = (candidate["seed"] * 7919 % 11 - 5) / 20
     return {"angle_deg": 18 + 25 * candidate["sliding"] + noise,
@@ -89,18 +114,19 @@ class Problem(Desk):
         fault, = self.faults(pf.Problem, repose(measurements={"error": {"value": 1, "standard_deviation": 1}}, tolerances={}))
         self.assertIn("measurements.error", fault.where)
 
-    def test_lines_of_a_store_that_are_damaged_are_asked_again_and_never_believed(self):
+    def test_answers_that_are_damaged_or_forged_are_asked_again_and_never_believed(self):
         problem, file = pf.Problem(repose()), self.folder / "answers"
         whole = pf.Search(problem, store=file, engine="drum").run(drum)
-        lines = file.read_text().splitlines(keepends=True)
-        first = json.loads(lines[1])
-        for damage in ({**first, "point": []}, {**first, "point": [0.5] * 500}, {**first, "readings": [1]},
-                       {**first, "readings": first["readings"] * 1000}, {**first, "seed": -1}, {**first, "hash": "0" * 16},
-                       {**first, "readings": [value + 1 for value in first["readings"]]}, [], 7, {}):
-            file.write_text("".join([lines[0], json.dumps(damage) + "\n", *lines[2:]]))
-            calls = []
-            again = pf.Search(problem, store=file, engine="drum").run(lambda candidate: calls.append(1) or drum(candidate))
-            self.assertEqual((again.status, again.parameters, len(calls)), (whole.status, whole.parameters, 1))
+        untouched = file.read_bytes()
+        forged = (("point", "[]"), ("point", json.dumps([0.5] * 500)), ("observables", "{}"), ("packing", "-1"),
+                  ("observables", '{"angle_deg": 1e300, "flow_time_s": 1}'), ("checksum", "0" * 16), ("observables", "7"))
+        for column, value in forged:
+            for signed in (False, True):
+                file.write_bytes(untouched)
+                forge(file, column, value, signed and column != "checksum")
+                calls = []
+                again = pf.Search(problem, store=file, engine="drum").run(lambda one: calls.append(1) or drum(one))
+                self.assertEqual((again.status, again.parameters, len(calls)), (whole.status, whole.parameters, 1), column)
 
     def test_a_broken_simulator_is_asked_three_times_and_leaves_nothing_behind(self):
         calls, file = [], self.folder / "answers"
@@ -113,7 +139,7 @@ class Problem(Desk):
         with self.assertRaisesRegex(RuntimeError, "(?s)3 times in the same way.*undefined_name"):
             search.run(broken)
         self.assertEqual(len(calls), 3)
-        self.assertEqual(len(file.read_text().splitlines()), 1)
+        self.assertEqual(len(rows_of(file)), 0)
         self.assertEqual(search.run(drum).status, "confirmed")
 
     def test_what_is_no_number_is_a_failed_simulation_with_its_message(self):
@@ -149,7 +175,7 @@ class Problem(Desk):
         self.assertLess(abs(jumps(found.parameters)["height"] - 120), 7)
 
     def test_a_problem_goes_on_where_its_file_ends(self):
-        store, asked = self.folder / "answers.jsonl", []
+        store, asked = self.folder / "answers.sqlite", []
 
         def cut(candidate):
             if len(asked) == 9:
@@ -159,8 +185,6 @@ class Problem(Desk):
 
         with self.assertRaises(KeyboardInterrupt):
             pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(cut)
-        with open(store, "a") as file:
-            file.write('{"point": [0.')  # a run that was killed
         resumed = pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(drum)
         whole = pf.Search(pf.Problem(repose())).run(drum)
         self.assertEqual(resumed.known, 9)
@@ -168,7 +192,10 @@ class Problem(Desk):
         self.assertEqual(list(resumed.intervals["upper"]), list(whole.intervals["upper"]))
         self.assertEqual(pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(drum).simulated, 0)
         fault, = self.faults(pf.Search, pf.Problem(repose()), store=store, engine="drum 2")
-        self.assertIn("another problem or engine", fault.what)
+        self.assertIn("drum 2", fault.what)
+        other = pf.Problem(repose(measurements={"angle": {"value": 41, "standard_deviation": 1}}))
+        fault, = self.faults(pf.Search, other, store=store, engine="drum 1")
+        self.assertIn("another problem", fault.what)
 
 
 class Search(Desk):
