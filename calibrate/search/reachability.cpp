@@ -165,10 +165,6 @@ UnitPoint hopeful_of(const Nearing& approach, const GaussianProcess& model, cons
   return nearest_by(model, allowance, approach.least(), approach.middle());
 }
 
-double whole_tolerance(const EvaluationHistory& history, std::size_t reading) {
-  return history.tolerance(reading) * std::sqrt(history.readings());
-}
-
 std::string name_at(std::span<const std::string> names, std::size_t index, const char* kind) {
   return index < names.size() ? names[index] : kind + std::to_string(index + 1);
 }
@@ -188,7 +184,7 @@ bool ReachPhase::probe(std::size_t reading) {
   if (history_.stop_requested()) return true;
   if (known_ && history_.singles().size() == *known_) return true;  // it was known, and taught nothing
   known_.reset();
-  const Nearing approach(history_.singles(), reading, whole_tolerance(history_, reading));
+  const Nearing approach(history_.singles(), reading, history_.tolerance(reading));
   if (!approach.suspect() && !approach.tells_nothing()) return true;
   // How far they would have gone is what matters here.
   if (const auto ended = censored(history_.singles(), options_.packing); !ended.empty()) {
@@ -212,7 +208,7 @@ bool ReachPhase::probe(std::size_t reading) {
 std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what) {
   const std::vector<Response> evidence = history.training_data();
   for (std::size_t k = 0; history.any_feasible() && k < static_cast<std::size_t>(history.readings()); ++k) {
-    const Nearing approach(evidence, k, whole_tolerance(history, k));
+    const Nearing approach(evidence, k, history.tolerance(k));
     if (!approach.suspect()) continue;
     const GaussianProcess model = approach.model();
     const double noise = what == ReachOf::simulations ? model.noise_variance() : 0;
