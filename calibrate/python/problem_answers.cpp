@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-std::string key_of(const Candidate& candidate) {
+std::string key_of_candidate(const Candidate& candidate) {
   return content_hash(json{
       {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
       {"seed",
@@ -68,13 +68,13 @@ std::vector<std::string> ProblemAnswers::readings() const {
 }
 
 std::optional<Evaluation> ProblemAnswers::find(const Candidate& candidate) const {
-  const auto kept = store_.find(key_of(candidate));
+  const auto kept = store_.find(key_of_candidate(candidate));
   return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
 }
 
 Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const EngineAnswer& answer) {
   StoredEvaluation kept;
-  kept.key = key_of(candidate);
+  kept.key = key_of_candidate(candidate);
   kept.point.assign(candidate.point.begin(), candidate.point.end());
   kept.values = default_values();
   kept.packing = candidate.packing;

@@ -10,7 +10,7 @@ namespace pastefit {
 /// smooth model of it says that what lies within the jump is out of reach. If no simulation has a reading beyond the
 /// laboratory's, both ends of the range are simulated. Neighbours on either side of the laboratory that differ by many
 /// tolerances are then halved until one of them meets it. Of several parameters nothing is asked.
-class BracketPhase : public Phase {
+class BracketPhase : public SearchPhase {
  public:
   explicit BracketPhase(StrategyState& state) : state_(state) {}
   bool advance() override;

@@ -45,8 +45,8 @@ double probe_length(const StrategyState& state) {
   return noise_step(deviation, 4 * (most - least).maxCoeff());
 }
 
-std::unique_ptr<Phase> descent(StrategyState& state, TrustRegion trust_region, const UnitPoint& start,
-                               int evaluations) {
+std::unique_ptr<SearchPhase> descent(StrategyState& state, TrustRegion trust_region, const UnitPoint& start,
+                                     int evaluations) {
   CeresOptions ceres;
   ceres.trust_region = trust_region;
   ceres.evaluations = evaluations;
@@ -57,7 +57,7 @@ std::unique_ptr<Phase> descent(StrategyState& state, TrustRegion trust_region, c
       state, state.optimisers_goal(), [=](const Problem& problem) { (void)minimise(problem, start, ceres); });
 }
 
-std::unique_ptr<Phase> minimisation_of_misfit(StrategyState& state) {
+std::unique_ptr<SearchPhase> minimisation_of_misfit(StrategyState& state) {
   NloptOptions nlopt;
   nlopt.algorithm = state.options.strategy;
   nlopt.evaluations = share_of_budget(state);
@@ -106,7 +106,7 @@ bool ProposalPhase::propose() {
   return true;
 }
 
-std::unique_ptr<Phase> candidate_phase(StrategyState& state, bool with_coarse) {
+std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coarse) {
   state.history.enter("search");
   switch (find_strategy(state.options.strategy)->kind) {
     case StrategyKind::surrogate:
@@ -121,7 +121,7 @@ std::unique_ptr<Phase> candidate_phase(StrategyState& state, bool with_coarse) {
 }
 
 /// Where only heaps that shear off speak against a candidate a descent on the readings is no help.
-std::unique_ptr<Phase> refinement_phase(StrategyState& state) {
+std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state) {
   if (!state.may_go_on() || noise_of(state) > state.history.allowed_misfit()) return nullptr;
   const CandidateRanking known = state.ranking();
   if (StrategyState::readings_will_do(known)) return nullptr;

@@ -12,7 +12,7 @@ namespace pastefit {
 /// Brings candidates by the surrogate: proposes, and takes the answers in the order of the proposals, until a candidate
 /// is likely to do. Proposal k knows the answers up to k - 1 - max_pending, of the others only that they were asked:
 /// what is ready first does not matter.
-class ProposalPhase : public Phase {
+class ProposalPhase : public SearchPhase {
  public:
   ProposalPhase(StrategyState& state, bool with_coarse)
       : state_(state), proposals_(state.history, with_coarse, state.options) {}
@@ -30,10 +30,10 @@ class ProposalPhase : public Phase {
 
 /// What brings candidates for the strategy of the options: the surrogate, or an optimiser with half of what is left of
 /// the budget.
-std::unique_ptr<Phase> candidate_phase(StrategyState& state, bool with_coarse);
+std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coarse);
 
 /// Descends from the best candidate where the surrogate sees no better one and none that will do, unless what is left
 /// is luck. None where there is nothing to descend for.
-std::unique_ptr<Phase> refinement_phase(StrategyState& state);
+std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state);
 
 }  // namespace pastefit

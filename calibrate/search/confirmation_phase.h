@@ -12,7 +12,7 @@ namespace pastefit {
 
 /// The last phase: judges the likely best candidate on packings that the search has not used, and keeps the one to be
 /// reported.
-class ConfirmationPhase : public Phase {
+class ConfirmationPhase : public SearchPhase {
  public:
   explicit ConfirmationPhase(StrategyState& state) : state_(state) {}
 

@@ -45,7 +45,7 @@ struct ReachOptions {
 /// Simulations that ended early are run whole before anything is judged by them, or if all have ended so:
 /// how far they would have gone is the question. Limit: a narrow region of the cube that answers unlike all the rest
 /// can be overlooked; `contradicts` says when one is found after all.
-class ReachPhase : public Phase {
+class ReachPhase : public SearchPhase {
  public:
   ReachPhase(EvaluationHistory& history, const ReachOptions& options) : history_(history), options_(options) {}
   bool advance() override;

@@ -6,7 +6,7 @@ namespace pastefit {
 
 /// The first phase: space-filling points, tried out on one packing, all at once. If everything fails, further points of
 /// the same sequence look elsewhere, while half of the budget lasts.
-class ScreeningPhase : public Phase {
+class ScreeningPhase : public SearchPhase {
  public:
   explicit ScreeningPhase(StrategyState& state) : state_(state) {}
   bool advance() override;
@@ -18,7 +18,7 @@ class ScreeningPhase : public Phase {
 };
 
 /// The same with coarse grains, whose answers are not looked at.
-class CoarseScreeningPhase : public Phase {
+class CoarseScreeningPhase : public SearchPhase {
  public:
   explicit CoarseScreeningPhase(StrategyState& state) : state_(state) {}
   bool advance() override;

@@ -16,7 +16,7 @@ namespace pastefit {
 /// asks for what is not known it is ended, and run again from its start once that is answered, with the answers of
 /// before. So it has to ask the same questions for the same answers, as those of `calibrate/optimisers` do; what an
 /// optimiser computes itself is nothing beside a simulation.
-class SimulatedMinimisation : public Phase {
+class SimulatedMinimisation : public SearchPhase {
  public:
   /// `minimise`: runs the optimiser on the problem that it is given. A candidate whose error is at or below `goal` is
   /// good enough; 0: none is.

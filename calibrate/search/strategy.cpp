@@ -29,7 +29,7 @@ void Strategy::advance() {
   }
 }
 
-void Strategy::begin(Stage stage, std::unique_ptr<Phase> phase) {
+void Strategy::begin(Stage stage, std::unique_ptr<SearchPhase> phase) {
   stage_ = stage;
   phase_ = std::move(phase);
   advanced_ = phase_.get();

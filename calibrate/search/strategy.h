@@ -68,7 +68,7 @@ class Strategy {
     over
   };
 
-  void begin(Stage stage, std::unique_ptr<Phase> phase);
+  void begin(Stage stage, std::unique_ptr<SearchPhase> phase);
   void begin_confirmation(Stage stage, bool whatever_it_does, const UnitPoint& asked = {});
   void begin_bracket();
   void begin_reach();
@@ -89,8 +89,8 @@ class Strategy {
   const bool with_coarse_;
   StrategyState state_;
   ConfirmationPhase confirmation_;
-  std::unique_ptr<Phase> phase_;  // of the stage, but for confirmations
-  Phase* advanced_ = nullptr;     // either of them; none: nothing is to be done
+  std::unique_ptr<SearchPhase> phase_;  // of the stage, but for confirmations
+  SearchPhase* advanced_ = nullptr;     // either of them; none: nothing is to be done
   std::span<const std::string> readings_, parameters_;
   std::optional<OutOfReach> out_of_reach_;
   bool searched_ = false;  // a search was begun

@@ -17,9 +17,9 @@ inline constexpr std::uint64_t first_examination_packing = 900;
 
 /// A phase of a search. It never waits: `advance` goes on as far as the answers reach, asks the history for what it
 /// needs next and returns false; it is called again once the answers are taken. It returns true when the phase is over.
-class Phase {
+class SearchPhase {
  public:
-  virtual ~Phase() = default;
+  virtual ~SearchPhase() = default;
   virtual bool advance() = 0;
 };
 

@@ -25,7 +25,7 @@ class Answered {
   }
 
   /// A phase from its beginning to its end.
-  void run(Phase& phase, EvaluationHistory& history) {
+  void run(SearchPhase& phase, EvaluationHistory& history) {
     while (!phase.advance()) answers_of(history);
   }
 
