@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <stdexcept>
 
 #include "core/laws/constants.h"
 
 namespace pastefit {
 
-namespace {
-
-double bridge_n(const Bridge& bridge, double radius, double overlap) {
+double closed_bridge_n(const Bridge& bridge, double radius, double overlap) {
   const double c = attraction_at_touch(bridge, radius), reach = rupture_gap(bridge, radius);
   switch (bridge.shape) {
     case BridgeShape::none:
@@ -25,12 +23,9 @@ double bridge_n(const Bridge& bridge, double radius, double overlap) {
       const double gap = -overlap * std::sqrt(radius / bridge.liquid_volume_m3);
       return c / (1 + 1.05 * gap + 2.5 * gap * gap);
     }
-    default:  // without a form of its own here
-      return bridge_force(bridge, radius, overlap);
   }
+  throw std::logic_error("force_curve: a shape of bridge without a closed form");
 }
-
-}  // namespace
 
 double cohesion_n(const ContactModel& contact, const GrainPair& pair) {
   const double s = pair.size_scale();
@@ -50,7 +45,7 @@ double attraction_n(const ContactModel& contact, const GrainPair& pair, double o
     return cohesion_n(contact, pair) + left * touch_excess_n(contact, pair);
   }
   if (-overlap > s * rupture_gap(contact.bridge, radius)) return 0;
-  return s * s * bridge_n(contact.bridge, radius, overlap / s);
+  return s * s * closed_bridge_n(contact.bridge, radius, overlap / s);
 }
 
 double repulsion_n(const ContactModel& contact, const GrainPair& pair, double overlap) {

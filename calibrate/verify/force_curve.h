@@ -16,6 +16,12 @@ struct GrainPair {
   double size_scale() const { return 2 * effective_radius_m() / reference_radius_m; }
 };
 
+/// Attraction of a bridge between two reference grains at overlap -rupture gap <= d <= 0 [N], in closed form:
+/// polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary as Willett et al. 2000.
+/// The formulas stand here apart from the engine's, so that `check` and `verify` hold the engine against them; a shape
+/// without one is a mistake in the program, std::logic_error.
+double closed_bridge_n(const Bridge& bridge, double reference_radius_m, double overlap_m);
+
 /// Constant attraction of two grains that overlap [N].
 double cohesion_n(const ContactModel& contact, const GrainPair& pair);
 
@@ -24,9 +30,7 @@ double touch_excess_n(const ContactModel& contact, const GrainPair& pair);
 
 /// Attraction of two grains at overlap `d` [N], positive when they pull: the living bridge for -rupture_gap <= d <= 0,
 /// zero beyond; for d > 0 the cohesion, to which the bridge's force at touch passes over along a straight line as far
-/// as d = kPassage R_ref s. Polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary
-/// as Willett et al. 2000. The formulas stand here a second time, apart from the engine's, so that `check` can hold the
-/// engine against them.
+/// as d = kPassage R_ref s.
 double attraction_n(const ContactModel& contact, const GrainPair& pair, double overlap_m);
 
 /// Elastic repulsion 4/3 E* sqrt(R*) d^(3/2) [N], zero without overlap.

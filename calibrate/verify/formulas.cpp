@@ -107,28 +107,10 @@ Result<double> cohesive_overlap(const Impact& scene, const Arguments&) {
 
 /// Force of a bridge at a gap, straight from its definition.
 double attraction(const Impact& scene, double gap) {
-  const Bridge& b = scene.contact.bridge;
+  const Bridge& bridge = scene.contact.bridge;
   const double s = size_scale(scene), share = scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
-  const double rupture = rupture_gap(b, scene.reference_radius_m);
-  const double d = gap / s;
-  if (d > rupture) return 0;
-  const double at_touch = share * attraction_at_touch(b, scene.reference_radius_m) * s * s;
-  switch (b.shape) {
-    case BridgeShape::none:
-      return 0;
-    case BridgeShape::polynomial:
-      return share * s * s * ((b.a_n_m2 * -d + b.b_n_m) * -d + b.c_n);
-    case BridgeShape::linear:
-      return at_touch * (1 - d / rupture);
-    case BridgeShape::exponential:
-      return at_touch * std::exp(-3 * d / rupture);
-    case BridgeShape::capillary: {
-      const double spread = d * std::sqrt(scene.reference_radius_m / b.liquid_volume_m3);
-      return at_touch / (1 + 1.05 * spread + 2.5 * spread * spread);
-    }
-    default:  // without a form of its own here
-      return share * s * s * bridge_force(b, scene.reference_radius_m, -d);
-  }
+  if (gap / s > rupture_gap(bridge, scene.reference_radius_m)) return 0;
+  return share * s * s * closed_bridge_n(bridge, scene.reference_radius_m, -gap / s);
 }
 
 /// Work of the attraction between two gaps by Simpson's rule; exact for the polynomial.
