@@ -1,6 +1,5 @@
 #include "calibrate/study/slump_lab_template.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -10,46 +9,13 @@
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
+#include "calibrate/base/template_lines.h"
 #include "calibrate/base/units.h"
 #include "calibrate/base/wrapped_text.h"
 #include "calibrate/study/apparatus.h"
 
 namespace pastefit {
 namespace {
-
-/// A file's lines, of which those that begin with a key can be replaced.
-class TemplateLines {
- public:
-  explicit TemplateLines(const std::string& text) {
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) lines_.push_back(line);
-  }
-
-  /// Replaces the `count` lines from the one that begins so, blanks aside. Their blanks are kept; none of `instead`:
-  /// the lines go.
-  void replace(std::string_view beginning, const std::vector<std::string>& instead, std::size_t count = 1) {
-    const auto found = std::ranges::find_if(lines_, [&](const std::string& line) {
-      const auto first = std::min(line.find_first_not_of(' '), line.size());
-      return std::string_view(line).substr(first).starts_with(beginning);
-    });
-    if (found == lines_.end()) return;
-    const std::string blanks(found->find_first_not_of(' '), ' ');
-    const auto last = found + static_cast<std::ptrdiff_t>(std::min<std::size_t>(count, lines_.end() - found));
-    const auto at = lines_.erase(found, last);
-    std::vector<std::string> indented;
-    for (const std::string& line : instead) indented.push_back(blanks + line);
-    lines_.insert(at, indented.begin(), indented.end());
-  }
-
-  std::string text() const {
-    std::string out;
-    for (const std::string& line : lines_) out += line + "\n";
-    return out;
-  }
-
- private:
-  std::vector<std::string> lines_;
-};
 
 std::string number_text(double value) {
   return format("%.6g", value);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/template_lines.h"
 
 namespace pastefit {
 namespace {
@@ -92,14 +92,14 @@ std::string listed(const List& list, std::string_view List::value_type::*name) {
 }
 
 /// The lines of a study's "parameters", each with its meaning.
-std::string parameter_lines(const StartingLaws& laws) {
+std::vector<std::string> parameter_lines(const StartingLaws& laws) {
   std::vector<const StartingParameter*> written;
   for (const StartingParameter& one : laws.parameters)
     if (!one.of_two.empty()) written.push_back(&one);
-  std::string out;
+  std::vector<std::string> out;
   for (const StartingParameter* one : written)
-    out += "    \"" + std::string(one->name) + "\": " + std::string(one->of_two) + (one == written.back() ? "" : ",") +
-           "  // " + std::string(one->meaning) + "\n";
+    out.push_back("\"" + std::string(one->name) + "\": " + std::string(one->of_two) +
+                  (one == written.back() ? "" : ",") + "  // " + std::string(one->meaning));
   return out;
 }
 
@@ -145,19 +145,10 @@ std::string names_of_laws() {
 }
 
 std::string with_laws(const std::string& study, const TargetLaws& laws) {
-  std::istringstream lines(study);
-  std::string out;
-  bool among_parameters = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("  \"contact\""))
-      line = "  // " + std::string(laws.why) + ".\n  \"contact\": " + contact_of(laws).dump() + ",";
-    if (line.starts_with("  }")) among_parameters = false;
-    if (!among_parameters) out += line + "\n";
-    if (!line.starts_with("  \"parameters\"")) continue;
-    among_parameters = true;
-    out += parameter_lines(laws.laws());
-  }
-  return out;
+  TemplateLines lines(study);
+  lines.replace("\"contact\":", {"// " + std::string(laws.why) + ".", "\"contact\": " + contact_of(laws).dump() + ","});
+  lines.replace_inside("\"parameters\":", parameter_lines(laws.laws()));
+  return lines.text();
 }
 
 nlohmann::ordered_json contact_of(const TargetLaws& laws) {

@@ -54,7 +54,8 @@ Fault no_such_laws(std::string_view target, std::string_view law);
 std::string names_of_targets();
 std::string names_of_laws();
 
-/// The commented starting file of a study of slump tests, with these laws in place of its own.
+/// The commented starting file of a study of slump tests, with these laws in place of its own. Throws std::logic_error
+/// if the file has no "contact" or "parameters" to put them in.
 std::string with_laws(const std::string& study, const TargetLaws& laws);
 
 /// "contact" and "parameters" of a study; `both`: a height and a spread are fitted.
