@@ -167,6 +167,15 @@ def missing_includes(texts):
     return sorted(missing)
 
 
+# A name that was given to a thing by exchanging a word everywhere; in a sentence it stands in backquotes or as a member.
+EXCHANGED = re.compile(r"(?<![`.\w(])(?:predictive_variance|normalised_error|misfit_posterior|replicate_variance|training_data)\b(?![`.(,])"
+                       r"|\b(?:they|it|packings) variance\b")
+
+
+def exchanged_words(text):
+    return [word for comment in re.findall(r"//[^\n]*", text) for word in EXCHANGED.findall(comment)]
+
+
 def graph_of(pairs):
     graph = collections.defaultdict(set)
     for one, other in pairs:
@@ -204,6 +213,15 @@ class Includes(unittest.TestCase):
         files = [file for part in ("source", "style") for file in sorted((page / part).iterdir())]
         self.assertTrue(files)
         self.assertEqual([file.name for file in files if words.search(file.read_text())], [])
+
+    def test_exchanged_words_are_seen(self):
+        self.assertEqual(exchanged_words("// worth of predictive_variance\n/// `predictive_variance` is one\n// where they variance\n"),
+                         ["predictive_variance", "they variance"])
+
+    # Names were once exchanged by search and replace, in the sentences of comments too.
+    def test_comments_hold_no_name_in_the_place_of_a_word(self):
+        found = {str(file.relative_to(SOURCE)): words for file in FILES if (words := exchanged_words(file.read_text()))}
+        self.assertEqual(found, {})
 
     def test_core_includes_nothing_of_calibrate(self):
         places = [place for (one, other), found in arrows().items() if one.startswith("core")

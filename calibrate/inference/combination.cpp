@@ -13,12 +13,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double difference_step = 0.05;  // of the response model, which is smooth
-constexpr double visible = 0.3;           // part of a reading in a combination worth a word
+constexpr double difference_step = 0.05;  // of coordinates, for the slopes of the response model, which is smooth
+constexpr double visible = 0.3;           // least part of a reading in a combination to be named
 constexpr double two_sided = 1.959964;    // standard deviations of 95 %
 
-/// Change of each fitted reading with each coordinate. Shape: fitted readings x
-/// parameters.
+/// Slope of each fitted reading in each coordinate. Shape: fitted readings x parameters.
 Eigen::MatrixXd jacobian_of(const ResponseModel& model, const std::vector<std::size_t>& fitted, const UnitPoint& at) {
   Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(fitted.size()), at.size());
   for (Eigen::Index j = 0; j < at.size(); ++j) {
@@ -32,8 +31,7 @@ Eigen::MatrixXd jacobian_of(const ResponseModel& model, const std::vector<std::s
   return jacobian;
 }
 
-/// A step along a coordinate as a change of the parameter's value: a share of
-/// it if logarithmic, else in its unit.
+/// A step along a coordinate as a change of the parameter's value: relative on a logarithmic scale, else in its unit.
 double width_of(const Parameter& parameter, double step) {
   if (parameter.scale == Scale::linear) return step * (parameter.upper - parameter.lower);
   return std::expm1(step * std::log(parameter.upper / parameter.lower));
@@ -45,7 +43,7 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at) {
   const TrainingData& evidence = model.training_data();
   const Eigen::VectorXd before = deviations_before(evidence);
-  // The symmetric root: each row stays the one of its reading, as far as the readings are told apart.
+  // The symmetric inverse root of the covariance: each row still belongs to one reading, as far as correlation allows.
   const Eigen::MatrixXd in_deviations =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model.covariance(at)).operatorInverseSqrt();
   const Eigen::MatrixXd scaled = in_deviations * jacobian_of(model, fitted, at) * before.asDiagonal();

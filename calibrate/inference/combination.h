@@ -8,26 +8,28 @@
 
 namespace pastefit {
 
-/// A combination of the parameters, as the readings see it near the recommended
-/// candidate.
+/// A linear combination of the parameters that the readings determine, near the recommended candidate: a right singular
+/// vector of the scaled Jacobian of the readings.
 struct Combination {
-  std::vector<double> direction;      ///< over the free parameters in units of what is open of each beforehand
-                                      ///< (`deviation_before`), of length 1
-  double singular_value = 0;          ///< of the Jacobian in standard deviations, readings over parameters
-  double uncertainty = 1;             ///< as above: 1/sqrt(1 + singular_value^2), or that of the sample if larger
-  std::size_t lead = 0;               ///< the parameter with the largest part; its part is positive
-  double lead_width = 0;              ///< 95 % half width, as a change of the lead alone: a
-                                      ///< share of it if logarithmic, else in its unit
-  std::vector<std::string> readings;  ///< that see it, the most important one first
+  std::vector<double> direction;      ///< unit vector; its components are changes of the free parameters over their
+                                      ///< prior standard deviations (`deviation_before`)
+  double singular_value = 0;          ///< of the Jacobian, readings and parameters in their standard deviations
+  double uncertainty = 1;             ///< posterior over prior standard deviation along it: 1/sqrt(1 +
+                                      ///< singular_value^2), or that of the sample if larger
+  std::size_t lead = 0;               ///< the parameter with the largest component, which is positive
+  double lead_width = 0;              ///< 95 % half width as a change of the lead alone: relative if its scale is
+                                      ///< logarithmic, else in its unit
+  std::vector<std::string> readings;  ///< that depend on it, the strongest first
 
   bool determined() const { return uncertainty <= 0.5; }
 };
 
-/// By the slopes of the fitted readings at a candidate, best determined first; one for each free parameter.
+/// From the slopes of the fitted readings at a candidate; best determined first, one for each free parameter.
 std::vector<Combination> combinations_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
                                          const UnitPoint& at);
 
-/// Slopes at one point promise too much where the valley bends; the sample's own width along the combination counts.
+/// Widens a combination to the standard deviation of the sample along it: slopes at one point promise too much where
+/// the posterior is curved.
 void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments);
 
 }  // namespace pastefit

@@ -10,12 +10,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double worth_a_word = 0.2;     // part of a parameter in a combination, over the lead's
-constexpr double worth_measuring = 0.9;  // narrowing above which a measurement brings nothing to speak of
+constexpr double worth_a_word = 0.2;     // part of a parameter in a combination over that of the lead, to be named
+constexpr double worth_measuring = 0.9;  // narrowing above which a measurement is not worth taking
 constexpr std::size_t most_gains = 3;
 
-/// The parameters that move the best determined combination as the lead does,
-/// in exchange rates.
+/// The parameters that can take the place of the lead in the best determined combination, with their exchange rates.
 std::string exchange_of(const Inference& inference, const Combination& combination) {
   const ParameterInterval& lead = inference.intervals[combination.lead];
   std::vector<std::string> rates;
@@ -67,7 +66,7 @@ std::string determined(const Inference& inference) {
   return out;
 }
 
-/// What of a parameter comes from knowledge, and what from the readings.
+/// What is known of a parameter from its prior, and what from the readings.
 std::string prior_line(const ParameterInterval& one) {
   const std::string known = format("  %s was known to be %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
                                    plain(one.prior->standard_deviation).c_str());
@@ -108,7 +107,7 @@ std::string intervals(const Inference& inference) {
   return out;
 }
 
-/// What nobody states, and what it would move.
+/// The unstated conditions and their effects.
 std::string conditions(const Inference& inference) {
   std::string out;
   for (const ConditionEffect& one : inference.conditions) {
@@ -182,7 +181,7 @@ std::string describe(const Inference& inference) {
 }
 
 CardInference card_inference(const Inference& inference) {
-  constexpr double told = 0.2;  // correlation below which the sample shows none
+  constexpr double told = 0.2;  // correlation below which none is reported
   CardInference out;
   out.method = "likelihood of the readings, sampled over the bounds";
   out.level = 0.95;

@@ -8,9 +8,8 @@
 
 namespace pastefit {
 
-/// The inference as a person reads it: what is determined and how well, what is
-/// not, the equivalent materials, and what to measure next. Several lines, each
-/// ended.
+/// The inference as text: what is determined and how well, what is not, the equivalent materials, and what to measure
+/// next. Several lines, each with its line break.
 std::string describe(const Inference& inference);
 
 /// The same without the table of equivalent materials.
@@ -20,8 +19,7 @@ std::string what_is_determined(const Inference& inference);
 /// (from 0.2 on), and what is not identified. Rounded to the digits that the sample behind them is worth.
 CardInference card_inference(const Inference& inference);
 
-/// Said before a calibration: more free parameters than the readings and what is known beforehand could ever fix. Empty
-/// if there are not.
+/// Warning before a calibration with more free parameters than readings and priors can determine; else empty.
 std::string warning_before(int parameters, int priors, const std::vector<std::string>& fitted);
 
 /// "a", "a and b", "a, b and c".

@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double neighbourhood = 0.2;  // of the cube: materials nearer than this are one to a person
+constexpr double neighbourhood = 0.2;  // distance in the cube below which two materials count as one
 
 }  // namespace
 

@@ -15,12 +15,12 @@ namespace pastefit {
 /// Why a material is the one that is recommended, for `Inference::recommended_because`.
 std::string reason_for(bool confirmed, std::size_t packings);
 
-/// Asks what a finished search leaves open: simulates other materials that may meet the laboratory as well, spread as
-/// far apart as can be, each on one fresh packing; then, as long as there are simulations left, those that would be
-/// shown as equivalent and that only a prediction speaks for. Then infers. Central differences at the best candidate
-/// would cost as much and tell the slopes there only; these runs tell them along the whole family, and whether its
-/// members hold. Requirement: the calibration's best candidate did not fail; it outlives the examination.
-/// The answer depends on what was asked only: a resumed calibration infers the same.
+/// Examines what a finished search leaves open: asks for other materials that may meet the laboratory as well, as far
+/// apart as possible, each on one fresh packing; then, while simulations are left, for those that would be shown as
+/// equivalent by prediction alone. Then infers. Central differences at the best candidate would cost as much and give
+/// the slopes there only; these runs give them along the whole family, and test its members. Requirement: the
+/// calibration's best candidate did not fail; it outlives the examination. The result depends only on what was asked: a
+/// resumed calibration infers the same.
 class Examination {
  public:
   /// `training_data`: what answers say. `simulations`: that may be spent, on points on one packing.
@@ -51,7 +51,7 @@ class Examination {
 };
 
 /// The same of a study, simulated by an objective; spends no more than its budget. Requirement: `objective` stores in
-/// `store`. `conditions`: what those that nobody states do to the readings.
+/// `store`. `conditions`: effects of the unstated ones.
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
                                  const Calibration& calibration, int simulations, std::uint64_t seed,
                                  const std::vector<ConditionEffect>& conditions = {});

@@ -16,7 +16,7 @@ std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const Infere
                           static_cast<int>(model.training_data().parameters.size()), options.sample, options.seed);
 }
 
-/// Whether the combinations have the intervals' uncertainties.
+/// Whether the linear combinations give the uncertainties of the sample.
 bool explains(const std::vector<Combination>& combinations, const std::vector<ParameterInterval>& intervals) {
   double gap = 0;
   for (std::size_t j = 0; j < intervals.size(); ++j) {

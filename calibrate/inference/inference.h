@@ -12,41 +12,39 @@
 
 namespace pastefit {
 
-/// What a calibration knows, and what it does not.
+/// What the simulations and the laboratory say about the free parameters.
 struct Inference {
   std::vector<std::string> fitted;               ///< the readings behind it
-  std::vector<double> noise;                     ///< standard deviation of each in one simulation of the
-                                                 ///< recommended candidate, from packing to packing
+  std::vector<double> noise;                     ///< standard deviation of each between packings of the
+                                                 ///< recommended candidate
   std::vector<ParameterInterval> intervals;      ///< of the free parameters, in their order
-  std::vector<std::vector<double>> correlation;  ///< of the free parameters, after the measurement
+  std::vector<std::vector<double>> correlation;  ///< of the free parameters in the posterior
   std::vector<Combination> combinations;         ///< best determined first; one for each free parameter
   bool linear = false;                           ///< the combinations explain the intervals; if not, the
-                                                 ///< intervals rule
-  std::vector<EquivalentMaterial> family;        ///< spread out; the recommended one first
+                                                 ///< intervals hold
+  std::vector<EquivalentMaterial> family;        ///< far apart from each other; the recommended one first
   std::vector<MeasurementGain> gains;            ///< best first
-  std::vector<ConditionEffect> conditions;       ///< that nobody states, and what they move; contained in the intervals
-  std::string recommended_because;               ///< why the first of the family is the one
-  int simulations = 0;                           ///< behind all of it
+  std::vector<ConditionEffect> conditions;       ///< effects of unstated conditions; contained in the intervals
+  std::string recommended_because;               ///< why the first of the family is recommended
+  int simulations = 0;                           ///< number of simulations used
 };
 
 struct InferenceOptions {
-  int sample = 3000;  ///< candidates drawn in proportion to their likelihood
+  int sample = 3000;  ///< size of the posterior sample
   int family = 5;     ///< equivalent materials shown, the recommended one included
-  int repeats = 5;    ///< further measurements a gain is predicted for
+  int repeats = 5;    ///< further measurements whose gain is predicted
   std::uint64_t seed = 1;
 };
 
-/// Candidates whose simulation would tell most: drawn from those that may meet the laboratory, as far from each other
-/// and from `recommended` as can be. Shape: `count` points, fewer if the evidence leaves no choice.
+/// Candidates to simulate next: from the posterior sample, as far from each other and from `recommended` as possible.
+/// Shape: `count` points, fewer if the sample has no more.
 std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options = {});
 
-/// What the evidence says about the parameters of a study, without further
-/// simulations. See `response_model.h` for the likelihood, `posterior.h` for the
-/// sample. Bounds count as prior knowledge, evenly spread on the parameter's scale, or by its prior if the study gives
-/// one. Limits: the law itself is taken as right, and so is its grain size;
-/// what both are off is in none of the intervals. Requirements: some simulation
-/// ended well, `recommended` lies in the unit cube, some reading is fitted.
+/// Infers the free parameters of a study without further simulations: likelihood of `response_model.h`, sample of
+/// `posterior.h`. The prior is uniform between the bounds, on the parameter's scale, times the prior that the study
+/// gives. Limits: contact law and grain size count as right; their error is in none of the intervals. Requirements: at
+/// least one simulation ended well, `recommended` lies in the unit cube, at least one reading is fitted.
 Inference infer(const TrainingData& evidence, const UnitPoint& recommended, const InferenceOptions& options = {});
 
 }  // namespace pastefit

@@ -19,7 +19,7 @@ bool measurable(const std::string& name) {
   return kind && kind->advised;
 }
 
-/// Whether the model meets a reading at all; one that it misses by far would mislead it, however often it is taken.
+/// Whether the model meets a reading; repeating one that it misses by far would only mislead.
 bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recommended) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];
   if (!evidence.measured) return true;
@@ -28,9 +28,9 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
          3 * std::hypot(evidence.deviation, std::sqrt(prediction.variance));
 }
 
-/// What further measurements of one reading would leave of each coordinate's
-/// standard deviation, to first order in the sample: 1 - cov(x, m)^2/(var x
-/// (var m + error)), m the mean reading of a member.
+/// Standard deviation of each coordinate x after further measurements of one reading over that before, by linear
+/// regression in the sample: sqrt(1 - cov(x, m)^2/(var x (var m + error))), m the mean reading of a member of the
+/// sample, error the variance of the mean of the new measurements and the predictive variance.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
                         const Moments& moments, std::size_t lead, int repeats, double typical_deviation) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];

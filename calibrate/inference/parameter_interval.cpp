@@ -10,9 +10,9 @@ namespace pastefit {
 
 namespace {
 
-constexpr double border = 0.05;  // of a range: where the sample shows whether the data set an end
-constexpr double thin = 0.2;     // density at a bound, over the mean one, below which the data set the end
-constexpr double tail = 0.025;   // of the sample beyond each end of an interval
+constexpr double border = 0.05;  // of a range: the outermost part, whose density decides whether the data set an end
+constexpr double thin = 0.2;     // density there over the uniform one, below which the data set the end
+constexpr double tail = 0.025;   // share of the sample beyond each end of an interval
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -21,8 +21,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-/// Share of the sample in the outermost part of the range, over the share an
-/// even spread has there.
+/// Share of the sample in the outermost part of the range, over the share of a uniform distribution.
 double density_at(const std::vector<double>& sorted, bool lower_end) {
   const auto in_border =
       std::ranges::count_if(sorted, [&](double x) { return lower_end ? x < border : x > 1 - border; });
@@ -34,9 +33,9 @@ struct Ends {
   bool lower_known = false, upper_known = false;
 };
 
-/// 95 % of the sample, the same share beyond either end; also where the data leave the other end to the bound. The data
-/// choose the ends they set, and an end that was chosen because it looked sharp is sharper than it should be: with
-/// all 5 % beyond a single end 88 % of the intervals of fifty twins held the truth (tests/twins).
+/// The central 95 % of the sample: 2.5 % beyond each end, also where the other end is the study's bound. An end is
+/// taken as set by the data because it looks sharp, which makes it too sharp on average: with all 5 % beyond a single
+/// end only 88 % of the intervals of fifty twins held the truth (tests/twins).
 Ends ends_of(std::vector<double> coordinates) {
   std::ranges::sort(coordinates);
   Ends ends;
@@ -47,8 +46,7 @@ Ends ends_of(std::vector<double> coordinates) {
   return ends;
 }
 
-/// 95 % of the posterior along one coordinate, the others held: the part
-/// between its tails.
+/// The central 95 % of the posterior along one coordinate, the others held.
 std::pair<double, double> held_ends(const ResponseModel& model, UnitPoint point, Eigen::Index coordinate) {
   constexpr int cells = 400;
   std::vector<double> logarithms;

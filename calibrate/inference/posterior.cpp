@@ -12,11 +12,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kept_share = 0.5;  // of the sample's weight, from one power of the likelihood to the next
-constexpr int walk_steps = 6;       // after each redraw
+constexpr double kept_share = 0.5;  // of the effective sample size, from one power of the likelihood to the next
+constexpr int walk_steps = 6;       // after each resampling
 constexpr int most_powers = 200;
 
-/// The sample while the likelihood is let in.
+/// The sample while the power of the likelihood grows from 0 to 1.
 class Population {
  public:
   Population(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension, int count,
@@ -41,7 +41,7 @@ class Population {
  private:
   double draw() { return random_.uniform(drawn_++); }
 
-  /// What is not a number is as unlikely as can be.
+  /// A likelihood that is not a number counts as zero.
   double likelihood_at(const UnitPoint& point) const {
     const double value = log_likelihood_(point);
     return std::isfinite(value) ? value : -1e300;
@@ -54,8 +54,7 @@ class Population {
     return weights;
   }
 
-  /// The effective size of the sample with these weights, as a share of its
-  /// size (Kish).
+  /// Effective size of the weighted sample, as a share of its size (Kish).
   double effective_share(double step) const {
     double sum = 0, squares = 0;
     for (const double weight : weights(step)) {
@@ -106,7 +105,7 @@ class Population {
     const double scale = 2.38 / std::sqrt(static_cast<double>(dimension));  // Roberts, Gelman & Gilks 1997
     const Eigen::MatrixXd spread = scale * Eigen::MatrixXd(covariance.llt().matrixL());
     for (int step = 0; step < walk_steps; ++step) {
-      const double width = step % 2 == 0 ? 1 : 0.3;  // a bent valley is left by wide steps
+      const double width = step % 2 == 0 ? 1 : 0.3;  // narrow steps too: wide ones leave a curved ridge
       for (std::size_t i = 0; i < members_.size(); ++i) {
         Eigen::VectorXd normals(dimension);
         for (double& normal : normals) normal = random_normal();

@@ -8,15 +8,12 @@
 
 namespace pastefit {
 
-/// Candidates drawn in proportion to their likelihood over the unit cube:
-/// within the bounds of a study every value is as good as any other before the
-/// measurement. Method: sequential Monte Carlo. A Sobol sample of the cube is
-/// weighted by a growing power of the likelihood, drawn anew when half of its
-/// weight is gone, and shaken by random walks as wide as the sample (Del Moral,
-/// Doucet & Jasra, J. R. Stat. Soc. B 68 (2006) 411). It finds separate regions
-/// and bent valleys, where the linear picture fails. Requirements: dimension >=
-/// 1, count >= 2, the logarithm is finite in the cube. Same arguments, same
-/// sample.
+/// A sample of the unit cube with a density proportional to the likelihood, the prior being uniform within the bounds
+/// of a study. Method: sequential Monte Carlo. A Sobol sample of the cube is weighted by a growing power of the
+/// likelihood, resampled when half of its effective size is lost, and moved by random walks as wide as the sample (Del
+/// Moral, Doucet & Jasra, J. R. Stat. Soc. B 68 (2006) 411). It finds separate modes and curved ridges, where a linear
+/// approximation fails. Requirements: dimension >= 1, count >= 2; where the logarithm is not finite the likelihood
+/// counts as zero. The same arguments give the same sample.
 std::vector<UnitPoint> posterior_sample(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension,
                                         int count, std::uint64_t seed);
 

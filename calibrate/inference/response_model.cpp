@@ -13,9 +13,9 @@ namespace pastefit {
 namespace {
 
 constexpr double least_survival = 1e-3;  // a model of failures is too rough to rule a candidate out
-constexpr double doubted_heaps = 3;      // worth of no correlation, beside what the heaps show
+constexpr double doubted_heaps = 3;      // further heaps, assumed to show no correlation
 
-/// Sum of squares, each in standard deviations of the prior.
+/// Sum of the squared differences from the means of the priors, each in standard deviations of its prior.
 double distance_from_priors(const TrainingData& evidence, const UnitPoint& point) {
   double squares = 0;
   for (std::size_t j = 0; j < evidence.parameters.size(); ++j) {
@@ -150,7 +150,7 @@ void ResponseModel::count_independent() {
   const Eigen::VectorXd sizes = all.rowwise().norm();
   for (Eigen::Index k = 0; k < count; ++k)
     if (sizes[k] > 0) all.row(k) /= sizes[k];
-  // What never changes is independent of everything.
+  // A reading that never changes counts as independent of the others.
   Eigen::MatrixXd correlation = all * all.transpose();
   correlation.diagonal().setOnes();
   independent_ = static_cast<double>(count) / correlation.squaredNorm();
@@ -178,7 +178,7 @@ Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
 Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const {
   const auto count = static_cast<Eigen::Index>(fitted_.size());
   Eigen::MatrixXd out(count, count);
-  std::vector<double> of_heap;  // part of the laboratory's deviation that is the heap's
+  std::vector<double> of_heap;  // part of the laboratory's standard deviation that is scatter between heaps
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
     const ReadingTrainingData& first = evidence_.readings[fitted_[j]];
     const auto row = static_cast<Eigen::Index>(j);

@@ -11,31 +11,35 @@
 namespace pastefit {
 
 /// What a simulation of any candidate is likely to read, learnt from the evidence: a model for each reading
-/// (`ReadingModel`), a Gaussian process for the share of failures, and one of how near heaps come to being rejected
-/// (`Exceedance`): that a laboratory reports n heaps is worth n log(1 - p), p the probability that one is rejected.
-/// Readings of one heap are correlated: a heap that happens to stay high is narrow. The correlation is learnt from the
-/// fillings of the same candidates, drawn towards none by three heaps' worth of predictive_variance. It is none between
-/// tests. The likelihood of a candidate follows: the laboratory's means are off the mean answers of the simulations by
-/// the laboratory's own errors and by what is not known of those answers, normal with
-///     C = L + M,   M_jk = (predictive_variance of the two means: that of j for j = k; else what the same heaps brought
-///     into both), L_jj = laboratory's variance of j,   L_jk = r_jk min(s_j, l_j) min(s_k, l_k) min(n_j, n_k)/(n_j
-///     n_k);
-/// r: correlation, s: deviation of one simulation at the candidate, l and n: the laboratory's deviation and repeats.
-/// What the laboratory's deviation is more than s is the ruler's, and not correlated. A condition that the laboratory
-/// does not state adds e_j e_k/12 to L_jk, e what it moves a reading by from one end of its range to the other: it may
-/// lie anywhere there, evenly on a logarithmic scale. With d the differences, the
-/// logarithm of the likelihood is
+/// (`ReadingModel`), a Gaussian process for the probability of a failure, and one for the probability p that a heap is
+/// rejected (`Exceedance`): n heaps that the laboratory reports add n log(1 - p) to the log-likelihood.
+///
+/// Readings of one heap are correlated: a heap that happens to stay high is narrow. The correlation r is estimated from
+/// the packings of the same candidates and shrunk towards zero, as if three further heaps had shown none. Readings of
+/// different tests are uncorrelated.
+///
+/// The differences d between the predicted mean readings of a candidate and the laboratory's means are normal, with
+/// mean zero and covariance C = L + M:
+///     M_jj   predictive variance of mean reading j; M_jk the covariance of two of them by the noise of the heaps that
+///            both are learnt from;
+///     L_jj = variance of the laboratory's mean of reading j,
+///     L_jk = r_jk min(s_j, l_j) min(s_k, l_k)/max(n_j, n_k);
+/// s: standard deviation of one simulation at the candidate; l, n: the laboratory's standard deviation of one
+/// measurement and its repeats. Where l exceeds s the rest is error of the measurement itself, which is not correlated.
+/// A condition that the laboratory does not state adds e_j e_k/12 to L_jk, e the change of a reading from one end of
+/// the condition's range to the other: the variance of a condition that is uniform on a logarithmic scale. The
+/// log-likelihood is, up to a constant,
 ///     -(d' C^-1 d + log det L + n/N (log det C - log det L))/2,   n = (tr R)^2/tr(R^2),
-/// R the correlation of the N readings over all simulations: so many of them are independent. Two heights and two
-/// spreads of one heap are nearly one number; a candidate that little is known of would lose by its predictive_variance
-/// once for each of them, and all that was never looked at would seem to be ruled out. Requirement: at least one
-/// simulation ended well.
+/// R the correlation matrix of the N fitted readings over all simulations, n the effective number of independent ones.
+/// Two heights and two spreads of one heap are nearly one number: without the factor n/N a candidate of large
+/// predictive variance would lose likelihood for each of them, and regions without simulations would seem to be ruled
+/// out. Requirement: at least one simulation ended well.
 class ResponseModel {
  public:
   explicit ResponseModel(TrainingData evidence);
 
   const TrainingData& training_data() const { return evidence_; }
-  /// Mean reading of a candidate, and the variance of what is known of it.
+  /// Mean reading of a candidate, and its predictive variance.
   ReadingModel::Prediction predict(std::size_t reading, const UnitPoint& point) const;
   /// Standard deviation of the reading of one simulation about its mean, at this candidate.
   double noise(std::size_t reading, const UnitPoint& point) const;
@@ -45,11 +49,12 @@ class ResponseModel {
   const Eigen::MatrixXd& correlation() const { return correlation_; }
   /// C of a candidate. Shape: fitted readings x fitted readings.
   Eigen::MatrixXd covariance(const UnitPoint& point) const;
-  /// Distance of the mean readings from the laboratory, and of the point from what was known beforehand: root of the
-  /// sum of squares, each in standard deviations, of one measurement or of the prior.
+  /// Distance of a candidate from laboratory and priors [1]: root of the sum of squares of the weighted differences of
+  /// the mean readings, in standard deviations of one measurement, and of the coordinates from the means of their
+  /// priors, in standard deviations of those.
   double normalised_error(const UnitPoint& point) const;
   double log_likelihood(const UnitPoint& point) const;
-  /// The same, and what was known beforehand.
+  /// The log-likelihood plus the logarithm of the priors, up to a constant.
   double log_posterior(const UnitPoint& point) const;
 
  private:

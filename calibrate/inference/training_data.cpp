@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-/// How near each simulation is to one that a laboratory would reject; nothing if the study does not judge it.
+/// The rejection index of each simulation; empty if the study does not judge it.
 std::vector<double> rejection_indices_of(const Study& study, const std::vector<const StoredEvaluation*>& simulations) {
   std::vector<double> indices;
   if (rejected_share_of(study) >= 1) return indices;

@@ -9,10 +9,10 @@
 namespace pastefit {
 namespace {
 
-// Of the root of a value over its limit: scatter below which nothing is certain though the values seen lie on a line.
+// Least standard deviation of the root: values that happen to lie on a smooth curve do not make the next one certain.
 constexpr double least_scatter = 0.02;
 
-// Medians of the fifths of a standard normal variable, scaled to its variance.
+// Medians of the five equally likely parts of a standard normal variable, scaled to variance 1.
 constexpr std::array fifths{-1.4634, -0.5988, 0.0, 0.5988, 1.4634};
 
 

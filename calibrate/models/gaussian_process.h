@@ -8,28 +8,29 @@
 namespace pastefit {
 
 /// A Gaussian process with constant mean, Matérn 5/2 covariance with one length for each coordinate, and noise. Mean
-/// and variance are profiled out; lengths and noise maximise the likelihood times a broad prior that favours smooth
-/// answers, so that it does not follow the noise of a few dozen answers. Answers of one point are pooled, which changes
-/// nothing but the time it takes. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning (2006),
-/// sections 2.2, 4.2.1, 5.4.1.
+/// and signal variance are profiled out; lengths and the ratio of noise to signal maximise the likelihood times a broad
+/// prior that favours smooth functions, so that the process does not follow the noise of a few dozen answers. Answers
+/// at one point are pooled, which is exact and saves time. Source: Rasmussen & Williams, Gaussian Processes for Machine
+/// Learning (2006), sections 2.2, 4.2.1, 5.4.1.
 class GaussianProcess {
  public:
   struct Prediction {
     double mean = 0;
-    double variance = 0;  ///< of the mean answer, without the noise of one simulation
+    double variance = 0;  ///< of that mean, without the noise of one simulation
   };
 
-  /// Shapes: n >= 1 points of the unit cube, n values, n precisions > 0 (none: all 1): the noise variance of an answer
-  /// is that of the process over its precision. Points may repeat: that is how the noise is seen.
+  /// Shapes: n >= 1 points of the unit cube, n values, n precisions > 0 (none: all 1). The noise variance of an answer
+  /// is `noise_variance()` over its precision. Points may repeat, which tells the noise from the signal.
   GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
                   const Eigen::VectorXd& precisions = {});
 
-  /// Conditions on a point that has not been answered, as if the mean of so many answers were known (fantasising);
-  /// lengths and noise ratio stay.
+  /// Conditions on an assumed mean of `answers` answers at a point that has none yet (fantasising); lengths and noise
+  /// ratio stay.
   void fantasise(const UnitPoint& point, double mean, int answers);
 
   Prediction predict(const UnitPoint& point) const;
-  /// Logarithm of the likelihood of the answers, but for a constant of their number; infinite if all are the same.
+  /// Logarithm of the likelihood of the answers, up to a constant that depends on their number only; infinite if all
+  /// are equal.
   double log_likelihood() const;
   const Eigen::VectorXd& lengths() const { return lengths_; }
   double signal_variance() const { return signal_variance_; }
@@ -37,7 +38,7 @@ class GaussianProcess {
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 
  private:
-  /// The negative logarithm of likelihood and prior as a positive number: to the power 2/n.
+  /// (likelihood times prior)^(-2/n), n answers: positive, and least where the product is largest.
   double deviance() const;
   void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values, const Eigen::VectorXd& precisions);
   void set(const Eigen::VectorXd& lengths, double noise_ratio);

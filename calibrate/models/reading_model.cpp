@@ -12,10 +12,10 @@
 namespace pastefit {
 namespace {
 
-// What is typical is known to a factor of two. With a longer typical length, a smaller signal or less noise few
-// candidates are taken for many, and readings are stated closer than they are (tests/twins).
+// Priors: log-normal, with a factor of two as one standard deviation. Longer typical lengths, a smaller signal or less
+// noise would make the model too certain between few candidates (tests/twins).
 constexpr double typical_length = 0.5;
-// In variances of all answers, as the trend's.
+// In units of the variance of all rows, as the variances of the trend.
 constexpr LogRange signal_range{1e-3, 10}, noise_variance_range{1e-6, 2};
 constexpr double typical_signal = 1, typical_noise = 0.02;
 constexpr double most_slope = 2.5;  // of the logarithm of the noise variance, over one standard deviation
@@ -33,8 +33,8 @@ double log_normal_share(double z) {
 
 }  // namespace
 
-/// A bound becomes the normal observation that gives what the rest says of the mean reading (mean, predictive_variance)
-/// the moments that it has under Phi((bound - mean)/noise).
+/// Moment matching: the mean reading m is normal with (mean, `predictive_variance`) without the bound; the normal
+/// observation gives it the mean and variance that it has under the likelihood Phi((bound - m)/noise).
 void ReadingModel::Row::match(double mean, double predictive_variance) {
   const double total = predictive_variance + noise * noise;
   const double z = std::clamp((answers.mean - mean) / std::sqrt(total), -30.0, 30.0);
@@ -152,7 +152,7 @@ void ReadingModel::condition() {
     for (Eigen::Index j = 0; j <= i; ++j)
       prior(i, j) = prior(j, i) = covariance(place(static_cast<std::size_t>(i)), place(static_cast<std::size_t>(j)));
 
-  double log_within = 0;  // likelihood of the answers about the means of their rows
+  double log_within = 0;  // log-likelihood of the answers about the means of their rows
   for (Eigen::Index i = 0; i < n; ++i) {
     Row& row = rows_[static_cast<std::size_t>(i)];
     const double noise = noise_variance(levels_[i]);

@@ -6,8 +6,8 @@
 namespace pastefit {
 namespace {
 
-constexpr double near = 0.1;         // of the bounds, in each coordinate: where simulations tell of a point
-constexpr double harmless_ones = 2;  // simulations of harmless scatter that are taken to be at every point
+constexpr double near = 0.1;         // width of the kernel: root mean square difference of the coordinates
+constexpr double harmless_ones = 2;  // further simulations with the harmless variance, assumed at every point
 
 }  // namespace
 

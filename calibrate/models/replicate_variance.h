@@ -6,20 +6,21 @@
 
 namespace pastefit {
 
-/// Where the packings of a point disagree by more than a mean over some of them stands. Between heaps that stand and
-/// heaps that shear off there are materials that do either, by the packing: their mean may be the
-/// laboratory's, and no heap of theirs is. A *deviation* is what a simulation is off from what is expected at its
-/// point. Formula: kernel regression of squared deviations over the unit cube, in which the harmless variance counts as
-/// some simulations more, at every point.
+/// How much the packings of a point disagree. Between materials whose heaps stand and materials whose heaps shear off
+/// there are some whose heaps do either, depending on the packing: their mean reading may equal the laboratory's though
+/// no single heap does. A deviation is the difference between a simulation and the mean expected at its point. Method:
+/// kernel regression of squared deviations over the unit cube; at every point the harmless variance counts as a few
+/// further simulations.
 class ReplicateVariance {
  public:
-  /// `harmless`: variance of one simulation that is no matter, > 0. Shapes: n points of the unit cube, n deviations.
+  /// `harmless`: variance of one simulation up to which its scatter does not matter, > 0. Shapes: n points of the unit
+  /// cube, n deviations.
   ReplicateVariance(std::vector<UnitPoint> points, const Eigen::VectorXd& deviations, double harmless);
 
-  /// Variance between the packings of a point beyond what is harmless, >= 0.
+  /// Variance between the packings of a point in excess of the harmless one, >= 0.
   double excess(const UnitPoint& point) const;
 
-  /// The harmless variance over that at a point, <= 1.
+  /// Harmless variance over the variance at a point, <= 1: the precision of a simulation there, for a Gaussian process.
   double precision(const UnitPoint& point) const { return harmless_ / (harmless_ + excess(point)); }
 
  private:

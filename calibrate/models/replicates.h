@@ -8,12 +8,12 @@
 
 namespace pastefit {
 
-/// Answers of one point, pooled: what a model with independent noise needs of them. Welford's update, which does not
-/// cancel.
+/// Answers at one point, pooled into what a model with independent noise needs of them. Welford's update, which does
+/// not lose digits by cancellation.
 struct Replicates {
   double weight = 0;   ///< sum of the answers' weights; their number, if each has a weight of 1
   double mean = 0;     ///< weighted
-  double squares = 0;  ///< of the answers about their mean, weighted
+  double squares = 0;  ///< weighted sum of the squared differences between the answers and their mean
 
   /// Requirement: the weight is positive.
   void add(double answer, double its_weight = 1) {
@@ -24,10 +24,10 @@ struct Replicates {
   }
 };
 
-/// Points of which some are the same.
+/// Points, of which some are equal.
 struct Sites {
-  std::vector<UnitPoint> points;  ///< each once, in the order in which they came
-  std::vector<std::size_t> of;    ///< of each of the given points: which of them it is
+  std::vector<UnitPoint> points;  ///< the distinct ones, in the order of their first appearance
+  std::vector<std::size_t> of;    ///< for each given point, its place in `points`
 };
 Sites sites_of(std::span<const UnitPoint> points);
 

@@ -15,13 +15,14 @@ namespace pastefit {
 
 namespace {
 
-constexpr double sure = 3;             // standard deviations that a candidate is given, were they known
+constexpr double sure = 3;             // standard deviations between mean and confidence bound, if they were known
 constexpr double laboratory = 2;       // standard deviations of the laboratory within which a reading is met
-constexpr double on_the_bound = 0.1;   // of a range: nearer than that a flat end of the model does not tell
+constexpr double on_the_bound = 0.1;   // of a range: as near as that counts as on the bound, where the model is flat
 constexpr double step_back = 0.2;      // of a range
 constexpr std::size_t neighbours = 4;  // of a place, all of which have to have finished
 
-/// One reading of all simulations that ended well, turned so that the laboratory lies below.
+/// One reading of all simulations that ended well, as its difference to the laboratory, with the sign that makes it
+/// positive (a miss), in the reading's unit.
 class Nearing {
  public:
   Nearing(std::span<const Response> singles, std::size_t reading, double tolerance)
@@ -41,7 +42,7 @@ class Nearing {
     all_bounds_ = all_bounds_ && low && value_of(*high) == value_of(*low);
     one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
     if (!one_side_) return;
-    // A residual is a multiple of the difference to the laboratory.
+    // A residual is the difference to the laboratory over the laboratory's standard deviation.
     deviation_ = (value_of(*high) - value_of(*low)) / (high->residuals[reading_] - low->residuals[reading_]);
     measured_ = value_of(*low) - deviation_ * low->residuals[reading_];
     side_ = above > 0 ? 1 : -1;
@@ -62,14 +63,14 @@ class Nearing {
   GaussianProcess model() const { return {points_, misses_}; }
   UnitPoint middle() const { return UnitPoint::Constant(points_.front().size(), 0.5); }
 
-  /// Student's t: how many estimated standard deviations are as sure as `sure` known ones.
+  /// Quantile of Student's t at the probability of `sure` standard deviations of a normal distribution.
   double deviations() const {
     const double probability = boost::math::cdf(boost::math::normal_distribution<>(), sure);
     const double freedom = std::max<double>(1, static_cast<double>(points_.size()) - 1);
     return boost::math::quantile(boost::math::students_t_distribution<>(freedom), probability);
   }
 
-  /// Whether more candidates finished than did not, and all of those nearest to a place did.
+  /// Whether more candidates finished than did not, and all of the `neighbours` nearest to a place did.
   bool vouches_for(const UnitPoint& place) const {
     if (2 * std::ranges::count_if(runs_, &Run::finished) <= std::ssize(runs_)) return false;
     std::vector<Run> nearest = runs_;
@@ -91,7 +92,7 @@ class Nearing {
     known->finished = known->finished || is_whole(single);
   }
 
-  /// Of coarse grains only the residuals are corrected.
+  /// With coarse grains only the residuals are corrected for the grain size, not the reading.
   static bool is_fine(const Response& single) { return single.packings.front() < coarse_packings; }
   double value_of(const Response& single) const { return single.observables[reading_]; }
 
@@ -104,25 +105,26 @@ class Nearing {
   std::vector<Run> runs_;
 };
 
-/// How far a candidate may get beyond its predicted mean.
+/// How far below its predicted mean the miss of a candidate may lie.
 struct Allowance {
-  double deviations = 0;  ///< of the predictive variance and the noise
-  double noise = 0;       ///< its variance
+  double deviations = 0;  ///< standard deviations, of predictive variance and noise together
+  double noise = 0;       ///< variance of the noise
 };
 
-/// The normalised error that the model gives a candidate.
+/// Lower confidence bound of the miss of a candidate [unit of the reading].
 double miss_at(const GaussianProcess& model, const UnitPoint& point, const Allowance& allowance) {
   const auto prediction = model.predict(point);
   return prediction.mean - allowance.deviations * std::sqrt(prediction.variance + allowance.noise);
 }
 
-/// The candidate of least normalised error. `scale`: one that counts as large.
+/// The candidate whose lower confidence bound of the miss is least. `scale`: a large miss [unit of the reading].
 UnitPoint nearest_by(const GaussianProcess& model, const Allowance& allowance, double scale, const UnitPoint& start) {
-  // Positive, in the order of the error.
+  // Positive, as `least_point` requires, and increasing with the bound.
   return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, allowance) / scale); }, start);
 }
 
-/// The bounds that the nearest candidate lies on, where a step back costs more than the model's doubt there.
+/// The bounds that the nearest candidate lies on, if a step away from them increases the predicted miss by more than
+/// its predictive standard deviation.
 std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const UnitPoint& nearest) {
   std::vector<OutOfReach::Bound> bounds;
   const auto here = model.predict(nearest);
@@ -143,8 +145,8 @@ std::vector<UnitPoint> censored(std::span<const Response> singles, std::uint64_t
   return points;
 }
 
-/// What is said of a reading whose candidates get no farther than `hopeful` may; nothing if that may be far enough, or
-/// if too few simulations finished to tell.
+/// The claim that a reading is out of reach; `hopeful` is the candidate of least bound. Nothing if its bound meets the
+/// laboratory, or if too few simulations finished to tell.
 std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance,
                                 const UnitPoint& hopeful) {
   const double at_best = miss_at(model, hopeful, allowance);
@@ -160,7 +162,7 @@ std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& 
   return found;
 }
 
-/// The candidate that may get farthest.
+/// The candidate that may come nearest to the laboratory.
 UnitPoint hopeful_of(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance) {
   return nearest_by(model, allowance, approach.least(), approach.middle());
 }
@@ -186,7 +188,7 @@ bool ReachPhase::probe(std::size_t reading) {
   known_.reset();
   const Nearing approach(history_.singles(), reading, history_.tolerance(reading));
   if (!approach.suspect() && !approach.tells_nothing()) return true;
-  // How far they would have gone is what matters here.
+  // How far those that were stopped early would have gone is the question here.
   if (const auto ended = censored(history_.singles(), options_.packing); !ended.empty()) {
     if (history_.budget_left() < static_cast<int>(ended.size())) return true;
     history_.evaluate(ended, {&options_.packing, 1});

@@ -15,14 +15,14 @@ struct OutOfReach {
   std::size_t reading = 0;  ///< in the order of the observables
   bool above = true;        ///< the model stays above the laboratory; else below
   double measured = 0;      ///< by the laboratory, in the reading's unit
-  double likely = 0;        ///< mean reading of the candidate that comes nearest, as the simulations tell it
-  double at_best = 0;       ///< what no simulation is likely to pass, predictive variance and noise counted
+  double likely = 0;        ///< predicted mean reading of the candidate that comes nearest
+  double at_best = 0;       ///< nearest reading that a simulation may reach, predictive variance and noise included
   UnitPoint nearest;        ///< that candidate
   struct Bound {
     int parameter = 0;   ///< free parameter, in their order
     bool upper = false;  ///< the nearest candidate lies on its upper bound; else on the lower one
   };
-  std::vector<Bound> bounds;  ///< that stand in the way: a step back from them moves the reading off; may be empty
+  std::vector<Bound> bounds;  ///< that stand in the way: a step away from them moves the reading off; may be empty
 };
 
 struct ReachOptions {
@@ -30,21 +30,21 @@ struct ReachOptions {
   int probes = 12;            ///< simulations that may be spent
 };
 
-/// Asks whether the laboratory's readings lie within what the model can do, before a search is paid for.
+/// Asks whether the laboratory's readings lie within the range of the model, before the budget of a search is spent.
 ///
-/// Suspect is a fitted reading that all simulations so far miss on the same side, by more than two standard deviations
-/// of the laboratory and by more than its tolerance. A Gaussian process of the reading then says how far any candidate
-/// may get at best: its mean less three standard deviations of its predictive variance and of one simulation's noise
-/// together, and more than three where few simulations tell them (Student's t). The candidate that may get farthest is
-/// simulated, and so on (a lower confidence bound; Cox & John 1992), until the reading is met (it is within reach),
-/// nothing is left that might meet it (it is out of reach, which is the answer), or the probes are spent (nothing is
-/// said). Probes stay in the history and serve the search.
+/// A fitted reading is suspect if all simulations so far miss it on the same side, by more than two standard deviations
+/// of the laboratory and by more than its tolerance. A Gaussian process of the difference to the laboratory then gives
+/// a lower confidence bound for every candidate: the mean less three standard deviations, predictive variance and noise
+/// of one simulation together; more than three if few simulations estimate them (Student's t). The candidate of least
+/// bound is simulated, and so on (Cox & John 1992), until the reading is met (it is within reach), no candidate has a
+/// bound that meets it (it is out of reach, which is the answer), or the probes are spent (no answer). Probes stay in
+/// the history and serve the search.
 ///
-/// A simulation that failed says nothing of the reading, and the model knows nothing of where such ones lie. So there
-/// is no claim unless more candidates finished than did not, and all of those nearest to where the bound lies did.
-/// Simulations that ended early are run whole before anything is judged by them, or if all have ended so:
-/// how far they would have gone is the question. Limit: a narrow region of the cube that answers unlike all the rest
-/// can be overlooked; `contradicts` says when one is found after all.
+/// A failed simulation says nothing about the reading, and the Gaussian process does not know where simulations fail.
+/// So there is no claim unless more candidates finished than did not, and all of those nearest to the candidate of
+/// least bound did. Simulations that were stopped early are first run to their end, since the question is how far they
+/// would have gone. Limit: a narrow region of the cube that differs from the rest can be overlooked; `contradicts`
+/// says when one is found after all.
 class ReachPhase : public SearchPhase {
  public:
   ReachPhase(EvaluationHistory& history, const ReachOptions& options) : history_(history), options_(options) {}
@@ -63,13 +63,13 @@ class ReachPhase : public SearchPhase {
   std::optional<OutOfReach> found_;
 };
 
-/// What may come near: single simulations, whose noise helps them, or a candidate's mean over packings.
+/// What is asked to come near: a single simulation, whose noise may help, or a candidate's mean over packings.
 enum class ReachOf { simulations, means };
 
-/// The same by what is known; simulates nothing. One that ended early counts as one that did not finish.
+/// The same from the simulations at hand, without new ones. A simulation that was stopped early counts as not finished.
 std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, ReachOf what);
 
-/// True if the simulation reads what was said to be out of reach, or more.
+/// True if the simulation's reading is as near to the laboratory's as was said to be out of reach, or nearer.
 bool contradicts(const Response& single, const OutOfReach& found);
 
 /// The answer in words. Names may be missing: "reading 1", "parameter 2".

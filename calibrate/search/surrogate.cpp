@@ -11,21 +11,22 @@
 namespace pastefit {
 namespace {
 
-/// Of candidates that meet the laboratory alike the one nearer to the middle of the bounds is the more plausible: each
-/// coordinate counts with a prior of this weight, normal about the middle with half the range as its deviation.
+/// Of candidates that meet the laboratory equally well the one nearer to the middle of the bounds is more plausible:
+/// each coordinate has a prior of this weight, normal about the middle, with half the range as standard deviation.
 constexpr double weight_of_middle = 0.1;
 
-constexpr double least_share = 0.05;  // of rejected heaps: a smaller one is not told from none
+constexpr double least_share = 0.05;  // of rejected heaps: a smaller one cannot be told from none
 
-/// What is confirmed is a mean over so many packings, and it may be off by half a tolerance.
+/// A candidate is confirmed by a mean over this many packings; an error of half a tolerance in it is harmless.
 constexpr double packings_of_a_mean = 8;
 constexpr double harmless_share = 0.5;
 
-/// Of a reading that is further off than so many tolerances the logarithm may be learnt.
+/// Residuals beyond this many tolerances may be compressed.
 constexpr double far_off = 4;
 
-/// What may be learnt in place of a residual: a heap that stands is 200 mm off or 210, and a model that has to explain
-/// that cliff says less of the heaps near the laboratory's. Continuous, and so is its slope.
+/// A residual with its far part on a logarithmic scale; continuous with its slope. Where a heap stands whole, 200 mm
+/// off or 210, that difference does not matter, and a model that has to follow the cliff is less accurate near the
+/// laboratory.
 double compressed(double residual, double far) {
   if (std::abs(residual) <= far) return residual;
   return std::copysign(far * (1 + std::log(std::abs(residual) / far)), residual);
@@ -63,13 +64,13 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
   if (failed.sum() > 0) failures_.emplace(all, failed);
 }
 
-/// Some readings are a cliff, others a slope all the way, which a logarithm would only bend: concrete mix 66 was met by
-/// neither of two searches that always learnt it, and the two-step twin as little.
+/// Some readings have a cliff; others are smooth, and a logarithm would only bend them: two searches that always
+/// compressed met neither concrete mix 66 nor the two-step twin.
 void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far) {
   if (values.cwiseAbs().maxCoeff() <= far) return;
   const Eigen::VectorXd nearer = values.unaryExpr([&](double residual) { return compressed(residual, far); });
   const GaussianProcess model_of_nearer(points, nearer);
-  // A density of the residuals themselves: that of what is learnt, times its slope.
+  // Likelihood of the residuals themselves: that of the compressed ones times the derivative of the compression.
   const double slopes = (far / values.array().abs()).min(1).log().sum();
   std::optional<GaussianProcess>& model = models_.back();
   if (model_of_nearer.log_likelihood() + slopes <= model->log_likelihood()) return;
@@ -77,7 +78,8 @@ void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen
   values = nearer;
 }
 
-/// Where packings scatter, a simulation says less of the mean: the residual is learnt again with that.
+/// Where packings disagree, a simulation says less about the mean: the residual is learnt a second time, with
+/// precisions.
 void Surrogate::learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance) {
   std::optional<GaussianProcess>& model = models_.back();
   std::optional<ReplicateVariance>& variance = replicate_variances_.back();
@@ -173,7 +175,8 @@ std::vector<double> Surrogate::within(std::span<const Eigen::VectorXd> bounds, c
 double Surrogate::MisfitPosterior::improvement(double bound) const {
   bound -= certain_;
   if (bound <= 0) return 0;
-  constexpr double narrow = 1e8;  // shape beyond which the gamma distribution is its mean, and its sums do not converge
+  constexpr double narrow =
+      1e8;  // shape beyond which the gamma distribution is a point mass, and its series do not converge
   const double shape = mean_ * mean_ / variance_, place = bound * mean_ / variance_;
   if (!(shape < narrow)) return std::max(0.0, bound - mean_);
   return std::max(0.0, bound * boost::math::gamma_p(shape, place) - mean_ * boost::math::gamma_p(shape + 1, place));
@@ -199,7 +202,7 @@ double Surrogate::noise() const {
 }
 
 Improvement maximise_expected_improvement(const Surrogate& surrogate, double misfit, const UnitPoint& start) {
-  constexpr double slope = 1e-4;  // leads out of where no improvement is in sight
+  constexpr double slope = 1e-4;  // leads out of regions without expected improvement
   const auto expected_least = [&](const UnitPoint& point) {
     const Surrogate::MisfitPosterior misfit_posterior = surrogate.misfit_posterior(point);
     return misfit - misfit_posterior.improvement(misfit) + slope * misfit_posterior.mean();

@@ -11,79 +11,82 @@
 
 namespace pastefit {
 
-/// The simulations' stand-in: answers in microseconds what the residuals of a point are likely to be. The misfit is the
-/// mean of its misfit_posterior plus the largest misfit seen times the likely share of failures, so that its minimum
-/// lies where something is known, little fails, and packings agree. It never fails. Each residual is learnt from the
-/// simulations that took its reading and that a laboratory would not reject; from all, where it would reject every one.
-/// A residual that none took is expected to be met.
+/// Predicts the residuals of a point, and half the sum of their squares, the misfit, in microseconds. The mean of the
+/// predicted misfit grows with the predictive variance, with the probability of a failure times the largest misfit
+/// seen, and with the disagreement of packings, so that its minimum lies where much is known, little fails, and
+/// packings agree. Evaluation cannot fail: nothing is simulated. Each residual is learnt from the simulations that took
+/// its reading and that a laboratory would not reject; from all of them, if it would reject every one. A residual that
+/// no simulation took is predicted to be zero.
 class Surrogate {
  public:
-  /// `seen`: finished simulations, each on one packing, at least one of them feasible. `tolerances`: of each residual,
-  /// in its own unit; of a residual beyond four of them the logarithm is learnt and answered if it is likelier
-  /// (a warped process: Snelson, Rasmussen & Ghahramani 2004), so that a misfit is true near the laboratory and may be
-  /// too small far off. One of 0, or that is not given, is learnt as it is and may scatter as it likes.
-  /// `rejected_share`: of heaps that a laboratory may reject, at most. So large a share is as bad as a reading that is
-  /// off by its tolerance: half the square of the likely share over this one, in squares of the mean tolerance, adds to
-  /// the misfit. 1: it does not matter.
+  /// `seen`: finished simulations, each on one packing, at least one of them feasible.
+  /// `tolerances`: of each residual, in its own unit. Residuals beyond four tolerances are compressed by a logarithm,
+  /// if that makes them likelier (a warped process: Snelson, Rasmussen & Ghahramani 2004): the predicted misfit is then
+  /// right near the laboratory and too small far off. Without a tolerance, or with one of 0, a residual is learnt as it
+  /// is, and the scatter of its packings is not learnt.
+  /// `rejected_share`: largest share of heaps that a laboratory may reject. That share costs as much as one reading
+  /// that is off by its tolerance: the misfit grows by t^2 (p/rejected_share)^2/2, p the predicted share, t the root
+  /// mean square of the tolerances. 1: rejections do not matter.
   explicit Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tolerances = {}, double rejected_share = 1);
 
   int residuals() const { return static_cast<int>(models_.size()); }
-  /// What the residuals of a point are expected to be, in their own unit or compressed.
+  /// Predicted means of the residuals of a point, in their own unit or compressed.
   Eigen::VectorXd expected_residuals(const UnitPoint& point) const;
 
-  /// What the misfit of a point may be, less the typical noise of the packings: a part that is certain, and half the
-  /// sum of squared normal variables, which is nearly a gamma distribution with the same mean and variance.
+  /// Distribution of the misfit of a point, without the noise of single packings: a part that is certain, plus half the
+  /// sum of squared normal variables, approximated by a gamma distribution of the same mean and variance.
   class MisfitPosterior {
    public:
     MisfitPosterior(double certain, double mean, double variance)
         : certain_(certain), mean_(mean), variance_(variance) {}
     double mean() const { return certain_ + mean_; }
-    /// Mean of what lies below this bound: max(0, bound - misfit).
+    /// Expected improvement on a bound: mean of max(0, bound - misfit).
     double improvement(double bound) const;
 
    private:
     double certain_, mean_, variance_;
   };
-  /// Certain is what a mean over some packings is off by where they variance. Its mean includes failures and what a
-  /// point far from the middle of the bounds has to make up for (a weak prior).
+  /// The certain part is the cost of the rejected share, and half the variance of a mean over packings where packings
+  /// disagree. The rest includes the cost of failures and a weak normal prior about the middle of the bounds.
   MisfitPosterior misfit_posterior(const UnitPoint& point) const;
 
-  /// Probability that a point's residuals, less the noise of the packings, are within bounds, for each of some bounds;
-  /// residuals with a bound of 0 do not count. Shape: a bound for each residual.
+  /// For each vector of bounds, the probability that a simulation of the point ends well and the mean of every residual
+  /// over packings is within plus or minus its bound. Residuals with a bound of 0 do not count. Shape: a bound for each
+  /// residual.
   std::vector<double> within(std::span<const Eigen::VectorXd> bounds, const UnitPoint& point) const;
 
-  /// Conditions on `point` as if it had answered on so many packings as it may well do (fantasising): the mean
-  /// residuals drawn from what is known of them, without the noise of the packings; `deviates`: standard normal ones,
-  /// one for each residual. Returns them.
+  /// Conditions on drawn answers of `packings` packings at a point (fantasising): mean residuals from their predictive
+  /// distribution, without the noise of the packings; `deviates`: standard normal, one for each residual. Returns the
+  /// drawn residuals.
   Eigen::VectorXd fantasise(const UnitPoint& point, int packings, const Eigen::VectorXd& deviates);
 
-  /// Likely share of heaps that a laboratory would reject, e.g. that shear off.
+  /// Predicted share of heaps that a laboratory would reject, e.g. because they shear off.
   double rejecting(const UnitPoint& point) const;
-  /// Probability that it would reject at most so many of some heaps.
+  /// Probability that it would reject at most `rejected` of `heaps`.
   double accepted(const UnitPoint& point, int rejected, int heaps) const;
 
-  /// Misfit that the noise of one simulation is likely to cause: half the sum of the noise variances.
+  /// Expected misfit that is caused by the noise of one simulation: half the sum of the noise variances.
   double noise() const;
 
  private:
   void learn_rejections(std::span<const Response> seen, const Eigen::VectorXd& tolerances, double rejected_share);
   void compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far);
   void learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance);
-  /// Variance of the mean of some packings beyond what does no harm.
+  /// Variance of a mean over packings, as far as packings disagree by more than what is harmless.
   double variance_of_mean(std::size_t residual, const UnitPoint& point) const;
-  /// Likely share of failures.
+  /// Predicted probability of a failure.
   double failing(const UnitPoint& point) const;
 
   double worst_ = 0;
   std::vector<std::optional<GaussianProcess>> models_;  // one for each residual; none: no simulation took it
-  std::vector<std::optional<ReplicateVariance>> replicate_variances_;  // likewise; none too where it does not matter
+  std::vector<std::optional<ReplicateVariance>> replicate_variances_;  // likewise; none too without a tolerance
   std::optional<GaussianProcess> failures_;
-  std::optional<Exceedance> rejections_;  // none: no kind of test of which runs are rejected, or it does not matter
-  double rejected_misfit_ = 0;            // of a share of 1
+  std::optional<Exceedance> rejections_;  // none: this kind of test has no rejections, or they do not matter
+  double rejected_misfit_ = 0;            // cost of a predicted share of 1
 };
 
-/// The point that is expected to improve most on a misfit (Jones, Schonlau & Welch 1998), failures counted as no
-/// improvement, and how much that is.
+/// The point of largest expected improvement on a misfit (Jones, Schonlau & Welch 1998), and that improvement. Failures
+/// add the largest misfit seen, in proportion to their probability.
 struct Improvement {
   UnitPoint point;
   double expected = 0;
