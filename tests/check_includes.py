@@ -24,7 +24,7 @@ SLUMP_FILES = {
     "laboratory/slump.h", "laboratory/slump_curves.cpp", "laboratory/slump_curves.h", "laboratory/slump_drawing.cpp", "laboratory/slump_template.cpp", "laboratory/test.cpp",
     "laboratory/test.h", "laboratory/yield_stress.cpp", "laboratory/yield_stress.h",
     "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
-    "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/lammps_tables.cpp", "exports/liggghts.cpp", "exports/liggghts_deck.cpp",
+    "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/liggghts.cpp", "exports/liggghts_deck.cpp",
     "exports/liggghts_deck.h", "exports/elasto_plastic.cpp", "exports/mercurydpm.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",
     "python/tasks.cpp", "study/parameters.cpp", "study/slump_lab_template.cpp", "study/slump_lab_template.h",

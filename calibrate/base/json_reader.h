@@ -12,42 +12,14 @@
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/field.h"
 #include "calibrate/base/json_document.h"
 #include "core/result.h"
 
 namespace pastefit {
 
-/// No quantity of a file is larger: squares and products of a few of them stay finite.
-inline constexpr double largest_quantity = 1e15;
-
-/// The admissible values of a number, in the unit of its key.
-struct Range {
-  double smallest = -largest_quantity;
-  double largest = largest_quantity;
-  bool open = false;  ///< `smallest` itself is refused
-};
-
 /// "must be 1 to 5000 mm", for remedies.
 std::string text_of(const Range& range, std::string_view unit = "");
-
-/// Whether an object must have the key.
-enum class Need { required, optional };
-
-/// In the place of `Need`: an optional key that is left out where its value is the default one, which the variable has
-/// before it is read.
-template <class T>
-struct Default {
-  T value;
-};
-template <class T>
-Default(T) -> Default<T>;
-
-/// A word of a file and the value it stands for.
-template <class T>
-struct Named {
-  std::string_view name;
-  T value;
-};
 
 /// Reads one JSON object strictly, into variables that keep their value when the key is absent or wrong.
 /// Each call names one key, with all that is known of it; that call is the only description of the field.

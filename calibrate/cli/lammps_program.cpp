@@ -14,7 +14,7 @@
 #include "calibrate/base/shell_word.h"
 #include "calibrate/cli/child_process.h"
 #include "calibrate/cli/standard_output.h"
-#include "calibrate/exports/lammps_style.h"
+#include "calibrate/exports/lammps_deck.h"
 
 namespace pastefit {
 

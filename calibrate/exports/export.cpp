@@ -22,11 +22,8 @@ std::vector<ExportWall> walls_of(const Test& test) {
 
 std::span<const Exporter> exporters() {
   static constexpr std::array kExporters{
-      Exporter{"lammps", "deck for LAMMPS, and the card's laws as styles for it: slump test, or two grains",
+      Exporter{"lammps", "deck for LAMMPS, and the engine's laws as a style for it: slump test, or two grains",
                export_lammps},
-      Exporter{"lammps-tables",
-               "deck for LAMMPS as it stands, the attraction as tables: slump test (step 1), or two grains",
-               export_lammps_tables},
       Exporter{"liggghts", "deck for LIGGGHTS, with its nearest law: slump test (step 1), or two grains",
                export_liggghts},
       Exporter{"yade", "Python module and scripts for Yade: slump test (step 1), or two grains", export_yade},

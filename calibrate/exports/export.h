@@ -86,7 +86,6 @@ std::span<const Exporter> exporters();
 Result<Exporter> exporter_named(const std::string& name);
 
 Result<Export> export_lammps(const ExportScene& scene);
-Result<Export> export_lammps_tables(const ExportScene& scene);
 Result<Export> export_liggghts(const ExportScene& scene);
 Result<Export> export_yade(const ExportScene& scene);
 Result<Export> export_mercurydpm(const ExportScene& scene);

@@ -17,6 +17,8 @@ struct KnownLaws {
   bool viscosity = false;                    ///< lubrication by the liquid of a bridge
 };
 
+inline const std::vector<NormalLaw> kAllNormal{NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt,
+                                               NormalLaw::sjkr,  NormalLaw::epa, NormalLaw::luding};
 inline const std::vector<RollingModel> kAllRolling{RollingModel::none, RollingModel::spring_dashpot,
                                                    RollingModel::constant_torque};
 inline const std::vector<BridgeShape> kAllAttractions{BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear,

@@ -1,13 +1,25 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "calibrate/base/data_folders.h"
 #include "calibrate/base/format.h"
+#include "calibrate/base/object_writer.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
-#include "calibrate/exports/lammps_style.h"
-#include "calibrate/exports/parameter_table.h"
-#include "calibrate/verify/force_curve.h"
+#include "calibrate/laboratory/names.h"
 
 namespace pastefit {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
 
 namespace {
 
@@ -15,15 +27,10 @@ namespace {
 const char* const kGuard = R"guard(if "! $(is_defined(variable,pastefit_style))" then &
   "print 'This deck needs pair style pastefit: build style/ as NOTES.txt says, and run lmp_pastefit in place of lmp.'" &
   "quit 2"
-if "${pastefit_style} != 1" then &
-  "print 'This deck was written for version 1 of pair style pastefit: build lmp_pastefit from the style/ beside it.'" &
+if "${pastefit_style} != 2" then &
+  "print 'This deck was written for version 2 of pair style pastefit: build lmp_pastefit from the style/ beside it.'" &
   "quit 2"
 )guard";
-
-const char* const kConventions = R"(#
-# Conventions. Names and numbers of the laws are those of the card; style/README.md explains them.
-#
-)";
 
 const std::string kBuild =
     "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
@@ -33,61 +40,35 @@ const std::string kBuild =
     "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
     "    in.two_grains\n";
 
-/// " &" and a name with its number, on a line of its own.
-std::string number(const char* name, double value) {
-  return format(" &\n             %s ", name) + exact(value);
-}
-
-template <class T, std::size_t N>
-std::string word(const char* name, T value, const std::array<Named<T>, N>& words) {
-  return format(" &\n             %s ", name) + word_of(value, words);
-}
-
-std::string bridge_words(const Bridge& bridge) {
-  std::string out = word("bridge", bridge.shape, bridge_shapes);
-  if (bridge.shape == BridgeShape::none) return out;
-  if (bridge.shape == BridgeShape::capillary)
-    out += number("liquid_volume_m3", bridge.liquid_volume_m3) +
-           number("surface_tension_n_m", bridge.surface_tension_n_m) +
-           number("contact_angle_rad", bridge.contact_angle_rad);
-  else
-    out += number("c_n", bridge.c_n) + number("d_c_m", bridge.d_c_m);
-  if (bridge.shape == BridgeShape::polynomial) out += number("a_n_m2", bridge.a_n_m2) + number("b_n_m", bridge.b_n_m);
-  out += word("formation", bridge.formation, bridge_formations);
-  if (bridge.formation == BridgeFormation::film) out += number("offset_m", bridge.offset_m);
-  if (bridge.viscosity_pa_s > 0) out += number("viscosity_pa_s", bridge.viscosity_pa_s);
+/// What a card says of a law, as words of a command: " &" and each name with its value on a line of its own, or all on
+/// one line. Names inside of an object have its path.
+std::string words_of(const json& object, const char* between, const std::string& path = "") {
+  std::string out;
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_object())
+      out += words_of(value, between, path + name + ".");
+    else if (!value.is_null())
+      out += between + path + name + " " + (value.is_string() ? value.get<std::string>() : exact(value.get<double>()));
+  }
   return out;
 }
 
-/// Of Hertz nothing: the style's default.
-std::string normal_words(const ContactModel& contact) {
-  if (!yields(contact.normal)) return {};
-  return word("normal", contact.normal, normal_laws) + number("plasticity_ratio", contact.plasticity_ratio) +
-         number("adhesion_ratio", contact.adhesion_ratio);
-}
-
-/// Of Hertz, which has no reserve, net and total are the same.
-FrictionBasis basis_of(const ContactModel& contact) {
-  const bool net = contact.friction_basis == FrictionBasis::net;
-  return net && !yields(contact.normal) ? FrictionBasis::total : contact.friction_basis;
-}
+constexpr const char* kOnALine = " &\n             ";
 
 std::string pair_style(const ExportScene& scene) {
-  const ContactModel& contact = scene.contact();
-  const double radius = scene.radius_m();
-  return "pair_style   pastefit" + number("reference_radius_m", radius) +
-         number("youngs_modulus_pa", contact.youngs_modulus_pa) + number("poissons_ratio", contact.poissons_ratio) +
-         number("restitution", contact.restitution) + number("friction", contact.friction) + normal_words(contact) +
-         word("friction_basis", basis_of(contact), friction_bases) +
-         number("rolling_friction", contact.rolling_friction) + word("rolling", contact.rolling, rolling_models) +
-         number("cohesion_n", cohesion_n(contact, {radius, radius, radius})) + bridge_words(contact.bridge) +
-         "\npair_coeff   * *\n";
+  json contact;
+  ObjectWriter writer(contact);
+  describe_contact(writer, scene.contact());
+  if (scene.contact().bridge.shape == BridgeShape::none) contact.erase("bridge");
+  return std::string("pair_style   pastefit") + kOnALine + "reference_radius_m " + exact(scene.radius_m()) +
+         words_of(contact, kOnALine) + "\npair_coeff   * *\n";
 }
 
 std::string wall_words(const WallContact& wall) {
-  return format("youngs_modulus_pa %.17g poissons_ratio %.17g restitution %.17g friction %.17g ",
-                wall.youngs_modulus_pa, wall.poissons_ratio, wall.restitution, wall.friction) +
-         format("rolling_friction %.17g cohesion_factor %.17g", wall.rolling_friction, wall.cohesion_factor);
+  json words;
+  ObjectWriter writer(words);
+  describe_wall(writer, wall);
+  return words_of(words, " ").substr(1);
 }
 
 /// LAMMPS of 2025 has the law, Debian's does not; not run by us.
@@ -103,19 +84,60 @@ std::string note_of_granular(const ExportScene& scene) {
          "its tangential spring feels the contact radius of the plastic overlap.";
 }
 
+/// The engine's laws and their names, as calibrate/CMakeLists.txt installs them beside the style.
+constexpr std::array<std::array<std::string_view, 2>, 6> kLaws{{{"core/laws", ".h"},
+                                                                {"core/laws", ".cpp"},
+                                                                {"core", "/inline.h"},
+                                                                {"core", "/vec3.h"},
+                                                                {"calibrate/base", "/field.h"},
+                                                                {"calibrate/laboratory", "/names.h"}}};
+
+bool has_laws(const std::vector<ExportFile>& files) {
+  return std::ranges::count(files, "core/laws/contact.h", &ExportFile::name) > 0;
+}
+
+/// Adds the files of a folder and below it that end so, with their path from `root`.
+void add_files(const fs::path& root, const fs::path& folder, std::string_view ending, std::vector<ExportFile>& files) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder, error)) {
+    const std::string name = entry.path().lexically_relative(root).generic_string();
+    if (!entry.is_regular_file() || !name.ends_with(ending)) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    files.push_back({name, std::string(std::istreambuf_iterator<char>(in), {})});
+  }
+}
+
 }  // namespace
 
+Result<std::vector<ExportFile>> lammps_style() {
+  for (const fs::path& data : data_folders()) {
+    std::vector<ExportFile> files;
+    add_files(data / "lammps", "", "", files);
+    // An installed folder has the laws in it; where the sources lie they are beside the data.
+    if (!has_laws(files))
+      for (const auto& [folder, ending] : kLaws)
+        add_files(data.lexically_normal().parent_path(), folder, ending, files);
+    std::ranges::sort(files, {}, &ExportFile::name);
+    if (has_laws(files)) return files;
+  }
+  return Fault{"--to lammps", "the sources of its style were not found",
+               "set PASTEFIT_DATA_DIR to the data folder of pastefit"};
+}
+
+std::string lammps_style_build(const std::string& program) {
+  return "mpicxx -O3 -std=c++20 -I. -isystem /usr/include/lammps *.cpp core/laws/*.cpp -o " + program + " -llammps";
+}
+
 Result<Export> export_lammps(const ExportScene& scene) {
-  const KnownLaws known{
-      "pair style pastefit", {NormalLaw::hertz, NormalLaw::epa, NormalLaw::luding}, kAllRolling, kAllAttractions, true};
+  const KnownLaws known{"pair style pastefit", kAllNormal, kAllRolling, kAllAttractions, true};
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
-  LammpsLaws laws{"lmp_pastefit", kGuard, kConventions, pair_style(scene), {}, "wall/pastefit @", "", true};
+  LammpsLaws laws{kGuard, pair_style(scene), {}};
   for (const auto& [name, wall] : walls_in_deck(scene)) laws.walls.push_back({name, wall_words(wall)});
   Export out;
   out.notes.push_back(
-      "The laws are the card's, memory of bridges and walls included. LAMMPS integrates them with steps of a tenth of "
+      "The laws are pastefit's own, memory and walls included. LAMMPS integrates them with steps of a tenth of "
       "the Rayleigh time, without pastefit's protection of grains that have many damped contacts: do not lengthen "
       "them.");
   if (yields(scene.contact().normal)) out.notes.push_back(note_of_granular(scene));

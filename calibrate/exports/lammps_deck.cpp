@@ -31,19 +31,18 @@ unfix        over
 )";
 const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
-std::string header(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
+std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
   if (!notes.empty()) out += "#\n# What is lost or changed:\n";
   for (const auto& note : notes) out += deck_comment("- " + note);
-  return out + format("#\n#   %s -in DECK                  one core\n#   mpirun -np 2 %s -in DECK     two ranks\n",
-                      laws.program.c_str(), laws.program.c_str());
+  return out +
+         "#\n#   lmp_pastefit -in DECK                  one core\n#   mpirun -np 2 lmp_pastefit -in DECK     two "
+         "ranks\n";
 }
 
 /// "fix ..." of a wall, whose law is the variable NAME_law.
-std::string wall_fix(const LammpsLaws& laws, const std::string& name) {
-  std::string out = "fix          " + name + " all " + laws.before_law + " ${" + name + "_law}" + laws.after_law + "\n";
-  for (std::size_t at = 0; (at = out.find('@', at)) != std::string::npos;) out.replace(at, 1, name);
-  return out;
+std::string wall_fix(const std::string& name) {
+  return "fix          " + name + " all wall/pastefit " + name + " ${" + name + "_law}\n";
 }
 
 std::string deck_begin(const char* comment) {
@@ -107,12 +106,12 @@ double deck_time_step_s(const ExportScene& scene) {
 
 std::string material_file(const ExportScene& scene, const LammpsLaws& laws) {
   std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
-  out += laws.conventions;
+  out += "#\n# Names and numbers of the laws are those of the card; style/README.md explains them.\n#\n";
   out += "# Include it where the grains are there (read_data, create_box), in a script with:\n";
   out += "#   units si, atom_style sphere, newton off, comm_modify mode single vel yes\n";
   out += format("#   density of a grain %.9g kg/m^3, mean radius %.9g m, time steps of %.6g s at most\n",
                 scene.grain_density_kg_m3, scene.radius_m(), deck_time_step_s(scene));
-  for (const auto& wall : laws.walls) out += "#   " + wall_fix(laws, wall.name);
+  for (const auto& wall : laws.walls) out += "#   " + wall_fix(wall.name);
   out += "\n" + laws.guard + laws.pairs;
   for (const auto& wall : laws.walls) out += "variable     " + wall.name + "_law string \"" + wall.law + "\"\n";
   return out;
@@ -121,13 +120,13 @@ std::string material_file(const ExportScene& scene, const LammpsLaws& laws) {
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
   const auto& mould = test.mould;
-  std::string out = header(scene, laws, notes) + deck_begin("\n# the scene");
+  std::string out = header(scene, notes) + deck_begin("\n# the scene");
   out += "processors   * * 1\nread_data    grains.data\ninclude      material.inc\n";
   out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
                 0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
   out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
   const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  const bool falls = test.drop && test.drop->motion == TableMotion::hinged && laws.hinge;
+  const bool falls = test.drop && test.drop->motion == TableMotion::hinged;
   if (falls) out += "variable     tilt equal 0\n";
   out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out", -half, half, -half, half,
                 -0.5 * kGroundDepth);
@@ -136,7 +135,7 @@ std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const s
   out += "variable     rise equal 0\n";
   out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
                 mould.base_radius_m, mould.top_radius_m, mould.height_m);
-  for (const auto& wall : laws.walls) out += wall_fix(laws, wall.name);
+  for (const auto& wall : laws.walls) out += wall_fix(wall.name);
   out += "compute      top all reduce max z\n";
   out += "variable     speed equal sqrt(2*ke/mass(all))   # root mean square [m/s]\n";
   out += "thermo_style custom step time atoms ke c_top v_speed\nthermo       1000\n";
@@ -171,10 +170,10 @@ std::vector<std::string> lammps_dumps(const ExportScene& scene) {
   return names;
 }
 
-std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
+std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
   const double radius = scene.sizes.radii_m[0];
   const auto legs = two_grain_legs(scene.contact(), radius);
-  std::string out = header(scene, laws, notes);
+  std::string out = header(scene, notes);
   out += deck_begin(
       "\n# force of two grains against their distance; prints \"apart r F\", then \"back r F\"; of a law\n"
       "# with a memory of the overlap \"path r F\"");
@@ -211,9 +210,9 @@ std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
 std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
                                     const std::vector<std::string>& notes, std::span<const double> radii) {
   const ExportFile material{"material.inc", material_file(scene, laws)};
-  if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, laws, notes)}, material};
+  if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, notes)}, material};
   return {{kLammpsDeck, slump_deck(scene, laws, notes)},
-          {"in.two_grains", two_grains_deck(scene, laws, {})},
+          {"in.two_grains", two_grains_deck(scene, {})},
           material,
           {"grains.data", grains_data(scene, radii)}};
 }

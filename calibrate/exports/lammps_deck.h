@@ -14,22 +14,27 @@ struct LammpsWall {
   std::string law;   ///< words of the fix
 };
 
-/// The contact laws of a scene in LAMMPS's words; everything else of a deck does not depend on them.
+/// The contact laws of a scene in the words of pair style pastefit (data/lammps); everything else of a deck does not
+/// depend on them.
 struct LammpsLaws {
-  std::string program;                ///< that runs the deck
-  std::string guard;                  ///< commands that stop a program which would misread the deck
-  std::string conventions;            ///< comment
-  std::string pairs;                  ///< pair style and coefficients
-  std::vector<LammpsWall> walls;      ///< in the order of `walls_in_deck`
-  std::string before_law, after_law;  ///< of "fix NAME all BEFORE ${NAME_law} AFTER", @ for the name of the region
-  bool hinge = false;                 ///< fix hinge/pastefit is there
+  std::string guard;              ///< commands that stop a program which would misread the deck
+  std::string pairs;              ///< pair style and coefficients
+  std::vector<LammpsWall> walls;  ///< in the order of `walls_in_deck`
 };
+
+/// The sources of the style, with the headers of the engine's laws that it is made of: `lammps` of the data folders,
+/// and beside it, or where the sources lie, `core` and `calibrate`. Error: in none of them.
+Result<std::vector<ExportFile>> lammps_style();
+
+/// The command of a shell, in the folder of these sources, that builds LAMMPS with the style as this file, where
+/// Debian's liblammps-dev is installed.
+std::string lammps_style_build(const std::string& program);
 
 /// material.inc: the laws alone, to be included once the grains are there, by the decks and by scripts of others.
 std::string material_file(const ExportScene& scene, const LammpsLaws& laws);
 
-/// The slump test: relax in the mould, lift, rest; and, where the laws have a hinge and the card a drop plate, step 2:
-/// turn the plate up, rest, let it fall, rest. Notes become comments.
+/// The slump test: relax in the mould, lift, rest; and, where the card has a drop plate, step 2: turn the plate up,
+/// rest, let it fall, rest. Notes become comments.
 std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
 
 /// The file of the deck of the whole test.
@@ -42,7 +47,7 @@ std::vector<std::string> lammps_dumps(const ExportScene& scene);
 /// Two grains of the first class on their way (`two_grain_legs`): from an overlap to beyond rupture, and back. Prints
 /// "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive; of elasto-plastic grains "path
 /// DISTANCE FORCE". Where there is no other deck it has the notes.
-std::string two_grains_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
+std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes);
 
 /// material.inc, in.two_grains and, of a slump test, in.slump and grains.data with these radii.
 std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,

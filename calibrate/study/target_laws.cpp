@@ -64,11 +64,14 @@ constexpr std::array<StartingLaws, 4> known_laws{{
     {"sjkr", "sjkr", "none", of_sjkr, "LIGGGHTS' simplified JKR"},
 }};
 
-constexpr std::array<TargetLaws, 7> known_targets{{
+constexpr std::array<TargetLaws, 9> known_targets{{
     {"lammps", "lammps", "bridge", "spring_dashpot", "total",
-     "LAMMPS runs every law of these with the style that the export brings"},
+     "LAMMPS runs these laws, as every law here, with the style that the export brings"},
     {"lammps", "lammps", "epa", "spring_dashpot", "elastic",
      "LAMMPS runs elasto-plastic adhesion with the style that the export brings"},
+    {"lammps", "lammps", "jkr", "spring_dashpot", "total", "LAMMPS runs JKR with the style that the export brings"},
+    {"lammps", "lammps", "sjkr", "spring_dashpot", "elastic",
+     "LAMMPS runs simplified JKR with the style that the export brings"},
     {"liggghts", "liggghts", "sjkr", "spring_dashpot", "elastic", "LIGGGHTS has SJKR, and no polynomial bridge"},
     {"liggghts", "liggghts", "epa", "spring_dashpot", "elastic",
      "LIGGGHTS has elasto-plastic adhesion with linear springs, which match the card's at one overlap"},

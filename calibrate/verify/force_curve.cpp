@@ -55,37 +55,12 @@ double repulsion_n(const ContactModel& contact, const GrainPair& pair, double ov
   return 4.0 / 3.0 * modulus * std::sqrt(pair.effective_radius_m()) * std::pow(overlap, 1.5);
 }
 
-double resting_overlap_m(const ContactModel& contact, const GrainPair& pair, double load) {
-  const double force = load + cohesion_n(contact, pair),
-               passage = kPassage * pair.reference_radius_m * pair.size_scale();
-  const double deep = force > 0 ? std::pow(force / repulsion_n(contact, pair, 1.0), 2.0 / 3.0) : 0;
-  if (contact.bridge.shape == BridgeShape::none || deep >= passage) return deep;
-  double least = 0, most = passage;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (least + most);
-    const bool pressed = repulsion_n(contact, pair, middle) > load + attraction_n(contact, pair, middle);
-    (pressed ? most : least) = middle;
-  }
-  return most;
-}
-
 BridgeGaps bridge_gaps(const ContactModel& contact, const GrainPair& pair) {
   const Bridge& bridge = contact.bridge;
   if (bridge.shape == BridgeShape::none) return {};
   const double s = pair.size_scale();
   const double shells = bridge.formation == BridgeFormation::film ? 2 * bridge.offset_m : 0.0;
   return {s * shells, s * rupture_gap(bridge, pair.reference_radius_m)};
-}
-
-double bridge_work_j(const ContactModel& contact, const GrainPair& pair, double from, double to) {
-  constexpr int kIntervals = 2000;
-  const double h = (to - from) / kIntervals;
-  double sum = 0;
-  for (int i = 0; i <= kIntervals; ++i) {
-    const double weight = i == 0 || i == kIntervals ? 1 : (i % 2 == 1 ? 4 : 2);
-    sum += weight * attraction_n(contact, pair, -std::min(from + i * h, to));
-  }
-  return sum * h / 3;
 }
 
 std::vector<ForcePoint> force_table(const ContactModel& contact, const GrainPair& pair, double deepest, int points) {

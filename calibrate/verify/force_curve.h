@@ -36,20 +36,11 @@ double attraction_n(const ContactModel& contact, const GrainPair& pair, double o
 /// Elastic repulsion 4/3 E* sqrt(R*) d^(3/2) [N], zero without overlap.
 double repulsion_n(const ContactModel& contact, const GrainPair& pair, double overlap_m);
 
-/// Overlap at which repulsion and attraction balance two grains, and `load_n` more presses on them [m].
-double resting_overlap_m(const ContactModel& contact, const GrainPair& pair, double load_n);
-
 /// Gaps of a pair at which a bridge forms and ruptures [m]; both zero without bridge.
 struct BridgeGaps {
   double formation_m = 0, rupture_m = 0;
-  /// A bridge that ruptures farther out than it forms: the force in between depends on the past.
-  bool remembers() const { return rupture_m > formation_m * (1 + 1e-9); }
 };
 BridgeGaps bridge_gaps(const ContactModel& contact, const GrainPair& pair);
-
-/// Work of the bridge from gap `from_m` to gap `to_m` [J], the integral of its attraction; Simpson's rule on 2,000
-/// intervals, exact for the polynomial.
-double bridge_work_j(const ContactModel& contact, const GrainPair& pair, double from_m, double to_m);
 
 /// One row of a force table.
 struct ForcePoint {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "atom.h"
+#include "neigh_list.h"
 
 using namespace LAMMPS_NS;
 
@@ -49,7 +50,7 @@ int ContactMemory::pack_exchange(int grain, double* buffer) {
   for (const Entry& entry : entries) {
     buffer[n++] = static_cast<double>(entry.key);
     std::memcpy(buffer + n, &entry.history, sizeof entry.history);
-    n += ContactHistory::size;
+    n += kHistoryNumbers;
   }
   return n;
 }
@@ -61,7 +62,7 @@ int ContactMemory::unpack_exchange(int grain, double* buffer) {
   for (Entry& entry : entries) {
     entry.key = static_cast<tagint>(buffer[n++]);
     std::memcpy(static_cast<void*>(&entry.history), buffer + n, sizeof entry.history);
-    n += ContactHistory::size;
+    n += kHistoryNumbers;
   }
   return n;
 }
@@ -95,6 +96,49 @@ double ContactMemory::memory_usage() {
   double bytes = static_cast<double>(of_grain_.capacity() * sizeof(std::vector<Entry>));
   for (const auto& entries : of_grain_) bytes += static_cast<double>(entries.capacity() * sizeof(Entry));
   return bytes;
+}
+
+int PairMemory::setmask() {
+  return FixConst::PRE_EXCHANGE | FixConst::POST_NEIGHBOR | FixConst::POST_RUN;
+}
+
+void PairMemory::pre_exchange() {
+  bring_up_to_date();
+  announce_size();
+}
+
+/// With newton off the processor of the other grain has the pair as well, and keeps its own history of it.
+void PairMemory::bring_up_to_date() {
+  if (!ahead_) return;
+  ahead_ = false;
+  const tagint* id_of = atom->tag;
+  for (auto& entries : of_grain_) entries.clear();
+  for (int ii = 0; ii < list_->inum; ++ii) {
+    const int i = list_->ilist[ii];
+    for (int jj = 0; jj < list_->numneigh[i]; ++jj) {
+      const History& history = of_pair_[first_[ii] + static_cast<std::size_t>(jj)];
+      if (is_empty(history)) continue;
+      const int j = list_->firstneigh[i][jj] & NEIGHMASK;
+      of_grain_[i].push_back({id_of[j], history});
+      if (j < atom->nlocal) of_grain_[j].push_back({id_of[i], turned(history)});
+    }
+  }
+}
+
+void PairMemory::post_neighbor() {
+  of_pair_.clear();
+  first_.clear();
+  for (int ii = 0; ii < list_->inum; ++ii) {
+    const int i = list_->ilist[ii];
+    first_.push_back(of_pair_.size());
+    for (int jj = 0; jj < list_->numneigh[i]; ++jj) {
+      of_pair_.emplace_back();
+      const tagint other = atom->tag[list_->firstneigh[i][jj] & NEIGHMASK];
+      for (const Entry& entry : of_grain_[i])
+        if (entry.key == other) of_pair_.back() = entry.history;
+    }
+  }
+  of_pair_.emplace_back();  // rows without neighbours begin somewhere, too
 }
 
 }  // namespace pastefit_lammps

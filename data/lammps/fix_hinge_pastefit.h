@@ -1,7 +1,7 @@
 #pragma once
 
-#include "contact_law.h"
 #include "fix.h"
+#include "surfaces.h"
 
 namespace pastefit_lammps {
 

@@ -8,7 +8,7 @@ class Region;
 
 namespace pastefit_lammps {
 
-/// fix ID group wall/pastefit REGION NAME VALUE ...      the wall's own law, `WallLaw` has the names
+/// fix ID group wall/pastefit REGION NAME VALUE ...      the wall's own law, names as of a wall on a card
 ///
 /// The surface of a region as a wall, by the law of pair style pastefit; the region may move and turn, and may have
 /// open faces. A wall carries no liquid shell: a bridge to it forms at the offset of one grain. The fix's vector is
@@ -27,14 +27,14 @@ class FixWallPastefit : public ContactMemory {
   double compute_vector(int component) override;
 
  private:
-  void meet(int grain, int contact, double advance, ContactHistory& history);
+  void meet(int grain, int contact, bool stands, History& history);
   /// The entry of a face of the wall, found or new, moved to place `n` of the grain's entries.
-  ContactHistory& entry(int grain, std::size_t n, int face);
+  History& entry(int grain, std::size_t n, int face);
 
   std::string region_id_;
   LAMMPS_NS::Region* region_ = nullptr;
-  WallLaw wall_;
-  Contact contact_;
+  pastefit::WallContact wall_;
+  Surfaces surfaces_;
   double load_[6] = {};  ///< of this processor's grains on the wall
 };
 

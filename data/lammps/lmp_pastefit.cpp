@@ -5,13 +5,13 @@
 
 #include <cstdio>
 
+#include "contact_memory.h"
 #include "fix_hinge_pastefit.h"
 #include "fix_wall_pastefit.h"
 #include "force.h"
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
-#include "pair_memory.h"
 #include "pair_pastefit.h"
 
 using namespace pastefit_lammps;
@@ -31,7 +31,7 @@ LAMMPS_NS::Fix* new_fix(LAMMPS_NS::LAMMPS* lammps, int words, char** word) {
 constexpr int kLammps = 20210929;
 
 /// Of the words that pair style and fix understand; decks look for it as variable pastefit_style.
-const char* const kStyleVersion = "variable pastefit_style equal 1";
+const char* const kStyleVersion = "variable pastefit_style equal 2";
 
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   (*lammps.force->pair_map)[PairPastefit::kStyle] = &new_pair<PairPastefit>;

@@ -5,13 +5,13 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact_memory.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "pair_memory.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -42,7 +42,7 @@ PairPastefit::~PairPastefit() {
 void PairPastefit::settings(int words, char** word) {
   const std::string faults = read_law(std::vector<std::string>(word, word + words), law_);
   if (!faults.empty()) error->all(FLERR, "pair_style pastefit:" + faults);
-  contact_ = Contact(law_);
+  surfaces_ = Surfaces(law_);
 }
 
 void PairPastefit::coeff(int words, char** word) {
@@ -83,24 +83,25 @@ void PairPastefit::init_list(int id, NeighList* made) {
 
 double PairPastefit::init_one(int first, int second) {
   const double a = largest_[first], b = largest_[second];
-  return a + b > 0 ? a + b + contact_.reach(a * b / (a + b)) : contact_.reach(law_.reference_radius_m / 2);
+  return a + b > 0 ? a + b + surfaces_.reach(a * b / (a + b)) : surfaces_.reach(law_.reference_radius_m / 2);
 }
 
 void PairPastefit::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
-  const double dt = update->dt, advance = update->setupflag ? 0 : dt;
+  const double dt = update->dt;
+  const bool stands = update->setupflag;
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
-    const Vector at = vector(atom->x[i]);
+    const Vec3 at = vector(atom->x[i]);
     const double radius = atom->radius[i];
-    ContactHistory* memories = memory_->row(ii);
+    History* memories = memory_->row(ii);
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      const Vector between = vector(atom->x[j]) - at;
+      const Vec3 between = vector(atom->x[j]) - at;
       const double other = atom->radius[j];
-      ContactKinematics m;
+      Meeting m;
       m.radius = radius * other / (radius + other);
-      const double square = dot(between, between), farthest = radius + other + contact_.reach(m.radius);
+      const double square = dot(between, between), farthest = radius + other + surfaces_.reach(m.radius);
       if (square > farthest * farthest) {
         memories[jj] = {};
         continue;
@@ -110,23 +111,23 @@ void PairPastefit::compute(int eflag, int vflag) {
       m.overlap = radius + other - distance;
       const double half_depth = 0.5 * m.overlap;  // or, below zero, of the gap: lubrication acts in its middle
       const double lever_i = radius - half_depth, lever_j = other - half_depth;
-      const Vector spin_i = vector(atom->omega[i]), spin_j = vector(atom->omega[j]);
+      const Vec3 spin_i = vector(atom->omega[i]), spin_j = vector(atom->omega[j]);
       m.velocity = vector(atom->v[i]) - vector(atom->v[j]) + cross(lever_i * spin_i + lever_j * spin_j, m.normal);
       m.spin = spin_i - spin_j;
       m.twist = 0.5 * dot(spin_i + spin_j, m.normal);
       m.mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
       m.smaller_radius = std::min(radius, other);
-      const ContactForce contact_force = contact_.act(m, memories[jj], dt, advance);
-      const Vector turning = cross(m.normal, contact_force.tangential_force);
-      add(atom->f[i], contact_force.force);
-      add(atom->torque[i], lever_i * turning + contact_force.moment);
+      const Reaction reaction = surfaces_.act(m, memories[jj], dt, stands);
+      const Vec3 turning = cross(m.normal, reaction.tangential_force);
+      add(atom->f[i], reaction.force);
+      add(atom->torque[i], lever_i * turning + reaction.moment);
       if (j < atom->nlocal) {
-        add(atom->f[j], -1.0 * contact_force.force);
-        add(atom->torque[j], lever_j * turning - contact_force.moment);
+        add(atom->f[j], -1.0 * reaction.force);
+        add(atom->torque[j], lever_j * turning - reaction.moment);
       }
       if (evflag)
-        ev_tally_xyz(i, j, atom->nlocal, 0, 0, 0, contact_force.force.x, contact_force.force.y, contact_force.force.z,
-                     -between.x, -between.y, -between.z);
+        ev_tally_xyz(i, j, atom->nlocal, 0, 0, 0, reaction.force.x, reaction.force.y, reaction.force.z, -between.x,
+                     -between.y, -between.z);
     }
   }
 }

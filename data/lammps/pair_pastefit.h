@@ -1,13 +1,13 @@
 #pragma once
 
-#include "contact_law.h"
 #include "pair.h"
+#include "surfaces.h"
 
 namespace pastefit_lammps {
 
 class PairMemory;
 
-/// pair_style pastefit NAME VALUE ...      the law, `Law` has the names
+/// pair_style pastefit NAME VALUE ...      the law, names and numbers of `test.contact` on a card
 /// pair_coeff * *
 ///
 /// One law for all grains; sizes may differ. Requirements: atom_style sphere, newton off, comm_modify vel yes, grains
@@ -29,7 +29,7 @@ class PairPastefit : public LAMMPS_NS::Pair {
 
  private:
   Law law_;
-  Contact contact_;
+  Surfaces surfaces_;
   PairMemory* memory_ = nullptr;
   std::vector<double> largest_;  ///< radius of each type of grains [m]
 };

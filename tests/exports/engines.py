@@ -37,7 +37,7 @@ def styled_lammps(pastefit, deck):
 
 def command_of(target, script, pastefit, deck, ranks=1):
     """The command that runs a script of a deck, script without its suffix. Raises Missing."""
-    plain = {"lammps-tables": "lmp", "liggghts": "liggghts", "yade": "yade"}
+    plain = {"liggghts": "liggghts", "yade": "yade"}
     if target in plain and not shutil.which(plain[target]):
         raise Missing(plain[target])
     if target == "yade":

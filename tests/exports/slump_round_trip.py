@@ -2,13 +2,12 @@
 """Runs the slump test of cards in another program, from the exported deck, and in pastefit, in the same fillings, and
 compares.
 
-usage: slump_round_trip.py PASTEFIT CARD... [--to lammps|lammps-tables|liggghts|yade] [--strengths 0.3,1,2,4,10]
+usage: slump_round_trip.py PASTEFIT CARD... [--to lammps|liggghts|yade] [--strengths 0.3,1,2,4,10]
                            [--packings N] [--radius-mm R] [--ranks N] [--time-step S] [--both-steps]
-                           [--representable] [--law epa|luding] [--adhesion-ratio X]
+                           [--law epa|luding] [--adhesion-ratio X]
 
 For each factor of --strengths a card's attraction is multiplied by it, so that a family from weak to strong comes out.
-Step 1 only, unless --both-steps, which gives a card without a drop plate the usual one. --representable takes away what lammps-tables lacks: memory (bridges form where they rupture) and friction of the total
-force. With --law a card's grains are soft, yield and adhere instead (`elasto_plastic.slump_card`), with the radius of
+Step 1 only, unless --both-steps, which gives a card without a drop plate the usual one. With --law a card's grains are soft, yield and adhere instead (`elasto_plastic.slump_card`), with the radius of
 --radius-mm.
 
 Exit status 1 if some reading differs by more than noise does once in a thousand comparisons (t-interval for the
@@ -31,7 +30,7 @@ import engines
 BAND = {2: 31.6, 3: 8.61, 4: 5.96, 5: 5.04, 6: 4.59, 8: 4.14, 10: 3.92, 12: 3.79, 16: 3.65}
 
 
-def variant(card, factor, representable, both_steps):
+def variant(card, factor, both_steps):
     card = json.loads(json.dumps(card))
     material, test = card["material"], card["tests"][0]["test"]  # the test that an export takes
     contact = material["contact"]
@@ -42,11 +41,6 @@ def variant(card, factor, representable, both_steps):
         contact["cohesion_n"] *= factor
     if "strength_pa" in material["parameters"]:
         material["parameters"]["strength_pa"] *= factor
-    if representable:
-        bridge["offset_m"] = -0.5 * bridge["d_c_m"]
-        material["parameters"]["formation_ratio"] = 1
-        bridge["formation"] = "film"
-        contact["friction_basis"] = "elastic"
     if not both_steps:
         test["drop"] = None
     elif test["drop"] is None:
@@ -112,7 +106,6 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--time-step", type=float, help="of pastefit [s]; without it the default")
     parser.add_argument("--both-steps", action="store_true")
-    parser.add_argument("--representable", action="store_true")
     parser.add_argument("--law", choices=elasto_plastic.EXPONENT)
     parser.add_argument("--adhesion-ratio", type=float, default=1.0)
     options = parser.parse_args()
@@ -131,7 +124,7 @@ def main():
             if options.law:
                 elasto_plastic.slump_card(card, options.law, options.adhesion_ratio, 1e-3 * (options.radius_mm or 8))
             for factor in map(float, options.strengths.split(",")):
-                changed = variant(card, factor, options.representable, options.both_steps)
+                changed = variant(card, factor, options.both_steps)
                 file = folder / "card.json"
                 file.write_text(json.dumps(changed))
                 title = options.law or f"{source.stem}, {changed['material']['contact']['bridge']['c_n']:.3g}"

@@ -12,7 +12,7 @@ from desk import coarse_card, SOURCE, Desk, run
 
 CARD = SOURCE / "tests/calibrate/card/card.json"
 SEVERAL = CARD.with_name("several_tests.json")
-TARGETS = ["lammps", "lammps-tables", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
+TARGETS = ["lammps", "liggghts", "yade", "mercurydpm", "csv", "edem-notes"]
 
 
 class CardCommands(Desk):
@@ -71,7 +71,7 @@ class CardCommands(Desk):
             result = run("export", "--unconfirmed", coarse_card(), "--to", target, "--out", out)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("NOTES.txt", result.stdout)
-            if target in ("lammps", "lammps-tables", "liggghts", "yade"):
+            if target in ("lammps", "liggghts", "yade"):
                 self.assertIn(f"pastefit read heap.dump --card {coarse_card()}\n", result.stdout)
             self.fails(run("export", "--unconfirmed", coarse_card(), "--to", target, "--out", out), 2, "earlier result")
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")

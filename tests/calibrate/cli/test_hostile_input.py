@@ -47,7 +47,6 @@ class HostileInput(Desk):
     def test_a_title_in_a_deck_is_a_comment_of_one_line(self):
         plain, titled = coarse_card(), self.titled(coarse_card())
         for target, decks in (("lammps", ("in.slump", "in.two_grains", "material.inc")),
-                              ("lammps-tables", ("in.slump", "in.two_grains", "material.inc")),
                               ("liggghts", ("in.slump", "in.two_grains", "material.inc")), ("yade", ("material.py",))):
             with self.subTest(target):
                 for name, card in (("plain", plain), ("titled", titled)):

@@ -49,13 +49,6 @@ TEST_CASE("the curve that is exported is the one the engine acts by, for every s
   compare([&](const auto& k, double d) { return CapillaryAttraction::at<double>(k, d, s).force; });
 }
 
-TEST_CASE("the work of a bridge is the integral of its force") {
-  const auto contact = slump_of_paste().contact;
-  const auto& b = contact.bridge;
-  const double closed = -(b.a_n_m2 * std::pow(b.d_c_m, 3) / 3 + b.b_n_m * b.d_c_m * b.d_c_m / 2 + b.c_n * b.d_c_m);
-  CHECK(bridge_work_j(contact, kPair, 0, -b.d_c_m) == Approx(closed).epsilon(1e-9));
-}
-
 TEST_CASE("a force table has a row at rupture and one at touch") {
   const auto contact = slump_of_paste().contact;
   const auto table = force_table(contact, kPair, 0.1 * kRadius, 2001);
@@ -115,7 +108,7 @@ TEST_CASE("every exporter writes files, and says what it loses") {
 
 TEST_CASE("where another law stands in for the card's, the export says which one the program has itself") {
   const std::map<std::string_view, std::string> own{
-      {"lammps", ""}, {"yade", ""}, {"liggghts", "sjkr"}, {"lammps-tables", "friction_basis"}, {"edem-notes", "jkr"}};
+      {"lammps", ""}, {"yade", ""}, {"liggghts", "sjkr"}, {"edem-notes", "jkr"}};
   SlumpTest material = slump_of_paste();
   material.contact.friction_basis = FrictionBasis::total;
   for (const auto& exporter : exporters()) {
@@ -129,29 +122,13 @@ TEST_CASE("where another law stands in for the card's, the export says which one
   }
 }
 
-TEST_CASE("what LAMMPS as it stands cannot represent is said with a number") {
-  SlumpTest material = slump_of_paste();
-  material.contact.bridge.offset_m = 0.1 * -material.contact.bridge.d_c_m;
-  material.contact.friction_basis = FrictionBasis::total;
-  const auto written = export_lammps_tables(scene(material));
-  REQUIRE(written.ok());
-  const auto text = text_of(written.value());
-  // c (1 - gap/reach): from 0.2 of the reach on, 64 % of the work
-  CHECK_THAT(text, Catch::Contains("no memory") && Catch::Contains("64.0 % of the work"));
-  CHECK_THAT(text, Catch::Contains("friction is of the total normal force"));
-  material.contact.bridge.offset_m = -material.contact.bridge.d_c_m;
-  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("no memory"));
-}
-
 TEST_CASE("a law the target lacks is refused, with a remedy") {
   SlumpTest material = slump_of_paste();
   material.contact.rolling = static_cast<RollingModel>(static_cast<int>(RollingModel::last) + 1);
   material.table_wall.cohesion_factor = 0.5;
-  for (const auto write : {&export_lammps_tables, &export_yade}) {
-    const auto written = write(scene(material));
-    REQUIRE_FALSE(written.ok());
-    CHECK(written.faults().size() == 2);
-  }
+  const auto written = export_yade(scene(material));
+  REQUIRE_FALSE(written.ok());
+  CHECK(written.faults().size() == 2);
   material.contact.rolling = RollingModel::constant_torque;
   CHECK(export_liggghts(scene(material)).ok());
 }
@@ -208,17 +185,6 @@ TEST_CASE("a viscosity is written for LAMMPS's style, and refused where the targ
   }
 }
 
-TEST_CASE("sizes become types in LAMMPS's tables, each pair with its own table") {
-  auto several = scene(slump_of_paste());
-  several.packing.radii = {0.006, 0.008, 0.010};
-  several.sizes = size_classes(several.packing.radii);
-  const auto written = export_lammps_tables(several);
-  REQUIRE(written.ok());
-  const auto text = text_of(written.value());
-  CHECK_THAT(text,
-             Catch::Contains("3 atom types") && Catch::Contains("ATTRACTION_1_1") && Catch::Contains("ATTRACTION_2_3"));
-}
-
 TEST_CASE("LIGGGHTS's bridge is fitted: a bridge of its own kind is found again") {
   const SoulieBridge truth{kRadius, std::pow(0.4 * kRadius, 3), 2.5};
   // Its curve as a polynomial of second degree through touch, middle and rupture.
@@ -263,30 +229,6 @@ TEST_CASE("the notes for EDEM give numbers: shear modulus, and the surface energ
   jkr.normal = NormalLaw::jkr;
   jkr.surface_energy_j_m2 = std::stod(text.substr(text.find(before) + before.size()));
   CHECK(sticking_of(jkr, 0.5 * kRadius).at_touch_n == Approx(attraction_n(material.contact, kPair, 0)).epsilon(1e-4));
-}
-
-TEST_CASE("the deck with LAMMPS's DMT says that its friction is of the net force") {
-  SlumpTest material = slump_of_paste();
-  material.contact.bridge.shape = BridgeShape::none;
-  material.contact.normal = NormalLaw::dmt;
-  material = std::get<SlumpTest>(with_contact_of(material, default_values()));
-  for (const auto basis : {FrictionBasis::total, FrictionBasis::elastic}) {
-    material.contact.friction_basis = basis;
-    CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()),
-               Catch::Contains("LAMMPS's of the net force. Two grains that only stick hold 0 N in the deck"));
-  }
-  material.contact.friction_basis = FrictionBasis::net;
-  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("The card's friction"));
-}
-
-TEST_CASE("the deck for LAMMPS as it stands says how much lower heaps of dry grains that roll are") {
-  SlumpTest material = slump_of_paste();
-  material.contact.bridge.shape = BridgeShape::none;
-  material = std::get<SlumpTest>(with_contact_of(material, default_values()));
-  material.contact.rolling_friction = 0.1;
-  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), Catch::Contains("lower in the deck"));
-  material.contact.rolling_friction = 0;
-  CHECK_THAT(text_of(export_lammps_tables(scene(material)).value()), !Catch::Contains("lower in the deck"));
 }
 
 TEST_CASE("liquid and surface energy become parameters by the formulas of the manual") {
