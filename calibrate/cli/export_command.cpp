@@ -9,7 +9,6 @@
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/export_notes.h"
-#include "calibrate/exports/unconfirmed.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {

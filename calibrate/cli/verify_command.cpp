@@ -8,7 +8,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"
-#include "calibrate/verify/verified_cases.h"
+#include "calibrate/verify/verify.h"
 
 namespace pastefit {
 

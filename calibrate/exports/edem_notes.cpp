@@ -3,7 +3,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/known_laws.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/exports/parameter_table.h"
 #include "calibrate/verify/force_curve.h"
 

@@ -7,8 +7,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/lammps_deck.h"
-#include "calibrate/exports/liggghts_properties.h"
-#include "calibrate/exports/rolling_spring.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 

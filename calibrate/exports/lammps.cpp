@@ -12,8 +12,8 @@
 #include "calibrate/base/object_writer.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/known_laws.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/laboratory/names.h"
 
 namespace pastefit {

@@ -1,9 +1,12 @@
 #include "calibrate/exports/nearest_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "calibrate/base/fault_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/laboratory/names.h"
 #include "core/laws/constants.h"
@@ -14,6 +17,16 @@ namespace pastefit {
 namespace {
 
 using std::numbers::pi;
+
+template <class T, std::size_t N>
+void look(T chosen, const std::vector<T>& known, const std::array<Named<T>, N>& words, const std::string& place,
+          const std::string& key, std::string_view target, Faults& faults) {
+  if (std::ranges::count(known, chosen) > 0) return;
+  std::string list;
+  for (const T one : known) list += (list.empty() ? "" : " or ") + in_quotes(word_of(one, words));
+  faults.push_back({place, "is " + in_quotes(word_of(chosen, words)) + ", which " + std::string(target) + " lacks",
+                    "export to another target, or calibrate with " + key + " " + list});
+}
 
 /// Force at an overlap on the way apart [N], repulsion positive.
 double force_apart(NormalLaw normal, const PairConstants& pair, double effective_radius, double overlap) {
@@ -162,6 +175,40 @@ ExportFile sticking_curves(const ExportScene& scene, const ContactModel& written
     text += "\n";
   }
   return {"curves.csv", text};
+}
+
+Faults unknown_laws(const ContactModel& contact, const KnownLaws& known) {
+  Faults faults;
+  look(contact.normal, known.normal, normal_laws, "test.contact.normal", "normal", known.target, faults);
+  look(contact.rolling, known.rolling, rolling_models, "test.contact.rolling", "rolling_model", known.target, faults);
+  if (!known.attraction.empty())
+    look(contact.bridge.shape, known.attraction, bridge_shapes, "test.contact.bridge.shape", "attraction", known.target,
+         faults);
+  if (contact.bridge.viscosity_pa_s > 0 && !known.viscosity)
+    faults.push_back({"test.contact.bridge.viscosity_pa_s",
+                      "is not 0, but " + std::string(known.target) + " lacks the viscosity of a bridge",
+                      "export to another target, or calibrate with viscosity_pa_s 0"});
+  return faults;
+}
+
+double rolling_spring_lever(RollingModel rolling, double rolling_friction) {
+  return rolling == RollingModel::constant_torque ? 1 : rolling_friction;
+}
+
+std::string note_of_constant_torque(const ExportScene& scene, double load) {
+  const ContactModel& contact = scene.contact();
+  if (contact.rolling != RollingModel::constant_torque || contact.rolling_friction == 0) return {};
+  const double radius = 0.5 * scene.radius_m();
+  const PairConstants pair = grain_pair(contact, scene.radius_m());
+  const double turn = with_law(NormalLaws{}, acting(contact.normal, pair), [&](auto law) {
+    const auto normal_force = law.at(pair, std::sqrt(radius), law.overlap_under(pair, radius, load), 1.0);
+    return pair.rolling_friction * normal_force.load /
+           (2.25 * pair.normal_stiffness * normal_force.contact_radius * radius);
+  });
+  return format(
+      "The card's rolling resistance is a torque of constant size against the spin. In its place stands a spring that "
+      "slips at the same moment; two mean grains under %.3g N turn by %.2g rad until it does.",
+      load, turn);
 }
 
 }  // namespace pastefit

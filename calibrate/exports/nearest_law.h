@@ -1,11 +1,33 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/exports/export.h"
+#include "core/laws/materials.h"
+#include "core/result.h"
 
 namespace pastefit {
+
+/// The laws that a target can express. A law that is added later is not among them until its exporter says so.
+struct KnownLaws {
+  std::string_view target;  ///< as people call it
+  std::vector<NormalLaw> normal{NormalLaw::hertz};
+  std::vector<RollingModel> rolling{RollingModel::none, RollingModel::spring_dashpot};
+  std::vector<BridgeShape> attraction = {};  ///< empty: whatever the curve, as a table or a fit
+  bool viscosity = false;                    ///< lubrication by the liquid of a bridge
+};
+
+inline const std::vector<NormalLaw> kAllNormal{NormalLaw::hertz, NormalLaw::jkr, NormalLaw::dmt,
+                                               NormalLaw::sjkr,  NormalLaw::epa, NormalLaw::luding};
+inline const std::vector<RollingModel> kAllRolling{RollingModel::none, RollingModel::spring_dashpot,
+                                                   RollingModel::constant_torque};
+inline const std::vector<BridgeShape> kAllAttractions{BridgeShape::none, BridgeShape::polynomial, BridgeShape::linear,
+                                                      BridgeShape::exponential, BridgeShape::capillary};
+
+/// A fault for each law of the contact that is not known.
+Faults unknown_laws(const ContactModel& contact, const KnownLaws& known);
 
 /// Two bodies that stick, as a law of the overlap has them, on the way apart and slowly.
 struct Sticking {
@@ -49,5 +71,13 @@ ExportFile sticking_curves(const ExportScene& scene, const ContactModel& written
 
 /// Friction of two mean grains that only stick, over their coefficient, as the card has it [N].
 double held_normal_force_n(const ContactModel& contact, const Sticking& sticking);
+
+/// Lever of the spring that resists rolling, over R*: k_r = 2.25 S_n (lever R*)^2. Of a spring and dashpot mu_r, as on
+/// the card (Ai et al. 2011). In place of a constant torque, which a target lacks, stands a stiff spring, as wide as
+/// R*: it slips at the same moment after a turn that is small.
+double rolling_spring_lever(RollingModel rolling, double rolling_friction);
+
+/// How small: of two mean grains under a load [N]. Empty if the card has no constant torque.
+std::string note_of_constant_torque(const ExportScene& scene, double load_n);
 
 }  // namespace pastefit

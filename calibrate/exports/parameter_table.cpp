@@ -3,6 +3,7 @@
 #include "calibrate/base/format.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/lammps_deck.h"
+#include "calibrate/exports/nearest_law.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
@@ -187,6 +188,19 @@ R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 -
   for (const auto& row : parameter_rows(scene))
     out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
   return out;
+}
+
+Result<Export> export_csv(const ExportScene& scene) {
+  const ContactModel& contact = scene.contact();
+  const KnownLaws known{"the force table", {NormalLaw::hertz, NormalLaw::epa, NormalLaw::luding}, kAllRolling};
+  if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
+  if (yields(contact.normal))
+    return Export{law_files(scene),
+                  {"The laws: " + laws_chosen(contact) + ".",
+                   "There is no force table: the force depends on how deep the grains were pressed before."}};
+  return Export{law_files(scene),
+                {"The laws: " + laws_chosen(contact) + ".",
+                 "The force table has no memory: when a bridge forms is said by formation_gap_m in parameters.csv."}};
 }
 
 }  // namespace pastefit

@@ -12,11 +12,10 @@
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/exports/export_notes.h"
-#include "calibrate/exports/unconfirmed.h"
 #include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/verify/verified_cases.h"
+#include "calibrate/verify/verify.h"
 
 namespace pastefit::python {
 

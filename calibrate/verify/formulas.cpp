@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/verify/sticking.h"
-#include "calibrate/verify/viscous.h"
-#include "calibrate/verify/yielding.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

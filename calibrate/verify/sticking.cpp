@@ -1,8 +1,8 @@
-#include "calibrate/verify/sticking.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "calibrate/verify/formulas.h"
 
 namespace pastefit {
 

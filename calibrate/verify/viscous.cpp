@@ -1,9 +1,8 @@
-#include "calibrate/verify/viscous.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/verify/formulas.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

@@ -1,7 +1,7 @@
-#include "calibrate/verify/yielding.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "calibrate/verify/formulas.h"
 
 namespace pastefit {
 
