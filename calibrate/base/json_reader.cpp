@@ -124,24 +124,24 @@ void ObjectReader::fault(std::string_view key, std::string what, std::string rem
   faults_.push_back({place(key), std::move(what), std::move(remedy)});
 }
 
-bool ObjectReader::number(std::string_view key, double& target, const Range& range, Need need, double per_si) {
-  const json* value = find(key, need);
-  if (!value || !check_number(place(key), *value, range)) return false;
+bool ObjectReader::number(const Key& key, double& target, const Range& range, Presence presence, double per_si) {
+  const json* value = find(key, presence);
+  if (!value || !check_number(place(key), *value, range.judged_later ? Range{} : range)) return false;
   target = value->get<double>() / per_si;
   return true;
 }
 
-bool ObjectReader::nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need) {
+bool ObjectReader::nullable_number(const Key& key, std::optional<double>& target, const Range& range, Need need) {
   const json* value = find(key, need);
   if (!value) return false;
-  if (!value->is_null() && !check_number(place(key), *value, range)) return false;
+  if (!value->is_null() && !check_number(place(key), *value, range.judged_later ? Range{} : range)) return false;
   target.reset();
   if (!value->is_null()) target = value->get<double>();
   return true;
 }
 
-bool ObjectReader::integer(std::string_view key, int& target, int smallest, int largest, Need need) {
-  const json* value = find(key, need);
+bool ObjectReader::integer(const Key& key, int& target, int smallest, int largest, Presence presence) {
+  const json* value = find(key, presence);
   if (!value) return false;
   const double number = value->is_number() ? value->get<double>() : 0.5;
   if (number != std::floor(number) || number < smallest || number > largest) {
@@ -153,7 +153,7 @@ bool ObjectReader::integer(std::string_view key, int& target, int smallest, int 
   return true;
 }
 
-bool ObjectReader::integer(std::string_view key, std::uint64_t& target, Need need) {
+bool ObjectReader::integer(const Key& key, std::uint64_t& target, Need need) {
   const json* value = find(key, need);
   if (!value) return false;
   if (value->is_number_unsigned()) {
@@ -169,8 +169,8 @@ bool ObjectReader::integer(std::string_view key, std::uint64_t& target, Need nee
   return true;
 }
 
-bool ObjectReader::text(std::string_view key, std::string& target, Need need) {
-  const json* value = find(key, need);
+bool ObjectReader::text(const Key& key, std::string& target, Presence presence) {
+  const json* value = find(key, presence);
   if (!value) return false;
   if (!value->is_string()) {
     fault(key, "is " + text_of(*value), "a text in quotes");
@@ -180,8 +180,8 @@ bool ObjectReader::text(std::string_view key, std::string& target, Need need) {
   return true;
 }
 
-bool ObjectReader::flag(std::string_view key, bool& target, Need need) {
-  const json* value = find(key, need);
+bool ObjectReader::flag(const Key& key, bool& target, Presence presence) {
+  const json* value = find(key, presence);
   if (!value) return false;
   if (!value->is_boolean()) {
     fault(key, "is " + text_of(*value), "true or false");
@@ -191,7 +191,7 @@ bool ObjectReader::flag(std::string_view key, bool& target, Need need) {
   return true;
 }
 
-bool ObjectReader::numbers(std::string_view key, std::vector<double>& target, const Range& range, Need need,
+bool ObjectReader::numbers(const Key& key, std::vector<double>& target, const Range& range, Need need,
                            std::size_t least, std::size_t most) {
   const json* value = find(key, need);
   if (!value) return false;
@@ -216,7 +216,7 @@ bool ObjectReader::numbers(std::string_view key, std::vector<double>& target, co
   return good;
 }
 
-bool ObjectReader::pairs(std::string_view key, std::vector<std::array<double, 2>>& target, const Range& first,
+bool ObjectReader::pairs(const Key& key, std::vector<std::array<double, 2>>& target, const Range& first,
                          const Range& second, Need need, std::size_t least) {
   const json* value = find(key, need);
   if (!value) return false;
@@ -250,7 +250,7 @@ bool ObjectReader::pairs(std::string_view key, std::vector<std::array<double, 2>
   return good;
 }
 
-bool ObjectReader::integers(std::string_view key, std::vector<std::uint64_t>& target, Need need) {
+bool ObjectReader::integers(const Key& key, std::vector<std::uint64_t>& target, Need need) {
   const json* value = find(key, need);
   if (!value) return false;
   const auto is_whole = [](const json& entry) { return entry.is_number_unsigned(); };
@@ -263,7 +263,7 @@ bool ObjectReader::integers(std::string_view key, std::vector<std::uint64_t>& ta
   return true;
 }
 
-bool ObjectReader::texts(std::string_view key, std::vector<std::string>& target, Need need) {
+bool ObjectReader::texts(const Key& key, std::vector<std::string>& target, Need need) {
   const json* value = find(key, need);
   if (!value) return false;
   const auto is_text = [](const json& entry) { return entry.is_string(); };
@@ -274,6 +274,38 @@ bool ObjectReader::texts(std::string_view key, std::vector<std::string>& target,
   }
   target = value->get<std::vector<std::string>>();
   return true;
+}
+
+bool ObjectReader::optional_number(const Key& key, std::optional<double>& target, const Range& range) {
+  double value = 0;
+  const bool there = number(key, value, range, Need::optional);
+  if (there) target = value;
+  return there;
+}
+
+bool ObjectReader::optional_flag(const Key& key, std::optional<bool>& target) {
+  bool value = false;
+  const bool there = flag(key, value, Need::optional);
+  if (there) target = value;
+  return there;
+}
+
+void ObjectReader::for_each_object(const Key& key, Need need, const std::function<void(ObjectReader&)>& body) {
+  known_.emplace(key);
+  const json* list = content(key);
+  if (need == Need::required && (!list || (list->is_array() && list->empty())))
+    return fault(key, "there are none", "at least one: [ { ... } ]");
+  if (!list) return;
+  if (!list->is_array()) return fault(key, "is no list", "a list of objects [ { ... } ]");
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string entry = std::string(key) + "[" + std::to_string(i) + "]";
+    if (!(*list)[i].is_object()) {
+      fault(entry, "is no object", "an object { ... }");
+      continue;
+    }
+    ObjectReader reader((*list)[i], place(entry), faults_);
+    body(reader);
+  }
 }
 
 void ObjectReader::refuse(std::string_view key, std::string what, std::string remedy) {

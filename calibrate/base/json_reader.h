@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -18,6 +19,8 @@
 
 namespace pastefit {
 
+class ObjectSchema;
+
 /// "must be 1 to 5000 mm", for remedies.
 std::string text_of(const Range& range, std::string_view unit = "");
 
@@ -27,6 +30,7 @@ std::string text_of(const Range& range, std::string_view unit = "");
 /// All readers return whether the variable was set.
 class ObjectReader {
  public:
+  static constexpr bool reads = true;
   /// `value` must be an object and outlive the reader; `place` is its path, empty for the document itself.
   ObjectReader(const nlohmann::json& value, std::string place, Faults& faults);
   ~ObjectReader();
@@ -49,51 +53,68 @@ class ObjectReader {
   void fault(std::string_view key, std::string what, std::string remedy);
 
   /// target = number in the file / `per_si`, e.g. 1000 for millimetres into metres. `range` is in the key's unit.
-  bool number(std::string_view key, double& target, const Range& range, Need need, double per_si = 1);
-  bool number(std::string_view key, double& target, const Range& range, Default<double>) {
-    return number(key, target, range, Need::optional);
+  bool number(const Key& key, double& target, const Range& range, Presence presence, double per_si = 1);
+  /// An optional key, which is written if there is a value.
+  bool optional_number(const Key& key, std::optional<double>& target, const Range& range);
+  bool optional_flag(const Key& key, std::optional<bool>& target);
+  /// Derived on writing; checked, but not read.
+  void derived_number(const Key& key, const std::optional<double>&, const Range& range) {
+    double unused = 0;
+    number(key, unused, range, Need::optional);
+  }
+  /// The same of an object, which is not checked: `written()` is what to write, null for nothing; `body(fields, key)`
+  /// describes it to the schema.
+  template <class Written, class Body>
+  void derived_object(const Key& key, Written, Body) {
+    known(key);
   }
   /// Null and an absent optional key empty the target.
-  bool nullable_number(std::string_view key, std::optional<double>& target, const Range& range, Need need);
-  bool integer(std::string_view key, int& target, int smallest, int largest, Need need);
-  bool integer(std::string_view key, int& target, int smallest, int largest, Default<int>) {
-    return integer(key, target, smallest, largest, Need::optional);
-  }
-  bool integer(std::string_view key, std::uint64_t& target, Need need);
-  bool text(std::string_view key, std::string& target, Need need);
-  bool flag(std::string_view key, bool& target, Need need);
+  bool nullable_number(const Key& key, std::optional<double>& target, const Range& range, Need need);
+  bool integer(const Key& key, int& target, int smallest, int largest, Presence presence);
+  bool integer(const Key& key, std::uint64_t& target, Need need);
+  bool text(const Key& key, std::string& target, Presence presence);
+  bool flag(const Key& key, bool& target, Presence presence);
   /// A list of at least `least` numbers and, if `most` is not 0, at most that many.
-  bool numbers(std::string_view key, std::vector<double>& target, const Range& range, Need need, std::size_t least,
+  bool numbers(const Key& key, std::vector<double>& target, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
   /// A list of at least `least` pairs of numbers [first, second], the first ones ascending.
-  bool pairs(std::string_view key, std::vector<std::array<double, 2>>& target, const Range& first, const Range& second,
+  bool pairs(const Key& key, std::vector<std::array<double, 2>>& target, const Range& first, const Range& second,
              Need need, std::size_t least);
-  bool texts(std::string_view key, std::vector<std::string>& target, Need need);
+  bool texts(const Key& key, std::vector<std::string>& target, Need need);
   /// A list of whole numbers from 0, exact up to 64 bits (seeds).
-  bool integers(std::string_view key, std::vector<std::uint64_t>& target, Need need);
-  template <class T, std::size_t N>
-  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need);
-  template <class T, std::size_t N>
-  bool choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Default<T>) {
-    return choice(key, target, words, Need::optional);
-  }
+  bool integers(const Key& key, std::vector<std::uint64_t>& target, Need need);
+  template <class Target, class T, std::size_t N>
+  bool choice(const Key& key, Target& target, const std::array<Named<T>, N>& words, Presence presence);
   /// Calls `body(ObjectReader&)` for an object of this object. `remedy` is what to write where it is none; without one
   /// the keys that `body` reads are named.
   template <class Body>
-  bool object(std::string_view key, Need need, Body body, std::string_view remedy = "");
+  bool object(const Key& key, Presence presence, Body body, std::string_view remedy = "");
   /// As `object`, into `target`; null empties it, and an absent optional key leaves it as it is.
   template <class T, class Body>
-  bool nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body);
+  bool nullable_object(const Key& key, std::optional<T>& target, Need need, Body body);
   /// As `nullable_object` of an optional key.
   template <class T, class Body>
-  bool optional_object(std::string_view key, std::optional<T>& target, Body body) {
+  bool optional_object(const Key& key, std::optional<T>& target, Body body) {
     return nullable_object(key, target, Need::optional, body);
   }
+  /// A list of objects, `body(fields, one)` each; a required one has at least one, an optional one is left out when it
+  /// would be empty.
+  template <class T, class Body>
+  void list(const Key& key, std::vector<T>& target, Need need, Body body);
+  /// An object whose keys are names of its own, `body(fields, Key(one.*name), one)` each.
+  template <class T, class Body>
+  bool entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, Body body);
+  /// An object with some of these keys, for each of which `body` names the same field to `fields`.
+  template <class List, class Body>
+  bool known_entries(const Key& key, List& list, Need need, Body body);
+  /// Of an object that stands in several places: the schema describes it once, by this name.
+  void shared(std::string_view) {}
   /// Names a key that is sensible elsewhere but not here: a fault with this remedy if it is present.
   void refuse(std::string_view key, std::string what, std::string remedy);
 
  private:
   const nlohmann::json* find(std::string_view key, Need need);
+  void for_each_object(const Key& key, Need need, const std::function<void(ObjectReader&)>& body);
   /// The object at a key. In the place of another value a fault with the remedy, or with the keys that `body` reads and
   /// `instead`, what else may stand there.
   template <class Body>
@@ -115,11 +136,11 @@ class ObjectReader {
   std::set<std::string, std::less<>> known_;
 };
 
-template <class T, std::size_t N>
-bool ObjectReader::choice(std::string_view key, T& target, const std::array<Named<T>, N>& words, Need need) {
+template <class Target, class T, std::size_t N>
+bool ObjectReader::choice(const Key& key, Target& target, const std::array<Named<T>, N>& words, Presence presence) {
   std::array<std::string_view, N> names;
   for (std::size_t n = 0; n < N; ++n) names[n] = words[n].name;
-  const std::optional<std::size_t> found = word(key, names, need);
+  const std::optional<std::size_t> found = word(key, names, presence);
   if (found) target = words[*found].value;
   return found.has_value();
 }
@@ -143,8 +164,8 @@ const nlohmann::json* ObjectReader::find_object(std::string_view key, Need need,
 }
 
 template <class Body>
-bool ObjectReader::object(std::string_view key, Need need, Body body, std::string_view remedy) {
-  const nlohmann::json* value = find_object(key, need, remedy, body);
+bool ObjectReader::object(const Key& key, Presence presence, Body body, std::string_view remedy) {
+  const nlohmann::json* value = find_object(key, presence, remedy, body);
   if (!value) return false;
   ObjectReader reader(*value, place(key), faults_);
   body(reader);
@@ -152,7 +173,7 @@ bool ObjectReader::object(std::string_view key, Need need, Body body, std::strin
 }
 
 template <class T, class Body>
-bool ObjectReader::nullable_object(std::string_view key, std::optional<T>& target, Need need, Body body) {
+bool ObjectReader::nullable_object(const Key& key, std::optional<T>& target, Need need, Body body) {
   if (null(key)) {
     target.reset();
     return true;
@@ -167,6 +188,37 @@ bool ObjectReader::nullable_object(std::string_view key, std::optional<T>& targe
   ObjectReader reader(*found, place(key), faults_);
   body(reader, *target);
   return true;
+}
+
+template <class T, class Body>
+void ObjectReader::list(const Key& key, std::vector<T>& target, Need need, Body body) {
+  for_each_object(key, need, [&](ObjectReader& entry) { body(entry, target.emplace_back()); });
+}
+
+template <class T, class Body>
+bool ObjectReader::entries(const Key& key, std::vector<T>& target, std::string T::*name, Presence presence, Body body) {
+  return object(key, presence, [&](ObjectReader& entries) {
+    for (const std::string& own : entries.keys()) {
+      T& one = target.emplace_back();
+      one.*name = own;
+      body(entries, Key(own), one);
+    }
+  });
+}
+
+template <class List, class Body>
+bool ObjectReader::known_entries(const Key& key, List& list, Need need, Body body) {
+  return object(key, need, [&](ObjectReader& entries) {
+    for (auto& one : list) body(entries, one);
+  });
+}
+
+/// `entries` that are objects: `body(fields, one)` describes each.
+template <class Fields, class List, class Name, class When, class Body>
+void named_objects(Fields& fields, const Key& key, List& list, Name name, When when, Body body) {
+  fields.entries(key, list, name, when, [&](auto& entries, const Key& own, auto& one) {
+    entries.object(own, Need::required, [&](auto& entry) { body(entry, one); });
+  });
 }
 
 }  // namespace pastefit

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
@@ -11,54 +13,127 @@
 namespace pastefit {
 
 /// Writes what an `ObjectReader` reads, with the same calls, so that one description serves both ways.
-class ObjectWriter {
+template <class Json>
+class BasicObjectWriter {
  public:
-  explicit ObjectWriter(nlohmann::json& object) : object_(object) { object_ = nlohmann::json::object(); }
+  static constexpr bool reads = false;
+  explicit BasicObjectWriter(Json& object) : object_(object) { object_ = Json::object(); }
 
-  void number(const char* key, double value, const Range&, Need) { object_[key] = value; }
-  void number(const char* key, double value, const Range& range, Default<double> by_default) {
-    if (value != by_default.value) number(key, value, range, Need::optional);
+  template <class When>
+  void number(const Key& key, double value, const Range&, When when) {
+    put(key, value, when);
   }
-  void nullable_number(const char* key, const std::optional<double>& value, const Range&, Need) {
-    object_[key] = value ? nlohmann::json(*value) : nlohmann::json();
+  void nullable_number(const Key& key, const std::optional<double>& value, const Range&, Need) {
+    at(key) = value ? Json(*value) : Json();
   }
-  void integer(const char* key, std::uint64_t value, Need) { object_[key] = value; }
-  void integer(const char* key, int value, int, int, Default<int> by_default) {
-    if (value != by_default.value) object_[key] = value;
+  void optional_number(const Key& key, const std::optional<double>& value, const Range&) {
+    if (value) at(key) = *value;
   }
-  void pairs(const char* key, const std::vector<std::array<double, 2>>& value, const Range&, const Range&, Need,
+  void derived_number(const Key& key, const std::optional<double>& value, const Range& range) {
+    optional_number(key, value, range);
+  }
+  void integer(const Key& key, std::uint64_t value, Need) { at(key) = value; }
+  template <class When>
+  void integer(const Key& key, int value, int, int, When when) {
+    put(key, value, when);
+  }
+  template <class When>
+  void text(const Key& key, std::string_view value, When when) {
+    put(key, value, when);
+  }
+  template <class When>
+  void flag(const Key& key, bool value, When when) {
+    put(key, value, when);
+  }
+  void optional_flag(const Key& key, const std::optional<bool>& value) {
+    if (value) at(key) = *value;
+  }
+  void numbers(const Key& key, const std::vector<double>& value, const Range&, Need, std::size_t, std::size_t = 0) {
+    at(key) = value;
+  }
+  void integers(const Key& key, const std::vector<std::uint64_t>& value, Need) { at(key) = value; }
+  void texts(const Key& key, const std::vector<std::string>& value, Need) { at(key) = value; }
+  void pairs(const Key& key, const std::vector<std::array<double, 2>>& value, const Range&, const Range&, Need,
              std::size_t) {
-    if (!value.empty()) object_[key] = value;
+    if (!value.empty()) at(key) = value;
   }
-  template <class T, std::size_t N>
-  void choice(const char* key, T value, const std::array<Named<T>, N>& words, Need) {
+  template <class Target, class T, std::size_t N, class When>
+  void choice(const Key& key, const Target& value, const std::array<Named<T>, N>& words, When when) {
+    if (!is_written(value, when)) return;
     for (const Named<T>& word : words)
-      if (word.value == value) object_[key] = word.name;
+      if (word.value == value) at(key) = word.name;
   }
-  template <class T, std::size_t N>
-  void choice(const char* key, T value, const std::array<Named<T>, N>& words, Default<T> by_default) {
-    if (value != by_default.value) choice(key, value, words, Need::optional);
-  }
-  template <class Body>
-  void object(const char* key, Need, Body body) {
-    ObjectWriter writer(object_[key]);
+  template <class When, class Body>
+  void object(const Key& key, When when, Body body) {
+    if (!is_written(0, when)) return;
+    BasicObjectWriter writer(at(key));
     body(writer);
   }
   template <class T, class Body>
-  void nullable_object(const char* key, const std::optional<T>& value, Need, Body body) {
-    object_[key] = nlohmann::json();
+  void nullable_object(const Key& key, const std::optional<T>& value, Need, Body body) {
+    at(key) = Json();
     if (!value) return;
-    ObjectWriter writer(object_[key]);
+    BasicObjectWriter writer(at(key));
     body(writer, *value);
   }
-  /// Left out where there is none.
   template <class T, class Body>
-  void optional_object(const char* key, const std::optional<T>& value, Body body) {
+  void optional_object(const Key& key, const std::optional<T>& value, Body body) {
     if (value) nullable_object(key, value, Need::optional, body);
   }
+  template <class Written, class Body>
+  void derived_object(const Key& key, Written written, Body) {
+    if (auto object = written(); !object.is_null()) at(key) = std::move(object);
+  }
+  template <class T, class Body>
+  void list(const Key& key, const std::vector<T>& value, Need need, Body body) {
+    if (need == Need::optional && value.empty()) return;
+    at(key) = Json::array();
+    for (const T& one : value) {
+      BasicObjectWriter writer(at(key).emplace_back());
+      body(writer, one);
+    }
+  }
+  template <class T, class When, class Body>
+  void entries(const Key& key, const std::vector<T>& value, std::string T::*name, When when, Body body) {
+    object(key, when, [&](BasicObjectWriter& writer) {
+      for (const T& one : value) body(writer, Key(one.*name), one);
+    });
+  }
+  template <class List, class Body>
+  void known_entries(const Key& key, const List& list, Need need, Body body) {
+    object(key, need, [&](BasicObjectWriter& writer) {
+      for (const auto& one : list) body(writer, one);
+    });
+  }
+  void shared(std::string_view) {}
 
  private:
-  nlohmann::json& object_;
+  Json& at(const Key& key) { return object_[std::string(key.name)]; }
+  template <class T, class When>
+  void put(const Key& key, const T& value, When when) {
+    if (is_written(value, when)) at(key) = value;
+  }
+  template <class T>
+  static bool is_written(const T&, Need) {
+    return true;
+  }
+  template <class T, class By>
+  static bool is_written(const T& value, const Default<By>& by_default) {
+    return value != by_default.value;
+  }
+  template <class T>
+  static bool is_written(const T&, With with) {
+    return with.there;
+  }
+  template <class T>
+  static bool is_written(const T&, WrittenIf written) {
+    return written.holds;
+  }
+
+  Json& object_;
 };
+
+using ObjectWriter = BasicObjectWriter<nlohmann::json>;
+using OrderedObjectWriter = BasicObjectWriter<nlohmann::ordered_json>;  ///< as it is described
 
 }  // namespace pastefit

@@ -143,7 +143,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
   const Verdict verdict = verdict_on(evidence_of(shown), share);
   card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::meets,
                        fresh && verdict == Verdict::refuted};
-  card.confirmation.rejected_share = share;
+  if (fresh) card.confirmation.rejected_share = share;
   card.search = {options.strategy,
                  std::string(name_of(calibration.status)),
                  calibration.reason,

@@ -87,7 +87,8 @@ struct Confirmation {
   double misfit = 0;                    ///< largest difference of a fitted reading over its tolerance; 1 is asked for
   bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
   bool refuted = false;  ///< likewise it does not: its readings, or the heaps that a laboratory would reject
-  /// Of heaps that a laboratory would reject, at most; 1: not judged; nothing in older cards of which none was one.
+  /// Of heaps that a laboratory would reject, at most (1: not judged); nothing if the card was not judged on fresh
+  /// packings, and in cards of version 5 without such a heap.
   std::optional<double> rejected_share = std::nullopt;
 };
 
@@ -194,7 +195,7 @@ struct Interpolation {
 std::string interpolation_in_words(const Interpolation& interpolation);
 
 /// A calibrated material: what a DEM program needs to simulate it, how well it meets the laboratory, and where it
-/// comes from. File format "pastefit-card-5", `data/schema/card.schema.json`.
+/// comes from. File format "pastefit-card-6", `data/schema/card.schema.json`.
 struct Card {
   std::string title;
   Material material;
@@ -215,13 +216,12 @@ std::string title_of(const Card& card);
 /// In which people are told the card's misfit.
 MisfitUnit misfit_unit_of(const Card& card);
 
-/// The card as JSON. The numbers in SI rule; `material.parameters` is the scale-free form of the same contact laws,
-/// those that they have. A test says its bulk density, grains and contact laws only where they are not the material's.
-/// Derived on writing and not read back: difference = simulated - measured, `bias`, `standard_error` of a reading,
-/// `conditions` of each test (what a fit to it holds for). `measured_yield_stress_pa`, `name`, `hold_out`,
-/// `within_noise` and `baseline` of a test, `intervals`, `correlation`, `not_identified`, `unstated_conditions`,
-/// `rebaselined`, `rescaled`, `further_confirmations` and `interpolated` are written when there is something in them,
-/// `packings` of a reading when a laboratory would reject some of the confirmation's.
+/// The version of the card format that this program writes. It reads version 5, too.
+inline constexpr int kCardVersion = 6;
+
+/// The card as JSON (card_description.h). The numbers in SI rule; `material.parameters` is the scale-free form of the
+/// same contact laws, those that they have. A test says its bulk density, grains and contact laws only where they are
+/// not the material's.
 nlohmann::ordered_json to_json(const Card& card);
 
 /// Whether the document says it is a card, of any version.
@@ -230,5 +230,16 @@ bool is_card(const nlohmann::json& document);
 /// Reads what `to_json` wrote. Errors: every fault at once, with its place; a card of another version.
 Result<Card> card_from_json(const nlohmann::json& document);
 Result<Card> read_card(const std::filesystem::path& file);
+
+/// The JSON schema of a card, `data/schema/card.schema.json`.
+nlohmann::ordered_json card_schema();
+
+/// The card as the text of its file, which `card_from_json` reads: what replaces a card is read back first.
+/// Errors: why it could not be read.
+Result<std::string> readable_text(const Card& card);
+
+/// Replaces the file by the card, whole or not at all. Errors: those of `readable_text` and `write_atomically`; what
+/// was there is then as it was.
+Faults write_card(const std::filesystem::path& file, const Card& card);
 
 }  // namespace pastefit

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/card/card_description.h"
+
 namespace pastefit {
 
 std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test) {
@@ -27,14 +29,11 @@ std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test) {
 }
 
 nlohmann::ordered_json yield_stresses_json(const CardTest& test) {
-  nlohmann::ordered_json out;
-  for (const ComparedYieldStress& one : compared_yield_stresses(test)) {
-    auto& row = out[one.reading] = {{"formula", one.formula}, {"simulated", one.simulated_pa}};
-    if (one.reading_pa) row["measured"] = *one.reading_pa;
-    if (one.ratio) row["ratio"] = *one.ratio;
-    if (one.deviations) row["deviations"] = *one.deviations;
-  }
-  return out;
+  const char* const key = "yield_stress_pa";
+  nlohmann::ordered_json holder;
+  OrderedObjectWriter writer(holder);
+  card_fields::describe_yield_stresses(writer, key, compared_yield_stresses(test));
+  return holder[key];
 }
 
 nlohmann::ordered_json with_yield_stresses(const Card& card) {

@@ -9,7 +9,6 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_format.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
@@ -251,7 +250,7 @@ std::optional<FoundScene> test_scene(const json& document, const Settings& setti
     return found;
   }
   faults.push_back({file.string() + ": format", "is " + format.dump(),
-                    "\"pastefit-study-1\", a card (\"pastefit-card-5\"), \"pastefit-lab-1\", "
+                    "\"pastefit-study-1\", a card (\"pastefit-card-6\"), \"pastefit-lab-1\", "
                     "\"pastefit-rig-1\" or \"pastefit-impact-1\""});
   return std::nullopt;
 }

@@ -8,7 +8,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
-#include "calibrate/card/card_file.h"
+#include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"

@@ -14,7 +14,7 @@
 #include "calibrate/base/file_lock.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
-#include "calibrate/card/card_file.h"
+#include "calibrate/card/card.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/further_confirmation.h"
 #include "calibrate/cli/commands.h"

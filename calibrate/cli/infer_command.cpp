@@ -5,7 +5,6 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_file.h"
 #include "calibrate/card/card_study.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"

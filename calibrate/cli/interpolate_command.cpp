@@ -8,7 +8,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/batch/interpolation.h"
-#include "calibrate/card/card_file.h"
+#include "calibrate/card/card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"

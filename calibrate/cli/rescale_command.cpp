@@ -5,7 +5,7 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
-#include "calibrate/card/card_file.h"
+#include "calibrate/card/card.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"

@@ -50,11 +50,12 @@ void add_places(std::vector<FilePlace>& out, const std::array<Dimension<Owner>, 
   if (!field.empty()) out.push_back({field, place});
 }
 
-/// Names them to an `ObjectReader` or `ObjectWriter` of JSON in SI.
+/// Names them to an `ObjectReader`, `ObjectWriter` or `ObjectSchema` of JSON in SI, where all are said.
 template <class Fields, class Object, class Owner, std::size_t count>
 void describe_dimensions(Fields& fields, Object& object, const std::array<Dimension<Owner>, count>& dimensions) {
   for (const Dimension<Owner>& one : dimensions)
-    fields.number(one.field.data(), object.*one.value, any_number, required);
+    fields.number({one.field, one.meaning.substr(0, one.meaning.find("; default"))}, object.*one.value,
+                  {one.smallest, one.largest, false, true}, required);
 }
 
 /// Whether a number of a file is on the wrong side of nothing.
@@ -64,16 +65,17 @@ inline bool is_below_nothing(const nlohmann::json* number, const Range& range) {
   return value < 0 ? range.smallest >= 0 : value == 0 && range.smallest > 0;
 }
 
-/// Reads them from a file for people. `need`: of those without a default. What is below nothing is a fault at once;
-/// else ranges are left to the test's `validate`, which judges all numbers together once they could be read.
-template <class Owner, std::size_t count>
-void read_dimensions(ObjectReader& reader, Owner& owner, const std::array<Dimension<Owner>, count>& dimensions,
-                     Need need) {
+/// Names them to an `ObjectReader` or `ObjectSchema` of a file for people. `need`: of those without a default. What is
+/// below nothing is a fault at once; else ranges are left to the test's `validate`, which judges all numbers together
+/// once they could be read.
+template <class Fields, class Owner, std::size_t count>
+void read_dimensions(Fields& fields, Owner& owner, const std::array<Dimension<Owner>, count>& dimensions, Need need) {
   for (const Dimension<Owner>& one : dimensions) {
     const FileKey key = file_key(one.field);
-    const Range range = range_in_files(one);
-    reader.number(key.name, owner.*one.value, is_below_nothing(reader.content(key.name), range) ? range : any_number,
-                  one.has_default ? Need::optional : need, key.per_si);
+    Range range = range_in_files(one);
+    if constexpr (Fields::reads) range.judged_later = !is_below_nothing(fields.content(key.name), range);
+    fields.number({key.name, one.meaning}, owner.*one.value, range, one.has_default ? Need::optional : need,
+                  key.per_si);
   }
 }
 

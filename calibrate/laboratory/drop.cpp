@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "calibrate/base/format.h"
+#include "calibrate/base/object_schema.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
@@ -78,6 +79,11 @@ constexpr std::string_view drop_study =
 }
 )";
 
+template <class Fields>
+void describe_drop_apparatus(Fields& apparatus, DropTest& test, Need need) {
+  read_dimensions(apparatus, test, drop_dimensions, need);
+}
+
 template <class Fields, class Test>
 void describe_drop(Fields& fields, Test& test) {
   describe_dimensions(fields, test, drop_dimensions);
@@ -106,14 +112,18 @@ double grains_needed(const DropTest&) {
   return 1;
 }
 
-void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need) {
-  read_dimensions(apparatus, test, drop_dimensions, need);
-}
-
 std::vector<FilePlace> places_in_files(const DropTest&) {
   std::vector<FilePlace> places;
   add_places(places, drop_dimensions);
   return places;
+}
+
+void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need) {
+  describe_drop_apparatus(apparatus, test, need);
+}
+
+void tell_apparatus(ObjectSchema& schema, DropTest any, Need need) {
+  describe_drop_apparatus(schema, any, need);
 }
 
 nlohmann::json to_json(const DropTest& test) {
@@ -131,6 +141,10 @@ DropTest default_test(const DropTest&) {
 
 void read_test(ObjectReader& reader, DropTest& test) {
   describe_drop(reader, test);
+}
+
+void tell_schema(ObjectSchema& schema, DropTest any) {
+  describe_drop(schema, any);
 }
 
 Templates templates_of(const DropTest&) {

@@ -29,11 +29,13 @@ double grains_needed(const DropTest& test);
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
 void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
+void tell_apparatus(ObjectSchema& schema, DropTest any, Need need);
 std::vector<FilePlace> places_in_files(const DropTest&);
 
 nlohmann::json to_json(const DropTest& test);
 DropTest default_test(const DropTest&);
 void read_test(ObjectReader& reader, DropTest& test);
+void tell_schema(ObjectSchema& schema, DropTest any);
 
 Templates templates_of(const DropTest& test);
 std::optional<double> grain_density_of(const DropTest& test, const Observables& means);

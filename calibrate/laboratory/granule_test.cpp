@@ -4,14 +4,8 @@
 #include <limits>
 
 #include "calibrate/base/format.h"
-#include "calibrate/laboratory/dimension_json.h"
 
 namespace pastefit {
-
-void read_tools(ObjectReader& apparatus, WallContact& tools) {
-  apparatus.object("tools", Need::optional,
-                   [&](ObjectReader& reader) { read_dimensions(reader, tools, surface_dimensions, Need::optional); });
-}
 
 Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs) {
   Drawing drawing;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/surface.h"
 #include "core/apparatus/pellet_crush/pellet_crush.h"
@@ -50,8 +51,12 @@ std::optional<double> grain_density_of(const T& test, const Observables&) {
   return test.bulk_density_kg_m3;
 }
 
-/// The surface of the tools, "tools" in laboratory and apparatus files.
-void read_tools(ObjectReader& apparatus, WallContact& tools);
+/// The surface of the tools in laboratory and apparatus files. `meaning`: which tools these are.
+template <class Fields>
+void read_tools(Fields& apparatus, std::string_view meaning, WallContact& tools) {
+  apparatus.object({"tools", meaning}, Need::optional,
+                   [&](auto& fields) { read_dimensions(fields, tools, surface_dimensions, Need::optional); });
+}
 
 /// What the runs drew, as the mean and, of several, the band from the lowest to the highest.
 /// Requirement: curves of one kind, whose points stand at the same places; the longer ones count as far as all go.

@@ -24,6 +24,7 @@ inline constexpr std::string_view kind_of(const PelletCrush&) {
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need);
+void tell_apparatus(ObjectSchema& schema, PelletCrush any, Need need);
 std::vector<FilePlace> places_in_files(const PelletCrush&);
 
 /// Of the punch and the platen.
@@ -32,6 +33,7 @@ double moved_time_s(const PelletCrush& test);
 nlohmann::json to_json(const PelletCrush& test);
 PelletCrush default_test(const PelletCrush&);
 void read_test(ObjectReader& reader, PelletCrush& test);
+void tell_schema(ObjectSchema& schema, PelletCrush any);
 
 Templates templates_of(const PelletCrush& test);
 

@@ -24,6 +24,7 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
 void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
+void tell_apparatus(ObjectSchema& schema, ShearCell any, Need need);
 std::vector<FilePlace> places_in_files(const ShearCell&);
 
 /// Of the base.
@@ -32,6 +33,7 @@ double moved_time_s(const ShearCell& test);
 nlohmann::json to_json(const ShearCell& test);
 ShearCell default_test(const ShearCell&);
 void read_test(ObjectReader& reader, ShearCell& test);
+void tell_schema(ObjectSchema& schema, ShearCell any);
 
 Templates templates_of(const ShearCell& test);
 

@@ -37,6 +37,7 @@ double grains_needed(const SlumpTest& test);
 
 /// The keys of "apparatus" in laboratory and apparatus files, in millimetres.
 void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need);
+void tell_apparatus(ObjectSchema& schema, SlumpTest any, Need need);
 
 /// The outline of a heap seen from the side, which a reading of this kind is the distance from.
 void read_outline(ObjectReader& reader, const ReadingKind& kind, SlumpTest& test);
@@ -57,6 +58,8 @@ nlohmann::json to_json(const SlumpTest& test);
 SlumpTest default_test(const SlumpTest&);
 /// Reads what `to_json` writes; every key must be there. Faults of form only.
 void read_test(ObjectReader& reader, SlumpTest& test);
+/// The schema of the same; `any` is any test of the kind.
+void tell_schema(ObjectSchema& schema, SlumpTest any);
 
 Templates templates_of(const SlumpTest& test);
 

@@ -1,29 +1,46 @@
 #pragma once
 
+#include <array>
+
 #include "calibrate/laboratory/names.h"
 #include "core/apparatus/dimension.h"
 #include "core/apparatus/specimen.h"
 
 namespace pastefit {
 
-// What tests of all kinds have in their JSON, in SI, for an `ObjectReader` and an `ObjectWriter` alike.
+// What tests of all kinds have in their JSON, in SI, for an `ObjectReader`, an `ObjectWriter` and an `ObjectSchema`
+// alike. The test's own `validate` knows the ranges that depend on other numbers.
 
 template <class Fields, class Grains>
 void describe_grains(Fields& fields, Grains& grains) {
-  fields.choice("distribution", grains.distribution, size_distributions, required);
-  fields.number("radius_m", grains.radius_m, any_number, required);
-  fields.number("standard_deviation_m", grains.standard_deviation_m, any_number, required);
-  fields.number("smallest_m", grains.smallest_m, any_number, required);
-  fields.number("largest_m", grains.largest_m, any_number, required);
+  fields.shared("grains");
+  fields.choice({"distribution", "of the radii, as in laboratory files"}, grains.distribution, size_distributions,
+                required);
+  fields.number({"radius_m", "mean"}, grains.radius_m, above_zero, required);
+  fields.number({"standard_deviation_m", "0 where the distribution does not say it"}, grains.standard_deviation_m,
+                not_below_zero, required);
+  fields.number({"smallest_m", "smallest radius"}, grains.smallest_m, not_below_zero, required);
+  fields.number({"largest_m", "largest radius"}, grains.largest_m, not_below_zero, required);
 }
+
+/// What tests of one material have in common.
+template <class Fields, class Material>
+void describe_material(Fields& fields, Material& material) {
+  fields.number({"bulk_density_kg_m3", "as in the laboratory file"}, material.bulk_density_kg_m3, above_zero, required);
+  fields.object({"grains", "for which `contact` holds"}, required,
+                [&](auto& grains) { describe_grains(grains, material.grains); });
+  fields.object({"contact", "the laws in SI, to type into another program"}, required,
+                [&](auto& contact) { describe_contact(contact, material.contact); });
+}
+/// Its keys.
+inline constexpr std::array of_material{"bulk_density_kg_m3", "grains", "contact"};
 
 /// All of it.
 template <class Fields, class Specimen>
 void describe_specimen(Fields& fields, Specimen& specimen) {
-  fields.number("bulk_density_kg_m3", specimen.bulk_density_kg_m3, any_number, required);
-  fields.object("grains", required, [&](auto& grains) { describe_grains(grains, specimen.grains); });
-  fields.object("contact", required, [&](auto& contact) { describe_contact(contact, specimen.contact); });
-  fields.integer("packing_seed", specimen.packing_seed, required);
+  describe_material(fields, specimen);
+  fields.integer({"packing_seed", "of the packing that is simulated if no other is asked for"}, specimen.packing_seed,
+                 required);
 }
 
 }  // namespace pastefit

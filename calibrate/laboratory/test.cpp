@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "calibrate/base/object_schema.h"
+#include "calibrate/base/units.h"
 #include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
 
@@ -325,6 +327,35 @@ Result<Test> test_from_json(const json& document) {
   if (faults.empty()) faults = validate(*test);
   if (!faults.empty()) return faults;
   return *test;
+}
+
+nlohmann::ordered_json schema_of_tests(ObjectSchema& schema) {
+  auto forms = nlohmann::ordered_json::array();
+  each_kind([&](const auto& kind) {
+    forms.push_back(schema.described([&](ObjectSchema& form) {
+      const Need need = kind_of(kind) == "slump" ? Need::optional : Need::required;
+      form.constant({"kind", "which laboratory test; a slump test where it is not said"}, kind_of(kind), need);
+      tell_schema(form, kind);
+    }));
+    return false;
+  });
+  return {{"oneOf", forms}};
+}
+
+nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets) {
+  auto forms = nlohmann::ordered_json::array();
+  if (presets)
+    forms.push_back(schema.described([](ObjectSchema& form) {
+      form.text({"preset",
+                 "name of a file of data/apparatus without .json; what stands beside it replaces what the file says"},
+                "", Need::required);
+      tell_apparatus(form, SlumpTest(), Need::optional);
+    }));
+  each_kind([&](const auto& kind) {
+    forms.push_back(schema.described([&](ObjectSchema& form) { tell_apparatus(form, kind, Need::required); }));
+    return false;
+  });
+  return {{"oneOf", forms}};
 }
 
 json differing_part(const json& value, const json& by_default) {

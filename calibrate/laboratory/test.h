@@ -27,9 +27,9 @@ using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
-    requires(T test, const T given, const RunOptions& options, ObjectReader& reader, const ReadingKind& reading,
-             std::span<const Observables> runs, const Observables& means, const Snapshot& snapshot,
-             std::span<const Measurement> measurements, std::span<const SeenRun> seen,
+    requires(T test, const T given, const RunOptions& options, ObjectReader& reader, ObjectSchema& schema,
+             const ReadingKind& reading, std::span<const Observables> runs, const Observables& means,
+             const Snapshot& snapshot, std::span<const Measurement> measurements, std::span<const SeenRun> seen,
              std::span<const std::string_view> names) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
   { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
@@ -41,12 +41,14 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { moved_time_s(given) } -> std::same_as<double>;
   { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
   {read_apparatus(reader, test, Need::required)};
+  {tell_apparatus(schema, test, Need::required)};
   {read_outline(reader, reading, test)};
   {ask_for(test, reading)};
   { places_in_files(given) } -> std::same_as<std::vector<FilePlace>>;
   { to_json(given) } -> std::same_as<nlohmann::json>;
   { default_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
+  {tell_schema(schema, test)};
   { templates_of(given) } -> std::same_as<Templates>;
   { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
   { why_of_that_size(given) } -> std::same_as<std::string_view>;
@@ -148,6 +150,12 @@ nlohmann::json to_json(const Test& test);
 /// Reads what `to_json` writes; every key must be there, but the kind, without which it is a slump test.
 /// Errors: every fault of form, or else every fault that `validate` finds; places are paths in the JSON.
 Result<Test> test_from_json(const nlohmann::json& document);
+
+/// The JSON schema of the same, one form for each kind; what they share goes to the definitions of `schema`.
+nlohmann::ordered_json schema_of_tests(ObjectSchema& schema);
+
+/// The JSON schema of "apparatus" in laboratory files, where it may have a preset, and apparatus files.
+nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets);
 
 /// The part of a JSON value that differs from the default one: of an object its members that do, each likewise; whole
 /// lists and numbers. Two values with the same part of the same default value are the same.

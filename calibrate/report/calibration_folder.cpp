@@ -1,7 +1,7 @@
 #include "calibrate/report/calibration_folder.h"
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/card/card_file.h"
+#include "calibrate/card/card.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 

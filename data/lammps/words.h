@@ -22,7 +22,7 @@ class Words {
       if (!values_.emplace(words[i], words[i + 1]).second) fault("'" + words[i] + "' is named twice");
   }
 
-  void number(std::string_view name, double& to, const pastefit::Range& range, pastefit::Need need) {
+  void number(const pastefit::Key& name, double& to, const pastefit::Range& range, pastefit::Need need) {
     const std::optional<std::string> text = take(name, need);
     if (!text) return;
     char* end = nullptr;
@@ -30,14 +30,14 @@ class Words {
     const bool within = to >= range.smallest && to <= range.largest && !(range.open && to == range.smallest);
     if (text->empty() || *end || !within) fault("'" + place(name) + " " + *text + "' is not in its range");
   }
-  void number(std::string_view name, double& to, const pastefit::Range& range, pastefit::Default<double>) {
+  void number(const pastefit::Key& name, double& to, const pastefit::Range& range, pastefit::Default<double>) {
     number(name, to, range, pastefit::Need::optional);
   }
-  void nullable_number(std::string_view name, std::optional<double>& to, const pastefit::Range& range, pastefit::Need) {
+  void nullable_number(const pastefit::Key& name, std::optional<double>& to, const pastefit::Range& range, pastefit::Need) {
     if (values_.count(place(name)) > 0) number(name, to.emplace(), range, pastefit::Need::required);
   }
   template <class T, std::size_t N>
-  void choice(std::string_view name, T& to, const std::array<pastefit::Named<T>, N>& words, pastefit::Need need) {
+  void choice(const pastefit::Key& name, T& to, const std::array<pastefit::Named<T>, N>& words, pastefit::Need need) {
     const std::optional<std::string> text = take(name, need);
     if (!text) return;
     std::string list;
@@ -51,11 +51,12 @@ class Words {
     fault("'" + place(name) + " " + *text + "': one of" + list);
   }
   template <class T, std::size_t N>
-  void choice(std::string_view name, T& to, const std::array<pastefit::Named<T>, N>& words, pastefit::Default<T>) {
+  void choice(const pastefit::Key& name, T& to, const std::array<pastefit::Named<T>, N>& words, pastefit::Default<T>) {
     choice(name, to, words, pastefit::Need::optional);
   }
+  void shared(std::string_view) {}  // schemas alone give objects names
   template <class Body>
-  void object(std::string_view name, pastefit::Need, const Body& body) {
+  void object(const pastefit::Key& name, pastefit::Need, const Body& body) {
     const std::string before = path_, own = place(name) + ".";
     const auto first = values_.lower_bound(own);
     if (first == values_.end() || first->first.compare(0, own.size(), own) != 0) return;

@@ -168,7 +168,7 @@ def calibrate(options):
         card = json.loads((folder / "out/card.json").read_text())
         adhesion = card["material"]["parameters"]["adhesion_pa"]
         interval = card["intervals"]["parameters"].get("adhesion_pa", {})
-        reading = card["tests"][0]["observables"][TESTS["pellet"][1]]
+        reading = card["tests"][0]["readings"][TESTS["pellet"][1]]
         shear = settings("shear", change, 1, False) | {"parameters.adhesion_pa": adhesion,
                                                        "apparatus.final_displacement_mm": options.displacement}
         cell = write_study(folder, "shear", options.basis)

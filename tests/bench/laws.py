@@ -115,7 +115,7 @@ def run(program, sheet, words, law, seed, options):
     heights = [heap["step1.height_mm"] for heap in standing]
     free = {name: float(f"{card['material']['parameters'][name]:.3g}") for name, value in study["parameters"].items() if "free" in value}
     return [sheet, law, seed, card["search"]["status"], simulations, to_card, round(core_s), round(core_s * to_card / simulations),
-            round(card["confirmation"]["misfit"], 2),
+            round(card["confirmation"]["error"], 2),
             len(card["confirmation"]["packings"]), card["confirmation"].get("rejected", ""), f"{sum(sheared)} of {len(heaps)}",
             round(statistics.mean(heights), 1), round(statistics.stdev(heights), 1),
             round(statistics.mean([heap["step1.spread_mm"] for heap in standing]), 1), json.dumps(free)]

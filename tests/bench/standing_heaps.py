@@ -99,7 +99,7 @@ def run(program, mix, seed, options):
     return [mix, seed, options.grains, options.shape, int(options.shift), card["search"]["status"],
             card["search"].get("evaluations", card["search"].get("simulations")), round(core_s),
             card["search"].get("coarse_simulations", 0), len(card["confirmation"]["packings"]),
-            round(card["confirmation"]["misfit"], 2), sum(h["step1.lateral_shift_mm"] > SHEARED_MM for h in heaps), len(heaps),
+            round(card["confirmation"]["error"], 2), sum(h["step1.lateral_shift_mm"] > SHEARED_MM for h in heaps), len(heaps),
             round(height, 1), round(deviation, 1), round(spread, 1), round(spread_deviation, 1),
             round(parameters["friction"], 3), round(parameters["rolling_friction"], 3)]
 

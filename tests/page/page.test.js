@@ -70,7 +70,7 @@ test("the page says what the card says", async () => {
     const told = content.parameters.find((one) => one.name === name);
     if (told) assert.equal(told.value, value, name);
   }
-  const readings = card.tests[0].observables;
+  const readings = card.tests[0].readings;
   assert.deepEqual(content.tests[0].readings.map((one) => one.name).sort(), Object.keys(readings).sort());
   for (const reading of content.tests[0].readings) {
     assert.equal(reading.simulated, readings[reading.name].simulated);

@@ -55,7 +55,7 @@ class Card:
         rows = []
         for test in self.content["tests"]:
             before = test["name"] + "/" if test.get("name") else ""
-            rows += [{"name": before + name, **one} for name, one in test["observables"].items()
+            rows += [{"name": before + name, **one} for name, one in test["readings"].items()
                      if one.get("measured") is not None]
         return reading_table(rows)
 

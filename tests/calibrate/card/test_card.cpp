@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card.h"
-#include "calibrate/card/card_format.h"
 #include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/report/card_text.h"
@@ -96,17 +95,17 @@ TEST_CASE("a card keeps a measured yield stress, and holds what its readings say
 
 TEST_CASE("a card states differences and standard errors") {
   const auto document = to_json(card());
-  const auto& height = document["tests"][0]["observables"]["step1.height_mm"];
+  const auto& height = document["tests"][0]["readings"]["step1.height_mm"];
   CHECK(height["difference"].get<double>() == Approx(1.3));
   CHECK(height["standard_error"].get<double>() == Approx(1.25));
-  CHECK(document["tests"][0]["observables"]["step1.spread_mm"]["measured"].is_null());
+  CHECK(document["tests"][0]["readings"]["step1.spread_mm"]["measured"].is_null());
 }
 
 TEST_CASE("a card keeps of how many packings a reading is where a laboratory would reject the others") {
   Card material = card();
   material.tests[0].observables[0].packings = 3;
   const auto document = to_json(material);
-  const auto& readings = document["tests"][0]["observables"];
+  const auto& readings = document["tests"][0]["readings"];
   CHECK(readings["step1.height_mm"]["packings"] == 3);
   CHECK(readings["step1.height_mm"]["standard_error"].get<double>() == Approx(2.5 / std::sqrt(3.0)));
   CHECK_FALSE(readings["step1.spread_mm"].contains("packings"));
@@ -284,17 +283,17 @@ TEST_CASE("readings of a card that no heap of its test can have are refused, eac
   const auto good = text_and_back(to_json(card()));
   auto bad = good;
   auto& test = bad["tests"][0];
-  test["observables"]["step1.height_mm"]["simulated"] = 2000;  // in a mould of 200 mm
-  test["observables"]["step1.height_mm"]["measured"] = -5;
+  test["readings"]["step1.height_mm"]["simulated"] = 2000;  // in a mould of 200 mm
+  test["readings"]["step1.height_mm"]["measured"] = -5;
   test["baseline"]["readings"]["step1.height_mm"][1] = -150;
   const auto read = card_from_json(bad);
   REQUIRE_FALSE(read.ok());
   REQUIRE(read.faults().size() == 3);
-  CHECK(read.faults()[0].where == "tests[0].observables.step1.height_mm.simulated");
-  CHECK(read.faults()[1].where == "tests[0].observables.step1.height_mm.measured");
+  CHECK(read.faults()[0].where == "tests[0].readings.step1.height_mm.simulated");
+  CHECK(read.faults()[1].where == "tests[0].readings.step1.height_mm.measured");
   CHECK_THAT(read.faults()[2].where, Catch::StartsWith("tests[0].baseline.readings.step1.height_mm"));
   bad = good;
-  auto& readings = bad["tests"][0]["observables"];
+  auto& readings = bad["tests"][0]["readings"];
   readings["step1.another_mm"] = readings["step1.spread_mm"];  // of another version
   readings["step1.another_mm"]["simulated"] = -7000;
   CHECK(card_from_json(bad).ok());
@@ -364,11 +363,11 @@ TEST_CASE("the other tests of a study, its hold-outs and what was known beforeha
     CHECK_THAT(summary, Catch::Contains(words));
   auto spoiled = text_and_back(document);
   spoiled["tests"][2]["test"].erase("mould");
-  spoiled["tests"][1]["observables"]["step1.height_mm"]["band"] = -1;
+  spoiled["tests"][1]["readings"]["step1.height_mm"]["band"] = -1;
   const auto refused = card_from_json(spoiled);
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.faults().size() == 2);
-  CHECK(refused.faults()[0].where == "tests[1].observables.step1.height_mm.band");
+  CHECK(refused.faults()[0].where == "tests[1].readings.step1.height_mm.band");
   CHECK(refused.faults()[1].where == "tests[2].test.mould");
 }
 

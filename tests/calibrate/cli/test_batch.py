@@ -39,7 +39,7 @@ class Batch(Desk):
         self.assertEqual([row["study"] for row in rows], ["mix-00", "mix-01"])
         self.assertEqual(result.returncode == 0, all(row["verdict"] == "confirmed" for row in rows))
         for number, (row, card) in enumerate(zip(rows, map(json.loads, self.cards(studies)))):
-            reading = card["tests"][0]["observables"]["step1.height_mm"]
+            reading = card["tests"][0]["readings"]["step1.height_mm"]
             self.assertEqual(float(row["measured_step1.height_mm"]), reading["measured"])
             self.assertEqual(float(row["simulated_step1.height_mm"]), reading["simulated"])
             self.assertAlmostEqual(float(row["deviation_step1.height_mm"]), reading["difference"])

@@ -40,7 +40,7 @@ class CardCommands(Desk):
             self.folder / name for name in ("cut", "newer", "impossible", "unit", "edited", "unknown"))
         text = CARD.read_text()
         cut.write_text(text[: len(text) // 2])
-        newer.write_text(text.replace("pastefit-card-5", "pastefit-card-7"))
+        newer.write_text(text.replace("pastefit-card-6", "pastefit-card-7"))
         card = json.loads(text)
         card["material"]["contact"]["bridge"]["b_n_m"] = -3
         impossible.write_text(json.dumps(card))
@@ -96,7 +96,7 @@ class CardCommands(Desk):
         answer = json.loads(result.stdout)
         height = answer["readings"]["step1.height_mm"]
         self.assertAlmostEqual(height["read"], 300, delta=6)
-        card = json.loads(CARD.read_text())["tests"][0]["observables"]["step1.height_mm"]
+        card = json.loads(CARD.read_text())["tests"][0]["readings"]["step1.height_mm"]
         self.assertEqual(height["simulated"], card["simulated"])
         self.assertEqual(height["measured"], card["measured"])
         self.assertGreater(height["noise"], 2 * height["simulated_standard_deviation"])
@@ -137,7 +137,7 @@ class CardCommands(Desk):
     def sheared(self):
         """A card whose readings are met by heaps of which five of eight sheared off."""
         card = json.loads((SOURCE / "data/cards/concrete-mix-20.json").read_text())
-        card["confirmation"]["rejected_share_allowed"] = 0.2
+        card["confirmation"]["rejected_share"] = 0.2
         file = self.folder / "sheared.json"
         file.write_text(json.dumps(card))
         return file
@@ -200,7 +200,7 @@ class CardCommands(Desk):
                      run("read", deck / "heap.dump", "--card", card).stdout):
             self.assertIn("ne packing, error unknown", text)
             self.assertNotRegex(text, r"\+- ?0\b(?!\.)")
-        self.assertNotIn("standard_error", json.loads(card.read_text())["tests"][0]["observables"]["step1.height_mm"])
+        self.assertNotIn("standard_error", json.loads(card.read_text())["tests"][0]["readings"]["step1.height_mm"])
 
     def test_check_answers_by_status_text_json_and_junit(self):
         card, report = self.coarse(), self.folder / "report.xml"

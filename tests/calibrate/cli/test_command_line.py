@@ -152,7 +152,7 @@ class CommandLine(Desk):
         self.assertEqual(again.returncode, 0, again.stderr)
         height = json.loads(again.stdout)["observables"]["step1.height_mm"]
         self.assertEqual(len(card["confirmation"]["packings"]), 1)
-        self.assertEqual(height, card["tests"][0]["observables"]["step1.height_mm"]["simulated"])
+        self.assertEqual(height, card["tests"][0]["readings"]["step1.height_mm"]["simulated"])
 
         self.fails(run("calibrate", self.study(), "--out", self.out), 2, "earlier result")
         kept = {file: (self.out / file).read_bytes() for file in ("card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json")}
@@ -227,7 +227,7 @@ class CommandLine(Desk):
         self.assertRegex(result.stderr, r"[1-9][0-9]* candidates are known from before")
         card = json.loads((self.out / "card.json").read_text())
         self.assertEqual(card["material"]["free"]["strength_pa"]["lower"], 400)
-        self.assertEqual(card["tests"][0]["observables"]["step1.height_mm"]["repeats"], 3)
+        self.assertEqual(card["tests"][0]["readings"]["step1.height_mm"]["repeats"], 3)
         again = run("calibrate", file, "--out", self.out, "--resume")
         self.assertNotIn("Changed since", again.stderr)
         self.assertEqual(json.loads((self.out / "card.json").read_text()), card)
@@ -257,8 +257,8 @@ class CommandLine(Desk):
         self.assertNotIn("within_noise", slow)
         self.assertIn("within_noise", later)
         self.assertNotIn("within_noise", fast)
-        self.assertEqual(fast["observables"]["step1.height_mm"]["simulated"],
-                         later["observables"]["step1.height_mm"]["simulated"])  # the same test, fitted and predicted
+        self.assertEqual(fast["readings"]["step1.height_mm"]["simulated"],
+                         later["readings"]["step1.height_mm"]["simulated"])  # the same test, fitted and predicted
         self.assertLessEqual(card["search"]["simulations"], 30)
         self.assertEqual(run("check", self.out / "card.json").returncode, 0)
         self.assertEqual(run("export", "--unconfirmed", self.out / "card.json", "--to", "csv", "--out", self.folder / "csv").returncode, 0)

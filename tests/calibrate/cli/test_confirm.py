@@ -53,7 +53,7 @@ class Confirm(Desk):
         self.card = self.folder / "card.json"
         card = json.loads(coarse_card().read_text())
         source = json.loads((SOURCE / "data/cards/concrete-mix-79.json").read_text())
-        card["tests"][0]["observables"] = source["tests"][0]["observables"]
+        card["tests"][0]["readings"] = source["tests"][0]["readings"]
         card["confirmation"] = source["confirmation"]
         self.card.write_text(json.dumps(card))
         self.runs = self.folder / "runs"
@@ -78,7 +78,7 @@ class Confirm(Desk):
         self.assertEqual((one["engine"], one["program"], one["ranks"]), ("lammps", "LAMMPS (1 Jan 2000)", 2))
         self.assertAlmostEqual(one["radius_m"], 0.013, places=12)
         self.assertEqual((one["wall_s"], one["core_s"]), (6, 6))  # two runs of 3 s, two ranks that work half the time
-        height, own = one["readings"]["step1.height_mm"], before["tests"][0]["observables"]["step1.height_mm"]
+        height, own = one["readings"]["step1.height_mm"], before["tests"][0]["readings"]["step1.height_mm"]
         self.assertGreater(height["simulated"], 250)  # the mould as it stands
         self.assertEqual(height["card"], own["simulated"])
         self.assertAlmostEqual(height["bias"], height["simulated"] - own["simulated"], places=9)

@@ -103,7 +103,7 @@ class Pipe(Desk):
         """Mean and range of the packings, beside what the laboratory measured in the same unit."""
         header, *rows = [line.split(",") for line in file.read_text().splitlines()]
         self.assertEqual(header[1:4], ["stress_pa", "stress_pa_lowest", "stress_pa_highest"])
-        in_pascal = {name: one for name, one in test["observables"].items()
+        in_pascal = {name: one for name, one in test["readings"].items()
                      if name.endswith("_pa") and one.get("measured") is not None}
         self.assertEqual(header[4:], [word for name in in_pascal for word in (name, name + "_deviation")])
         self.assertGreater(len(in_pascal), 0)

@@ -44,7 +44,7 @@ class Report(Desk):
                          & card["material"]["parameters"].items(),
                          {one["name"]: one["value"] for one in first["parameters"]}.items())
         for reading in first["tests"][0]["readings"]:
-            known = card["tests"][0]["observables"][reading["name"]]
+            known = card["tests"][0]["readings"][reading["name"]]
             self.assertEqual(reading["simulated"], known["simulated"])
         self.assertTrue(first["tests"][0]["run_shown"]["same_as_card"])
         self.assertEqual(len(first["search"]["history"]), card["search"]["simulations"])

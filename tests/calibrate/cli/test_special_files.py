@@ -103,7 +103,7 @@ class SpecialFiles(Desk):
         result = quickly("rescale", CARD, "--radius", 12, "--packings", 0, "--out", kinds["fifo"])
         reader.join(HASTY["timeout"])
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(read[0])["format"], "pastefit-card-5")
+        self.assertEqual(json.loads(read[0])["format"], "pastefit-card-6")
         self.assert_as_before(kinds)
 
     def test_standard_output_named_as_a_file_gets_the_card_alone(self):

@@ -39,7 +39,7 @@ TEST_CASE("a dump's last snapshot is read in the order of the grains' numbers, w
 
 TEST_CASE("a dump that is no whole one of grains is refused with the line") {
   fails("", "heap.dump", "no line \"ITEM: ATOMS");
-  fails("{\"format\": \"pastefit-card-5\"}\n", "heap.dump", "no line \"ITEM: ATOMS");
+  fails("{\"format\": \"pastefit-card-6\"}\n", "heap.dump", "no line \"ITEM: ATOMS");
   fails(kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n", "line 10", "ends after 1 grains of 2");
   fails(kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n1 1 0.1 0.2\n", "line 11", "holds 4 columns, the header 6");
   fails(kHead + "ITEM: ATOMS id type x y z\n1 1 0 0 0\n2 1 0 0 0\n", "line 9", "lacks the column radius");

@@ -146,7 +146,7 @@ TEST_CASE("the readings of a single packing have no error") {
   CHECK(reservations_on(card) == std::vector<std::string>{"one packing, error unknown"});
   card.rescaled.push_back({0.01, {{"step1.height_mm", 100, 102, 0}}});
   CHECK_THAT(text_of(card), !Catch::Contains("+- 0 ") && Catch::Contains("bias +2 (one packing, error"));
-  CHECK_FALSE(to_json(card).at("tests")[0].at("observables").at("step1.height_mm").contains("standard_error"));
+  CHECK_FALSE(to_json(card).at("tests")[0].at("readings").at("step1.height_mm").contains("standard_error"));
 }
 
 TEST_CASE("a card whose adhesion grows with the pressure says near which pressure it holds") {

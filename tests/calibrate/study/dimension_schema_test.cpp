@@ -87,17 +87,4 @@ TEST_CASE("the schemas of laboratory and apparatus files say of each dimension w
   }
 }
 
-TEST_CASE("the schema of cards has each dimension in SI") {
-  const json tests = schema("card").at("/definitions/test/oneOf"_json_pointer);
-  for (const std::string_view kind : kinds_of_tests()) {
-    std::vector<FilePlace> fields = dimensions_of(kind);
-    for (FilePlace& one : fields) {
-      const bool of_definition = one.field.starts_with("tools.") || one.field.find("_ribs.") != std::string::npos;
-      one.place = of_definition ? keys_of(one.field).front() : one.field;
-    }
-    INFO(kind);
-    CHECK(forms_with(tests, fields, 0).size() == 1);
-  }
-}
-
 }  // namespace pastefit

@@ -349,10 +349,6 @@ TEST_CASE("the schemas name the parameters, ranges and readings of the program, 
   const json kinds_in_labs = schema("lab.schema.json").at("properties").at("test").at("enum");
   CHECK(kinds_in_labs == json(kinds_of_tests()));
   CHECK(schema("apparatus.schema.json").at("properties").at("test").at("enum") == kinds_in_labs);
-  const json card = schema("card.schema.json").at("definitions").at("test").at("oneOf");
-  json kinds_in_cards = json::array();
-  for (const json& kind : card) kinds_in_cards.push_back(kind.at("properties").at("kind").at("const"));
-  CHECK(kinds_in_cards == kinds_in_labs);
   const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
   std::size_t keys = 0;
   for (const ReadingKind& kind : all_reading_kinds()) {

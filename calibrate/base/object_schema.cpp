@@ -1,0 +1,139 @@
+#include "calibrate/base/object_schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pastefit {
+namespace {
+
+using Json = ObjectSchema::Json;
+
+Json number_of(double value) {
+  const bool whole = value == std::round(value) && std::abs(value) < largest_quantity;
+  return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+Json number_in(const Range& range) {
+  return {{"type", "number"},
+          {range.open ? "exclusiveMinimum" : "minimum", number_of(range.smallest)},
+          {"maximum", number_of(range.largest)}};
+}
+
+Json any_whole_number() {
+  return {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}};
+}
+
+Json list_of(Json items) {
+  return {{"type", "array"}, {"items", std::move(items)}};
+}
+
+}  // namespace
+
+ObjectSchema::ObjectSchema(Json& object, Json& definitions) : object_(object), definitions_(definitions) {
+  object_ = {{"type", "object"}, {"additionalProperties", false}};
+  object_["properties"] = Json::object();
+}
+
+void ObjectSchema::number(const Key& key, double, const Range& range, Presence presence, double) {
+  put(key, number_in(range), presence);
+}
+
+void ObjectSchema::nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need) {
+  put(key, or_null(number_in(range)), need);
+}
+
+void ObjectSchema::optional_number(const Key& key, const std::optional<double>&, const Range& range) {
+  put(key, number_in(range), Need::optional);
+}
+
+void ObjectSchema::derived_number(const Key& key, const std::optional<double>&, const Range& range) {
+  put(key, number_in(range), Need::optional);
+}
+
+void ObjectSchema::integer(const Key& key, std::uint64_t, Need need) {
+  put(key, any_whole_number(), need);
+}
+
+void ObjectSchema::integer(const Key& key, int, int smallest, int largest, Presence presence) {
+  put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, presence);
+}
+
+void ObjectSchema::text(const Key& key, std::string_view, Presence presence) {
+  put(key, {{"type", "string"}}, presence);
+}
+
+void ObjectSchema::constant(const Key& key, std::string_view value, Presence presence) {
+  put(key, {{"const", value}}, presence);
+}
+
+void ObjectSchema::flag(const Key& key, bool, Presence presence) {
+  put(key, {{"type", "boolean"}}, presence);
+}
+
+void ObjectSchema::optional_flag(const Key& key, const std::optional<bool>&) {
+  flag(key, false, Need::optional);
+}
+
+void ObjectSchema::numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
+                           std::size_t most) {
+  Json schema = list_of(number_in(range));
+  if (least > 0) schema["minItems"] = least;
+  if (most > 0) schema["maxItems"] = most;
+  put(key, std::move(schema), need);
+}
+
+void ObjectSchema::integers(const Key& key, const std::vector<std::uint64_t>&, Need need) {
+  put(key, list_of(any_whole_number()), need);
+}
+
+void ObjectSchema::texts(const Key& key, const std::vector<std::string>&, Need need) {
+  put(key, list_of({{"type", "string"}}), need);
+}
+
+void ObjectSchema::pairs(const Key& key, const std::vector<std::array<double, 2>>&, const Range& first,
+                         const Range& second, Need need, std::size_t least) {
+  Json pair = list_of(number_in({std::min(first.smallest, second.smallest), std::max(first.largest, second.largest)}));
+  pair["minItems"] = pair["maxItems"] = 2;
+  Json schema = list_of(std::move(pair));
+  if (least > 0) schema["minItems"] = least;
+  put(key, std::move(schema), need);
+}
+
+void ObjectSchema::any_numbers(const Key& key, const Range& range) {
+  put(key, {{"type", "object"}, {"additionalProperties", number_in(range)}}, Need::optional);
+}
+
+void ObjectSchema::put(const Key& key, Json schema, Presence presence) {
+  const std::string name(key.name);
+  Json& property = object_["properties"][name] = Json::object();
+  if (!key.meaning.empty()) property["description"] = key.meaning;
+  property.update(schema);
+  if (presence == Need::required) object_["required"].push_back(name);
+}
+
+Json ObjectSchema::defined(const std::string& name, Json object) {
+  definitions_[name] = std::move(object);
+  return {{"$ref", "#/definitions/" + name}};
+}
+
+Json ObjectSchema::or_null(Json schema) {
+  if (!schema.contains("type")) return {{"anyOf", {schema, {{"type", "null"}}}}};
+  schema["type"] = {schema["type"], "null"};
+  return schema;
+}
+
+void ObjectSchema::put_known(const Key& key, const Json& entries, Need need) {
+  Json names = Json::array();
+  for (const auto& [name, schema] : entries.items()) names.push_back(name);
+  put(key, {{"type", "object"}, {"propertyNames", {{"enum", names}}}, {"additionalProperties", entries.front()}}, need);
+}
+
+Json document_schema(std::string_view title, std::string_view description, Json object, Json definitions) {
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}, {"description", description}};
+  schema.update(object);
+  if (!definitions.is_null()) schema["definitions"] = std::move(definitions);
+  return schema;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibrate/base/json_reader.h"
+
+namespace pastefit {
+
+/// Makes the JSON schema (draft 7) of what an `ObjectReader` reads, from the same calls. The values given are those of
+/// any object of the kind.
+class ObjectSchema {
+ public:
+  using Json = nlohmann::ordered_json;
+  static constexpr bool reads = false;
+  /// `object` becomes the schema; objects that are `shared` go to `definitions`.
+  ObjectSchema(Json& object, Json& definitions);
+
+  void number(const Key& key, double, const Range& range, Presence presence, double per_si = 1);
+  void nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need);
+  void optional_number(const Key& key, const std::optional<double>&, const Range& range);
+  void derived_number(const Key& key, const std::optional<double>&, const Range& range);
+  void integer(const Key& key, std::uint64_t, Need need);
+  void integer(const Key& key, int, int smallest, int largest, Presence presence);
+  void text(const Key& key, std::string_view, Presence presence);
+  /// A text that is always the same.
+  void constant(const Key& key, std::string_view value, Presence presence);
+  void flag(const Key& key, bool, Presence presence);
+  void optional_flag(const Key& key, const std::optional<bool>&);
+  void numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
+               std::size_t most = 0);
+  void integers(const Key& key, const std::vector<std::uint64_t>&, Need need);
+  void texts(const Key& key, const std::vector<std::string>&, Need need);
+  void pairs(const Key& key, const std::vector<std::array<double, 2>>&, const Range& first, const Range& second,
+             Need need, std::size_t least);
+  template <class Target, class T, std::size_t N>
+  void choice(const Key& key, const Target&, const std::array<Named<T>, N>& words, Presence presence) {
+    Json names = Json::array();
+    for (const Named<T>& word : words) names.push_back(word.name);
+    put(key, key.schema.empty() ? Json{{"enum", names}} : Json{{"$ref", key.schema}}, presence);
+  }
+  template <class Body>
+  void object(const Key& key, Presence presence, Body body) {
+    put(key, described(body), presence);
+  }
+  template <class T, class Body>
+  void nullable_object(const Key& key, const std::optional<T>&, Need need, Body body) {
+    T any{};
+    put(key, or_null(described([&](ObjectSchema& inner) { body(inner, any); })), need);
+  }
+  template <class T, class Body>
+  void optional_object(const Key& key, const std::optional<T>& value, Body body) {
+    nullable_object(key, value, Need::optional, body);
+  }
+  template <class Written, class Body>
+  void derived_object(const Key& key, Written, Body body) {
+    body(*this, key);
+  }
+  template <class T, class Body>
+  void list(const Key& key, const std::vector<T>&, Need need, Body body) {
+    T any{};
+    Json schema{{"type", "array"}};
+    if (need == Need::required) schema["minItems"] = 1;
+    schema["items"] = described([&](ObjectSchema& inner) { body(inner, any); });
+    put(key, std::move(schema), need);
+  }
+  template <class T, class Body>
+  void entries(const Key& key, const std::vector<T>&, std::string T::*, Presence presence, Body body) {
+    T any{};
+    const Json entry = described([&](ObjectSchema& inner) { body(inner, Key("NAME"), any); });
+    put(key, {{"type", "object"}, {"additionalProperties", entry.at("properties").at("NAME")}}, presence);
+  }
+  template <class List, class Body>
+  void known_entries(const Key& key, List& list, Need need, Body body) {
+    const Json entries = described([&](ObjectSchema& inner) {
+      for (auto& one : list) body(inner, one);
+    });
+    put_known(key, entries.at("properties"), need);
+  }
+  /// Numbers by any name.
+  void any_numbers(const Key& key, const Range& range);
+  void shared(std::string_view name) { shared_ = name; }
+  /// Of an object whose forms differ: the property as it is.
+  void put(const Key& key, Json schema, Presence presence);
+  /// The schema of what `body(ObjectSchema&)` describes.
+  template <class Body>
+  Json described(Body body) {
+    Json object;
+    ObjectSchema inner(object, definitions_);
+    body(inner);
+    return inner.shared_.empty() ? object : defined(inner.shared_, std::move(object));
+  }
+
+ private:
+  Json defined(const std::string& name, Json object);
+  static Json or_null(Json schema);
+  void put_known(const Key& key, const Json& entries, Need need);
+
+  Json& object_;
+  Json& definitions_;
+  std::string shared_;
+};
+
+/// The schema of a file: that of its object, with its definitions.
+nlohmann::ordered_json document_schema(std::string_view title, std::string_view description,
+                                       nlohmann::ordered_json object, nlohmann::ordered_json definitions);
+
+}  // namespace pastefit
