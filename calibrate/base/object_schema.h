@@ -88,6 +88,8 @@ class ObjectSchema {
   void shared(std::string_view name) { shared_ = name; }
   /// Of an object whose forms differ: the property as it is.
   void put(const Key& key, Json schema, Presence presence);
+  /// A reference to this schema, which stands in several places, among the definitions.
+  Json defined(const std::string& name, Json schema);
   /// The schema of what `body(ObjectSchema&)` describes.
   template <class Body>
   Json described(Body body) {
@@ -98,7 +100,6 @@ class ObjectSchema {
   }
 
  private:
-  Json defined(const std::string& name, Json object);
   static Json or_null(Json schema);
   void put_known(const Key& key, const Json& entries, Need need);
 

@@ -11,7 +11,9 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
+#include "calibrate/laboratory/reading_words.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/schemas.h"
 
 namespace pastefit {
 namespace {
@@ -19,7 +21,47 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr Range grain_length{0, 500, true};
+constexpr Range grain_length{0, 500, true}, bulk_density{100, 10000}, customary_deviation{1e-6, 10000};
+
+/// A length that the radii of some distributions are given by.
+struct GrainLength {
+  std::string_view key, meaning;
+  double GrainSizes::*value;
+  bool of_mono, of_uniform, of_normal;
+  bool belongs_to(SizeDistribution distribution) const {
+    if (distribution == SizeDistribution::mono) return of_mono;
+    return distribution == SizeDistribution::uniform ? of_uniform : of_normal;
+  }
+};
+constexpr std::array<GrainLength, 4> grain_lengths{
+    {{"radius_mm", "of every grain, or the mean", &GrainSizes::radius_m, true, false, true},
+     {"standard_deviation_mm", "of the radius, before it is cut off", &GrainSizes::standard_deviation_m, false, false,
+      true},
+     {"smallest_mm", "least radius", &GrainSizes::smallest_m, false, true, true},
+     {"largest_mm", "largest radius", &GrainSizes::largest_m, false, true, true}}};
+
+template <class Fields>
+void describe_file_provenance(Fields& fields, Provenance& provenance) {
+  fields.text({"source", "who measured, where, when; or the publication"}, provenance.source, Need::required);
+  fields.text({"licence", "under which they may be passed on"}, provenance.licence, Need::optional);
+  fields.text({"notes", "what else somebody should know, as what was assumed"}, provenance.notes, Need::optional);
+  fields.flag({"twin", "true: simulated with known parameters, not measured"}, provenance.twin, Need::optional);
+}
+
+template <class Fields>
+void describe_density(Fields& material, Specimen& specimen) {
+  material.number({"bulk_density_kg_m3", "mass over volume of the filled vessel, voids included"},
+                  specimen.bulk_density_kg_m3, bulk_density, Need::required);
+}
+
+template <class Fields>
+void describe_customary(Fields& reading, CustomaryReading& one, const Range& range) {
+  reading.shared("reading");
+  reading.number({"value", "usual, in the unit of the reading's key"}, one.value, range, Need::required);
+  reading.number({"standard_deviation", "of one reading, in the same unit"}, one.standard_deviation,
+                 customary_deviation, Need::required);
+}
+
 constexpr std::array not_simulated{"readings", "caution"};  // keys of apparatus files
 
 std::optional<Apparatus> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {
@@ -58,8 +100,7 @@ void read_customary(ObjectReader& document, Apparatus& apparatus) {
       }
       CustomaryReading one{std::string(kind.key)};
       const auto read = [&](ObjectReader& reading) {
-        reading.number("value", one.value, {kind.possible.smallest, kind.possible.largest}, Need::required);
-        reading.number("standard_deviation", one.standard_deviation, {1e-6, 10000}, Need::required);
+        describe_customary(reading, one, {kind.possible.smallest, kind.possible.largest});
       };
       if (readings.object(kind.key, Need::optional, read)) apparatus.readings.push_back(std::move(one));
     }
@@ -109,12 +150,68 @@ std::vector<fs::path> apparatus_folders(const fs::path& folder) {
 }
 
 void read_provenance(ObjectReader& document, Provenance& provenance) {
-  document.object("provenance", Need::required, [&](ObjectReader& reader) {
-    reader.text("source", provenance.source, Need::required);
-    reader.text("licence", provenance.licence, Need::optional);
-    reader.text("notes", provenance.notes, Need::optional);
-    reader.flag("twin", provenance.twin, Need::optional);
-  });
+  document.object("provenance", Need::required,
+                  [&](ObjectReader& reader) { describe_file_provenance(reader, provenance); });
+}
+
+void tell_provenance(ObjectSchema& document) {
+  Provenance any;
+  document.object({"provenance", "where the numbers come from"}, Need::required,
+                  [&](ObjectSchema& fields) { describe_file_provenance(fields, any); });
+}
+
+void tell_test(ObjectSchema& document, bool presets) {
+  const std::string usual = "which laboratory test; \"" + std::string(kind_of(Test())) + "\" where it is not said";
+  document.put({"test", usual}, {{"enum", kinds_of_tests()}}, Need::optional);
+  document.put({"apparatus", "the apparatus as it stands in the laboratory; which keys it has is the test's word"},
+               schema_of_apparatus(document, presets), Need::required);
+}
+
+void tell_density(ObjectSchema& material) {
+  Specimen any;
+  describe_density(material, any);
+}
+
+void tell_grains(ObjectSchema& document, Need need) {
+  auto forms = ObjectSchema::Json::array();
+  for (const auto& [name, distribution] : size_distributions)
+    forms.push_back(document.described([&, word = name, own = distribution](ObjectSchema& form) {
+      form.constant({"distribution",
+                     "mono: all of one radius; uniform: all radii between two are as likely; normal: cut off at both "
+                     "ends"},
+                    word, Need::required);
+      for (const GrainLength& one : grain_lengths)
+        if (one.belongs_to(own)) form.number({one.key, one.meaning}, 0, grain_length, Need::required);
+    }));
+  document.put({"grains", "those of the simulation, not of the aggregate"}, {{"oneOf", forms}}, need);
+}
+
+ObjectSchema::Json apparatus_schema() {
+  ObjectSchema::Json object, definitions;
+  ObjectSchema schema(object, definitions);
+  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-rig-1", Need::required);
+  schema.text({"title", "one line for people"}, "", Need::required);
+  tell_provenance(schema);
+  tell_test(schema, false);
+  schema.object({"material", "as the laboratory prepares it"}, Need::required, tell_density);
+  tell_grains(schema, Need::required);
+  schema.object({"readings",
+                 "those that are customary, each with its usual value; `pastefit template lab` prints "
+                 "them"},
+                Need::optional, [](ObjectSchema& readings) {
+                  CustomaryReading any;
+                  for (const ReadingKind& kind : all_reading_kinds())
+                    if (!kind.key.empty() && !kind.from_outline)
+                      readings.object({kind.key, meaning_of_reading(kind.key)}, Need::optional, [&](ObjectSchema& one) {
+                        describe_customary(one, any, {-1e6, 1e6});
+                      });
+                });
+  schema.text({"caution",
+               "what everybody who uses it must know, one sentence without a full stop: said in every run "
+               "that names it"},
+              "", Need::optional);
+  return document_schema("pastefit apparatus file", "An apparatus with a default material and default grains.",
+                         std::move(object), std::move(definitions));
 }
 
 void read_kind(ObjectReader& document, Test& test) {
@@ -148,7 +245,7 @@ void read_material(ObjectReader& document, Test& test, const std::function<void(
   document.object(
       "material", Need::required,
       [&](ObjectReader& material) {
-        material.number("bulk_density_kg_m3", specimen_of(test).bulk_density_kg_m3, {100, 10000}, Need::required);
+        describe_density(material, specimen_of(test));
         if (further) further(material);
       },
       density ? "write {\"bulk_density_kg_m3\": " + text_of(*content) + "}" : "");
@@ -163,16 +260,11 @@ void read_grains(ObjectReader& document, Test& test, Need need) {
         const bool mono = grains.distribution == SizeDistribution::mono;
         const bool uniform = grains.distribution == SizeDistribution::uniform;
         bool good = true;
-        const auto length = [&](std::string_view key, double& target, bool has_it) {
-          if (has_it)
-            good = reader.number(key, target, grain_length, Need::required, mm) && good;
+        for (const GrainLength& one : grain_lengths)
+          if (one.belongs_to(grains.distribution))
+            good = reader.number(one.key, grains.*one.value, grain_length, Need::required, mm) && good;
           else
-            reader.refuse(key, "has no meaning for this distribution", "leave it out");
-        };
-        length("radius_mm", grains.radius_m, !uniform);
-        length("standard_deviation_mm", grains.standard_deviation_m, !mono && !uniform);
-        length("smallest_mm", grains.smallest_m, !mono);
-        length("largest_mm", grains.largest_m, !mono);
+            reader.refuse(one.key, "has no meaning for this distribution", "leave it out");
         if (!good) return;
         if (mono) grains.smallest_m = grains.largest_m = grains.radius_m;
         if (uniform) grains.radius_m = (grains.smallest_m + grains.largest_m) / 2;

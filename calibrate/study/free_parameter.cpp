@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/schemas.h"
 
 namespace pastefit {
 
@@ -64,6 +65,23 @@ void read_prior(ObjectReader& known, Parameter& parameter, const Range& range) {
 }
 
 }  // namespace
+
+void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind) {
+  const Range range{kind.smallest, kind.largest};
+  const auto fixed = parameters.described([&](ObjectSchema& form) { form.number("value", 0, range, Need::required); });
+  const auto free = parameters.described([&](ObjectSchema& form) {
+    form.numbers("free", {}, range, Need::required, 2, 2);
+    form.choice("scale", kind.scale, scales, Need::optional);
+    form.object("prior", Need::optional, [](ObjectSchema& prior) {
+      prior.shared("prior");
+      prior.number({"value", "mean, within the bounds"}, 0, Range{}, Need::required);
+      prior.number({"standard_deviation",
+                    "how well it is known; from a millionth of the way between the bounds to a million times it"},
+                   0, {0, largest_quantity, true}, Need::required);
+    });
+  });
+  parameters.put({kind.name, kind.meaning}, {{"oneOf", {fixed, free}}}, Need::optional);
+}
 
 void read_free(ObjectReader& reader, const Range& range, Parameter& parameter) {
   parameter.free = true;

@@ -13,6 +13,7 @@
 #include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/questions.h"
+#include "calibrate/study/schemas.h"
 
 namespace pastefit {
 
@@ -81,6 +82,13 @@ std::string note_on_yield_stress(const Lab& lab) {
                            : "a fluid with it would read " + readings);
 }
 
+template <class Fields>
+void describe_repeats(Fields& fields, Lab::Repeats& repeats) {
+  fields.integer({"made", "heaps, those that sheared off included"}, repeats.made, 1, 1000, Need::required);
+  fields.integer({"sheared", "heaps that sheared off and so have no readings; fewer than were made"}, repeats.sheared,
+                 0, 1000, Need::required);
+}
+
 /// "repeats": how many heaps were made, and how many of them sheared off.
 void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats) {
   if (!rejection_index(lab.test, {})) {
@@ -89,8 +97,9 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
     return;
   }
   document.object("repeats", Need::optional, [&](ObjectReader& reader) {
-    const bool known = reader.integer("made", repeats.made, 1, 1000, Need::required);
-    if (!reader.integer("sheared", repeats.sheared, 0, 1000, Need::required) || !known) return;
+    const std::size_t before = reader.faults().size();
+    describe_repeats(reader, repeats);
+    if (reader.faults().size() > before) return;
     if (repeats.sheared > repeats.made)
       reader.fault("sheared",
                    std::to_string(repeats.sheared) + " of " + std::to_string(repeats.made) + " repeats sheared off",
@@ -200,6 +209,47 @@ Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void
   if (!lab.ok())
     for (Fault& fault : in_file(lab.faults(), file)) faults.push_back(std::move(fault));
   return faults;
+}
+
+ObjectSchema::Json lab_schema() {
+  using Json = ObjectSchema::Json;
+  Json object, definitions;
+  ObjectSchema schema(object, definitions);
+  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-lab-1", Need::required);
+  schema.text({"title", "one line for people"}, "", Need::required);
+  schema.texts({"confirmed",
+                "places of this file that look like a slip and are right, as the program names them: "
+                "[\"material.bulk_density_kg_m3\"]"},
+               {}, Need::optional);
+  schema.texts(
+      {"assumed", "places of this file whose numbers are assumed, not measured: [\"apparatus.lift_velocity_mm_s\"]"},
+      {}, Need::optional);
+  tell_provenance(schema);
+  tell_test(schema, true);
+  schema.object({"material", "as the laboratory prepares it"}, Need::required, [](ObjectSchema& material) {
+    tell_density(material);
+    tell_yield_stress(material);
+  });
+  Json mix{{"type", "object"}};
+  mix["propertyNames"]["pattern"] = "^[a-z][a-z0-9_]*$";
+  mix["additionalProperties"] = {{"type", "number"}, {"minimum", -largest_quantity}, {"maximum", largest_quantity}};
+  schema.put({"mix",
+              "amounts and properties of the mix, each under a name with its unit, as water_kg_m3; not simulated, but "
+              "in the table of many studies"},
+             std::move(mix), Need::optional);
+  tell_grains(schema, Need::optional);
+  Lab::Repeats any;
+  schema.object({"repeats",
+                 "of tests of heaps: how many heaps were made and how many sheared off; a study that does not state "
+                 "`rejected_share` allows at least that share"},
+                Need::optional, [&](ObjectSchema& fields) { describe_repeats(fields, any); });
+  tell_measurements(schema);
+  object["if"]["not"]["properties"]["apparatus"]["required"].push_back("preset");
+  object["then"]["required"].push_back("grains");
+  return document_schema("pastefit laboratory file",
+                         "What a laboratory measured in a test of some kind. Limits that depend on the apparatus (no "
+                         "heap that is higher than its vessel) are checked by the program alone.",
+                         std::move(object), std::move(definitions));
 }
 
 }  // namespace pastefit

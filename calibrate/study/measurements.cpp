@@ -10,6 +10,8 @@
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/reading_words.h"
+#include "calibrate/study/schemas.h"
 
 namespace pastefit {
 namespace {
@@ -250,6 +252,75 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
     document.fault("measurements", "holds no reading", advice_without_readings(test, kinds, yield_stress));
   });
   return measurements;
+}
+
+namespace {
+
+/// {"value", "standard_deviation"} or {"repeats"}.
+ObjectSchema::Json told_measurement(ObjectSchema& schema, const std::string& name, const Range& range) {
+  const Key deviation("standard_deviation", "of one reading, in its unit; with repeats: instead of theirs");
+  const auto single = schema.described([&](ObjectSchema& form) {
+    form.number({"value", "a single reading, or the mean of several"}, 0, range, Need::required);
+    form.number(deviation, 0, deviations, Need::required);
+  });
+  const auto several = schema.described([&](ObjectSchema& form) {
+    form.numbers({"repeats", "all readings, each of a test of its own"}, {}, range, Need::required, 2);
+    form.number(deviation, 0, deviations, Need::optional);
+  });
+  return schema.defined(name, {{"oneOf", {single, several}}});
+}
+
+/// The points of an outline, or of a curve over time.
+ObjectSchema::Json told_points(ObjectSchema& schema, bool over_time) {
+  constexpr double most_mm = 10000;
+  return schema.described([&](ObjectSchema& form) {
+    form.shared(over_time ? "spread_curve" : "profile");
+    if (over_time)
+      form.pairs({"points", "[s, mm], ascending in time"}, {}, {0, most_mm}, {0, most_mm}, Need::required, 3);
+    else
+      form.pairs({"points", "[x, z] in mm, x from the middle of the table towards the free edge, ascending"}, {},
+                 {-most_mm, most_mm}, {-most_mm, most_mm}, Need::required, 5);
+    form.number({"standard_deviation", over_time ? "of a spread [mm]" : "of a height of the outline [mm]"}, 0,
+                deviations, Need::required);
+  });
+}
+
+}  // namespace
+
+void tell_yield_stress(ObjectSchema& material) {
+  const auto [smallest, largest] = yield_stress_kind.possible;
+  material.put({yield_stress_kind.key,
+                "by a vane or another rheometer; compared with what the readings say, never fitted; only of tests for "
+                "which a formula does"},
+               told_measurement(material, "yield_stress", {smallest, largest}), Need::optional);
+}
+
+void tell_measurements(ObjectSchema& lab) {
+  using Json = ObjectSchema::Json;
+  constexpr double most = 1e7;
+  Json one_of_two = Json::array();
+  Json schema = lab.described([&](ObjectSchema& readings) {
+    const std::vector<ReadingKind> kinds = all_reading_kinds();
+    const ReadingKind* before = nullptr;
+    for (const ReadingKind& kind : kinds) {
+      if (kind.key.empty()) continue;
+      readings.put({kind.key, meaning_of_reading(kind.key)},
+                   kind.from_outline            ? told_points(readings, kind.name == "step1.spread_curve_mm")
+                   : kind.possible.smallest < 0 ? told_measurement(readings, "signed_reading", {-most, most})
+                                                : told_measurement(readings, "reading", {0, most}),
+                   Need::optional);
+      if (before && before->measure == kind.measure) {
+        Json& both = one_of_two.emplace_back()["not"]["required"];
+        both.push_back(before->key);
+        both.push_back(kind.key);
+      }
+      before = &kind;
+    }
+  });
+  schema["minProperties"] = 1;
+  schema["allOf"] = one_of_two;
+  lab.put({"measurements", "what was read, each either {`value`, `standard_deviation`} or {`repeats`}; at least one"},
+          std::move(schema), Need::required);
 }
 
 }  // namespace pastefit

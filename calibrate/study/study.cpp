@@ -11,6 +11,7 @@
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/free_parameter.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/schemas.h"
 #include "calibrate/study/search_options.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/table.h"
@@ -31,16 +32,33 @@ void read_parameter(ObjectReader& reader, const ParameterKind& kind, Parameter& 
   read_free(reader, range, parameter);
 }
 
+template <class Fields>
+void describe_choice(Fields& fields, ContactModel& laws) {
+  const Need optional = Need::optional;
+  fields.choice({"normal", "law of the overlap; default hertz", "laws.schema.json#/properties/normal"}, laws.normal,
+                normal_laws, optional);
+  fields.choice({"attraction", "across a gap; default polynomial", "laws.schema.json#/properties/attraction"},
+                laws.bridge.shape, bridge_shapes, optional);
+  fields.choice(
+      {"formation", "when a bridge forms: film, when liquid shells touch; touch, when grains do; default film"},
+      laws.bridge.formation, bridge_formations, optional);
+  fields.choice(
+      {"rolling_model", "resistance to rolling; default spring_dashpot", "laws.schema.json#/properties/rolling"},
+      laws.rolling, rolling_models, optional);
+  fields.choice(
+      {"friction_basis",
+       "what the friction limit is a share of: elastic, the repulsion alone, so that cohesion strengthens it; total, "
+       "the whole normal force, with the reserve that sticking grains have in LAMMPS (twice the largest pull); net, "
+       "the whole normal force alone, so that grains which only stick hold nothing; default elastic"},
+      laws.friction_basis, friction_bases, optional);
+}
+
 /// The choice of laws.
 ContactModel read_contact(ObjectReader& document) {
   ContactModel laws;
   laws.bridge.shape = BridgeShape::polynomial;
   document.object("contact", Need::optional, [&](ObjectReader& reader) {
-    reader.choice("normal", laws.normal, normal_laws, Need::optional);
-    reader.choice("attraction", laws.bridge.shape, bridge_shapes, Need::optional);
-    reader.choice("formation", laws.bridge.formation, bridge_formations, Need::optional);
-    reader.choice("rolling_model", laws.rolling, rolling_models, Need::optional);
-    reader.choice("friction_basis", laws.friction_basis, friction_bases, Need::optional);
+    describe_choice(reader, laws);
     if (!go_together(laws.normal, laws.bridge.shape))
       reader.fault("attraction",
                    "is " + in_quotes(word_of(laws.bridge.shape, bridge_shapes)) + " beside normal " +
@@ -163,6 +181,65 @@ Result<Study> read_study(const std::filesystem::path& file, const StudyChanges& 
   if (study.ok() && faults.empty()) return study;
   if (!study.ok()) faults.insert(faults.end(), study.faults().begin(), study.faults().end());
   return faults;
+}
+
+ObjectSchema::Json study_schema() {
+  using Json = ObjectSchema::Json;
+  Json object, definitions;
+  ObjectSchema schema(object, definitions);
+  schema.constant({"format", "says what file it is, and in which version"}, "pastefit-study-1", Need::required);
+  schema.text({"title", "one line for people"}, "", Need::required);
+  tell_tests(schema);
+  ContactModel any;
+  schema.object({"contact", "the contact laws (data/README.md)"}, Need::optional,
+                [&](ObjectSchema& fields) { describe_choice(fields, any); });
+  Json parameters = schema.described([](ObjectSchema& fields) {
+    for (const ParameterKind& kind : parameter_kinds()) tell_parameter(fields, kind);
+  });
+  parameters["minProperties"] = 1;
+  schema.put({"parameters",
+              "each either {`value`: NUMBER}, fixed, or {`free`: [LOWER, UPPER], `scale`: \"linear\" or \"log\", "
+              "`prior`: {`value`, `standard_deviation`}}, fitted between these bounds; what is not named has its "
+              "default value; a prior is a normal distribution, of the logarithm on a log scale, with "
+              "standard_deviation/value as its standard deviation"},
+             std::move(parameters), Need::required);
+  tell_search_options(schema);
+  const auto needed = [](const char* key) {
+    Json schema_of_key;
+    schema_of_key["required"].push_back(key);
+    return schema_of_key;
+  };
+  Json one_test = needed("lab"), several = needed("tests");
+  one_test["not"] = needed("tests");
+  for (const char* key : {"lab", "weights", "tolerances"}) several["not"]["anyOf"].push_back(needed(key));
+  object["oneOf"].push_back(one_test);
+  object["oneOf"].push_back(several);
+  return document_schema(
+      "pastefit study file",
+      "Which parameters are fitted to which measurements of one or several laboratory files, and how. That bounds are "
+      "in order, not the same within a millionth and no more than 1e12 apart on a log scale, at least one parameter is "
+      "free and the laws have the parameters that are named is checked by the program alone.",
+      std::move(object), std::move(definitions));
+}
+
+ObjectSchema::Json laws_schema() {
+  ObjectSchema::Json object, definitions;
+  ObjectSchema schema(object, definitions);
+  schema.choice({"normal",
+                 "law of the overlap: hertz, elastic spheres; jkr, elastic spheres that stick; dmt, stiff ones; sjkr, "
+                 "an attraction in proportion to the area in which spheres meet; epa, elasto-plastic spheres that "
+                 "adhere (EEPA); luding, the same with linear springs"},
+                NormalLaw(), normal_laws, Need::optional);
+  schema.choice({"attraction",
+                 "across a gap: polynomial, a d^2 + b d + c for d_c <= d <= 0; linear, to zero at d_c; exponential, c "
+                 "exp(3 d/|d_c|); capillary, a liquid bridge of given volume"},
+                BridgeShape(), bridge_shapes, Need::optional);
+  schema.choice(
+      {"rolling", "resistance to rolling: spring_dashpot, elastic and plastic; constant_torque, against the spin"},
+      RollingModel(), rolling_models, Need::optional);
+  return document_schema("pastefit contact laws",
+                         "The words of studies, cards and cases for the laws of core/laws (core/laws/README.md).",
+                         std::move(object), std::move(definitions));
 }
 
 }  // namespace pastefit

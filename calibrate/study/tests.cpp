@@ -6,6 +6,7 @@
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/study/lab.h"
+#include "calibrate/study/schemas.h"
 #include "calibrate/study/tolerance.h"
 
 namespace pastefit {
@@ -15,6 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_tests = 20;
+constexpr Range weights{0, 1e6}, tolerances{1e-6, 1e6};
 
 /// Reads an object that has a number for some readings; `set` takes it to the reading's target. Of a reading that the
 /// apparatus has, but that was not taken, it is left out. A laboratory file that could not be read has no measurements:
@@ -46,13 +48,13 @@ void read_targets(ObjectReader& document, StudyTest& test) {
   std::vector<Target>& targets = test.targets;
   for (const Measurement& measurement : test.lab.measurements) targets.push_back({measurement.observable, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, test, {0, 1e6}, [](Target& target, double weight) { target.weight = weight; });
+    read_numbers(reader, test, weights, [](Target& target, double weight) { target.weight = weight; });
     if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
       document.fault("weights", test.hold_out ? "all are 0, so nothing is judged" : "all are 0, so nothing is fitted",
                      "give at least one measurement a weight above 0");
   });
   document.object("tolerances", Need::optional, [&](ObjectReader& reader) {
-    read_numbers(reader, test, {1e-6, 1e6}, [](Target& target, double tolerance) { target.tolerance = tolerance; });
+    read_numbers(reader, test, tolerances, [](Target& target, double tolerance) { target.tolerance = tolerance; });
   });
 }
 
@@ -162,6 +164,44 @@ std::vector<StudyTest> read_tests(ObjectReader& document, const json& study, con
   if (!tests.empty() && tests.front().hold_out)
     document.fault("tests", "all are held out, so nothing is fitted", "leave \"hold_out\" out in at least one");
   return tests;
+}
+
+namespace {
+
+void tell_numbers(ObjectSchema& study, const Key& key, const Range& range) {
+  study.object(key, Need::optional, [&](ObjectSchema& numbers) {
+    for (const ReadingKind& kind : all_reading_kinds())
+      if (!kind.key.empty()) numbers.number(kind.key, 0, range, Need::optional);
+  });
+}
+
+}  // namespace
+
+void tell_tests(ObjectSchema& study) {
+  using Json = ObjectSchema::Json;
+  const Json lab{{"type", {"string", "object"}}};
+  study.put({"lab", "laboratory file of a study of one test, or what such a file says"}, lab, Need::optional);
+  const Json test = study.described([&](ObjectSchema& one) {
+    one.put({"name", "stands before the readings of the test in tables"},
+            {{"type", "string"}, {"pattern", "^[A-Za-z0-9._-]{1,40}$"}}, Need::required);
+    one.put({"lab", "its laboratory file, or what such a file says"}, lab, Need::required);
+    one.flag({"hold_out", "predicted and judged, not fitted"}, false, Need::optional);
+    one.put({"weights", "as `weights`"}, {{"$ref", "#/properties/weights"}}, Need::optional);
+    one.put({"tolerances", "as `tolerances`"}, {{"$ref", "#/properties/tolerances"}}, Need::optional);
+  });
+  study.put({"tests", "several tests of one material"},
+            {{"type", "array"}, {"minItems", 1}, {"maxItems", most_tests}, {"items", test}}, Need::optional);
+  tell_numbers(
+      study,
+      {"weights",
+       "of each measured reading in the fit, by the names of `measurements`; 1 where it is not said, 0: shown, "
+       "not fitted"},
+      weights);
+  tell_numbers(study,
+               {"tolerances",
+                "how far off a fitted reading may be, in its unit, by the names of `measurements`; without one it is "
+                "tolerance_mm for a length, and one standard deviation of the laboratory for anything else"},
+               tolerances);
 }
 
 std::string inputs_of(const Study& study) {

@@ -324,46 +324,6 @@ TEST_CASE("a laboratory file that is not there is named with its path") {
   CHECK(says(at(Desk().faults(document), "nowhere.json"), "no such file"));
 }
 
-TEST_CASE("the schemas name the parameters, ranges and readings of the program, and no others") {
-  const auto schema = [](const char* name) {
-    return json::parse(std::ifstream(std::string(PASTEFIT_SOURCE_DIR "/data/schema/") + name));
-  };
-  const json study = schema("study.schema.json").at("properties");
-  const json& parameters = study.at("parameters").at("properties");
-  CHECK(parameters.size() == parameter_kinds().size());
-  for (const ParameterKind& kind : parameter_kinds()) {
-    const json value = parameters.at(std::string(kind.name)).at("oneOf").at(0).at("properties").at("value");
-    INFO(kind.name);
-    CHECK(value.at("minimum").get<double>() == kind.smallest);
-    CHECK(value.at("maximum").get<double>() == kind.largest);
-  }
-  const auto words = [](const auto& laws) {
-    json list = json::array();
-    for (const auto& law : laws) list.push_back(law.name);
-    return list;
-  };
-  const json laws = schema("laws.schema.json").at("properties");
-  CHECK(laws.at("normal").at("enum") == words(normal_laws));
-  CHECK(laws.at("attraction").at("enum") == words(bridge_shapes));
-  CHECK(laws.at("rolling").at("enum") == words(rolling_models));
-  const json kinds_in_labs = schema("lab.schema.json").at("properties").at("test").at("enum");
-  CHECK(kinds_in_labs == json(kinds_of_tests()));
-  CHECK(schema("apparatus.schema.json").at("properties").at("test").at("enum") == kinds_in_labs);
-  const json lab = schema("lab.schema.json").at("properties").at("measurements").at("properties");
-  std::size_t keys = 0;
-  for (const ReadingKind& kind : all_reading_kinds()) {
-    if (kind.key.empty()) continue;
-    INFO(kind.key);
-    ++keys;
-    CHECK(lab.contains(kind.key));
-    CHECK(study.at("weights").at("properties").contains(kind.key));
-    CHECK(study.at("tolerances").at("properties").contains(kind.key));
-  }
-  CHECK(lab.size() == keys);
-  CHECK(study.at("weights").at("properties").size() == keys);
-  CHECK(study.at("tolerances").at("properties").size() == keys);
-}
-
 TEST_CASE("the hash of a study follows its content") {
   const Desk desk;
   json document = Desk::study();

@@ -33,7 +33,7 @@ struct Throwaway : Hertz {
 EDITS = [("core/laws/materials.h", "  last = luding", "  throwaway,\n  last = throwaway"),
          ("core/laws/table.h", '#include "core/laws/sjkr.h"', '#include "core/laws/sjkr.h"\n#include "core/laws/throwaway.h"'),
          ("core/laws/table.h", "Epa, Luding>;", "Epa, Luding, Throwaway>;"),
-         ("data/schema/laws.schema.json", '"epa", "luding"]', '"epa", "luding", "throwaway"]')]
+         ("data/schema/laws.schema.json", '"luding"', '"luding","throwaway"')]
 
 
 def run(*command):
