@@ -63,6 +63,8 @@ std::string head_of(const Names& names) {
 
 std::string interval(const BatchRow::Fitted& one) {
   if (!one.lower && !one.upper) return "<td></td>";
+  if (one.lower && one.upper)
+    return "<td class=\"number soft\">" + interval_in_words(*one.lower, *one.upper, one.at_bounds, 3) + "</td>";
   const auto end = [](std::optional<double> value) { return value ? plain(*value, 3) : std::string("?"); };
   return "<td class=\"number soft\">" + end(one.lower) + " to " + end(one.upper) + "</td>";
 }

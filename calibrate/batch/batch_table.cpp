@@ -66,10 +66,11 @@ void add(BatchRow& row, const Card& card) {
     if (!one.free || !has_parameter(card, one.name)) continue;
     const auto& known = card.inference.intervals;
     const auto interval = std::ranges::find(known, one.name, &CardInference::Interval::parameter);
-    row.parameters.push_back({one.name, one.value, {}, {}});
+    row.parameters.push_back({one.name, one.value, {}, {}, {}});
     if (interval == known.end()) continue;
     row.parameters.back().lower = interval->lower;
     row.parameters.back().upper = interval->upper;
+    row.parameters.back().at_bounds = ends_at_bounds(*interval, one);
   }
 }
 
@@ -87,6 +88,12 @@ std::string cell(std::optional<double> value) {
   return value ? nlohmann::json(*value).dump() : "";
 }
 
+/// Which ends of the interval the readings do not set.
+std::string bounds_of(const BatchRow::Fitted& one) {
+  const auto [lower, upper] = one.at_bounds;
+  return lower && upper ? "both" : lower ? "lower" : upper ? "upper" : "";
+}
+
 /// The columns that some rows have and others have not.
 struct TableColumns {
   std::vector<std::string> laboratory, readings, parameters;
@@ -98,7 +105,8 @@ std::string header(const TableColumns& columns) {
   for (const auto& name : columns.laboratory) out += "," + quoted(name);
   for (const auto& name : columns.readings)
     for (const char* what : {"measured_", "simulated_", "deviation_"}) out += "," + quoted(what + name);
-  for (const auto& name : columns.parameters) out += "," + name + ",lower_" + name + ",upper_" + name;
+  for (const auto& name : columns.parameters)
+    out += "," + name + ",lower_" + name + ",upper_" + name + ",at_bounds_" + name;
   return out + ",program\n";
 }
 
@@ -119,7 +127,8 @@ std::string line(const BatchRow& row, const TableColumns& columns) {
   }
   for (const auto& name : columns.parameters) {
     const auto* one = find_named(row.parameters, name);
-    out += one ? "," + cell(one->value) + "," + cell(one->lower) + "," + cell(one->upper) : ",,,";
+    out +=
+        one ? "," + cell(one->value) + "," + cell(one->lower) + "," + cell(one->upper) + "," + bounds_of(*one) : ",,,,";
   }
   return out + "," + quoted(row.program) + "\n";
 }

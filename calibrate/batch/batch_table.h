@@ -25,6 +25,7 @@ struct BatchRow {
     std::string name;
     double value = 0;
     std::optional<double> lower, upper;  ///< ends of the 95 % interval, where it is known
+    BoundEnds at_bounds = {};            ///< ends that are the study's bounds, and not set by the readings
   };
   std::string name, title;
   /// "confirmed", "unconfirmed", "out_of_reach", "stopped", "failed" as in a card; "unfinished": there is no card yet;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
+#include "calibrate/base/rounded.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
 
@@ -51,6 +53,19 @@ std::string interpolation_in_words(const Interpolation& interpolation) {
 
 std::string title_of(const Card& card) {
   return (card.interpolated ? interpolation_in_words(*card.interpolated) + ": " : "") + card.title;
+}
+
+BoundEnds ends_at_bounds(const CardInference::Interval& interval, const Parameter& parameter) {
+  if (!parameter.free) return {};
+  const auto is_bound = [](double end, double bound) { return end == bound || end == rounded(bound, 4); };
+  return {is_bound(interval.lower, parameter.lower), is_bound(interval.upper, parameter.upper)};
+}
+
+std::string interval_in_words(double lower, double upper, const BoundEnds& at_bounds, int digits) {
+  const auto end = [&](double value, bool bound) {
+    return plain(value, digits) + (bound ? " (the study's bound)" : "");
+  };
+  return end(lower, at_bounds.lower) + " to " + end(upper, at_bounds.upper);
 }
 
 }  // namespace pastefit

@@ -216,6 +216,14 @@ std::string title_of(const Card& card);
 /// In which people are told the card's misfit.
 MisfitUnit misfit_unit_of(const Card& card);
 
+/// Which ends of an interval of a parameter are the bounds of the study: the readings do not set them.
+struct BoundEnds {
+  bool lower = false, upper = false;
+};
+BoundEnds ends_at_bounds(const CardInference::Interval& interval, const Parameter& parameter);
+/// "13.2 to 526", with a mark at an end that the study's bound sets.
+std::string interval_in_words(double lower, double upper, const BoundEnds& at_bounds, int digits);
+
 /// The version of the card format that this program writes. It reads version 5, too.
 inline constexpr int kCardVersion = 6;
 

@@ -81,7 +81,7 @@ void heed_sample(Combination& combination, const TrainingData& evidence, const M
   const Eigen::VectorXd before = deviations_before(evidence);
   const Eigen::VectorXd scaled = direction.cwiseQuotient(before);
   const double sampled = std::sqrt(scaled.dot(moments.covariance * scaled));
-  if (sampled <= combination.uncertainty) return;
+  if (sampled <= combination.uncertainty && size > 1) return;
   combination.uncertainty = std::min(1.0, sampled);
   combination.lead_width = width_of(evidence.parameters[combination.lead],
                                     two_sided * before[static_cast<Eigen::Index>(combination.lead)] *

@@ -29,7 +29,7 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at);
 
 /// Widens a combination to the standard deviation of the sample along it: slopes at one point promise too much where
-/// the posterior is curved.
+/// the posterior is curved. The sample's alone counts where the combination is the only one.
 void heed_sample(Combination& combination, const TrainingData& evidence, const Moments& moments);
 
 }  // namespace pastefit

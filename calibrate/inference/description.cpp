@@ -37,18 +37,47 @@ std::string exchange_of(const Inference& inference, const Combination& combinati
   return "  The others can make up for it: " + enumerated(rates) + ".\n";
 }
 
+/// "13.2 to 526", with a mark at an end that the study's bound sets.
+std::string ends_in_words(double lower, bool lower_known, double upper, bool upper_known) {
+  const auto end = [](double value, bool known) { return plain(value, 4) + (known ? "" : " (the study's bound)"); };
+  return end(lower, lower_known) + " to " + end(upper, upper_known);
+}
+
+/// With one free parameter there is one interval.
+std::string determined_alone(const Inference& inference) {
+  const ParameterInterval& one = inference.intervals.front();
+  std::string out;
+  if (inference.jumps)
+    out += format(
+        "  %s jumps with %s: simulations that are left out differ from the others' model by more than three standard "
+        "deviations. Between neighbouring simulations nothing is predicted.\n",
+        enumerated(inference.fitted).c_str(), one.name.c_str());
+  if (one.prior || one.not_identified()) return out;
+  const std::vector<std::string>& led = inference.combinations.front().readings;
+  return out + format("  %s %s %s to %s (95 %%).\n", enumerated(led.empty() ? inference.fitted : led).c_str(),
+                      (led.empty() ? inference.fitted : led).size() > 1 ? "fix" : "fixes", one.name.c_str(),
+                      ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str());
+}
+
 std::string determined(const Inference& inference) {
+  if (inference.intervals.size() == 1) return determined_alone(inference);
+  if (inference.jumps)
+    return format(
+        "  %s jumps near the recommended material: simulations that are left out differ from the others' model by more "
+        "than ten standard deviations. Nothing is predicted there, and no interval is given with the others held.\n",
+        enumerated(inference.fitted).c_str());
   std::string out;
   std::vector<std::size_t> said;
   for (const Combination& combination : inference.combinations) {
-    if (!combination.determined()) continue;
     const ParameterInterval& lead = inference.intervals[combination.lead];
+    if (!combination.determined() || (said.empty() && !lead.held_exists())) continue;
     if (said.empty()) {
       out += format(
-          "  %s %s %s to %s to %s (95 %%), the other parameters "
+          "  %s %s %s to %s (95 %%), the other parameters "
           "held at the recommended values.\n",
           enumerated(combination.readings).c_str(), combination.readings.size() > 1 ? "fix" : "fixes",
-          lead.name.c_str(), plain(lead.held_lower).c_str(), plain(lead.held_upper).c_str());
+          lead.name.c_str(),
+          ends_in_words(lead.held_lower, lead.held_lower_known, lead.held_upper, lead.held_upper_known).c_str());
       out += exchange_of(inference, combination);
     } else {
       const std::string width = lead.scale == Scale::linear ? format("+-%.2g", combination.lead_width)
@@ -59,10 +88,7 @@ std::string determined(const Inference& inference) {
     said.push_back(combination.lead);
   }
   if (said.empty())
-    out +=
-        "  Near the recommended material no parameter, and no combination "
-        "of them, is told much better than by the "
-        "bounds.\n";
+    out += "  The readings do not narrow any parameter, or any combination of them, much below its bounds.\n";
   return out;
 }
 
@@ -71,39 +97,53 @@ std::string prior_line(const ParameterInterval& one) {
   const std::string known = format("  %s was known to be %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
                                    plain(one.prior->standard_deviation).c_str());
   if (one.uncertainty > worth_measuring)
-    return known + format("the readings add nothing: %s to %s (95 %%) comes from the prior.\n",
-                          plain(one.lower).c_str(), plain(one.upper).c_str());
-  return known + format("with the readings %s to %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
-                        plain(one.lower).c_str(), plain(one.upper).c_str(), 100 * one.uncertainty);
+    return known + format("the readings add nothing: %s (95 %%) comes from the prior.\n",
+                          ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str());
+  return known + format("with the readings %s (95 %%), which leaves %.0f %% of the prior's uncertainty.\n",
+                        ends_in_words(one.lower, one.lower_known, one.upper, one.upper_known).c_str(),
+                        100 * one.uncertainty);
+}
+
+/// Why there is no interval of a parameter.
+std::string not_identified_because(const Inference& inference, const ParameterInterval& one) {
+  if (inference.intervals.size() == 1) return "the readings do not narrow it below its bounds";
+  if (one.any_value_fits()) return "any value within its bounds fits if the others change with it";
+  return "the readings do not narrow it below its bounds; materials that fit were found from " +
+         plain(one.fitting_lower) + " to " + plain(one.fitting_upper);
 }
 
 std::string intervals(const Inference& inference) {
   std::string out;
-  std::vector<std::string> unknown;
+  std::vector<std::string> any;
   for (const ParameterInterval& one : inference.intervals) {
     if (one.prior) {
       out += prior_line(one);
     } else if (one.not_identified()) {
-      unknown.push_back(one.name);
+      if (inference.intervals.size() > 1 && one.any_value_fits())
+        any.push_back(one.name);
+      else
+        out += "  " + one.name + " is not identifiable: " + not_identified_because(inference, one) + ".\n";
+    } else if (inference.intervals.size() == 1) {
+      continue;
     } else if (one.interval_exists()) {
       out += format("  %s lies between %s and %s (95 %%), all parameters free.\n", one.name.c_str(),
                     plain(one.lower).c_str(), plain(one.upper).c_str());
     } else {
       out += format(
-          "  %s lies %s %s (95 %%), all parameters free; its bound "
+          "  %s lies %s %s (95 %%), all parameters free; the study's bound "
           "sets the other end.\n",
           one.name.c_str(), one.lower_known ? "above" : "below",
           plain(one.lower_known ? one.lower : one.upper).c_str());
     }
   }
-  if (unknown.size() == 1)
-    out += "  " + unknown[0] +
-           " is not told by this test: any value within its bounds fits, with "
-           "the others to match.\n";
-  else if (!unknown.empty())
-    out += "  " + enumerated(unknown) +
-           " cannot be told apart by this test: any values within their bounds "
-           "fit, with the others to match.\n";
+  if (any.size() == 1)
+    out += "  " + any[0] +
+           " is not identifiable from this test: any value within its bounds fits if the others change "
+           "with it.\n";
+  else if (!any.empty())
+    out += "  " + enumerated(any) +
+           " are not identifiable from this test: each can take any value within its bounds if "
+           "the others change with it.\n";
   return out;
 }
 
@@ -156,6 +196,7 @@ std::string next(const Inference& inference) {
         gain.measurements, known ? "more " : "", gain.reading.c_str(), plain(gain.deviation).c_str(),
         gain.parameter.c_str(), 100 * gain.narrowing);
   }
+  if (inference.jumps) return "  The response jumps: what a further measurement would narrow is not predicted.\n";
   if (out.empty())
     out = "  No reading of this test would tell more; a test of another kind, or on another apparatus, would.\n";
   return out;
@@ -188,9 +229,10 @@ CardInference card_inference(const Inference& inference) {
   for (std::size_t i = 0; i < inference.intervals.size(); ++i) {
     const ParameterInterval& one = inference.intervals[i];
     if (one.not_identified() && !one.prior)
-      out.not_identified.push_back({one.name, "any value within its bounds fits, with the others to match"});
-    else
-      out.intervals.push_back({one.name, rounded(one.lower, 4), rounded(one.upper, 4)});
+      out.not_identified.push_back({one.name, not_identified_because(inference, one)});
+    else  // an end that is the study's bound stays that bound, digit by digit
+      out.intervals.push_back({one.name, one.lower_known ? rounded(one.lower, 4) : one.bound_lower,
+                               one.upper_known ? rounded(one.upper, 4) : one.bound_upper});
     for (std::size_t j = 0; j < i; ++j)
       if (std::abs(inference.correlation[i][j]) >= told)
         out.correlations.push_back({inference.intervals[j].name, one.name, rounded(inference.correlation[i][j], 2)});

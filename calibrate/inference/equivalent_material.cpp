@@ -41,36 +41,48 @@ std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector
   return half;
 }
 
-std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
-                                          const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
-                                          int count) {
-  const TrainingData& evidence = model.training_data();
+std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
+                               const UnitPoint& recommended) {
   const auto error = [&](std::size_t k, const UnitPoint& point) {
-    const ReadingTrainingData& reading = evidence.readings[k];
-    return std::abs(model.predict(k, point).mean - *reading.measured) / reading.deviation;
+    const ReadingTrainingData& reading = model.training_data().readings[k];
+    return std::abs(model.expected(k, point) - *reading.measured) / reading.deviation;
   };
   const double as_well = std::max(1.0, model.normalised_error(recommended));  // priors included
-  const auto fits = [&](const UnitPoint& point) {
-    return model.normalised_error(point) <= as_well && std::ranges::all_of(fitted, [&](std::size_t k) {
-             return error(k, point) <= std::max(1.0, error(k, recommended));
-           });
+  std::vector<UnitPoint> out;
+  std::ranges::copy_if(points, std::back_inserter(out), [&](const UnitPoint& point) {
+    return model.is_known(point) && model.normalised_error(point) <= as_well &&
+           std::ranges::all_of(model.fitted(),
+                               [&](std::size_t k) { return error(k, point) <= std::max(1.0, error(k, recommended)); });
+  });
+  return out;
+}
+
+std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
+                                          const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
+                                          int count) {
+  const TrainingData& evidence = model.training_data();
+  const auto value = [&](const UnitPoint& point, std::size_t j) {
+    return value_between(evidence.parameters[j], point[static_cast<Eigen::Index>(j)]);
   };
-  const auto fitting = [&](const std::vector<UnitPoint>& candidates) {
-    std::vector<UnitPoint> chosen;
-    std::ranges::copy_if(candidates, std::back_inserter(chosen), fits);
+  const auto chosen_from = [&](const std::vector<UnitPoint>& candidates) {
+    std::vector<UnitPoint> chosen = fitting(model, candidates, recommended);
+    std::erase_if(chosen, [&](const UnitPoint& point) {
+      for (std::size_t j = 0; j < intervals.size(); ++j)
+        if (value(point, j) < intervals[j].lower || value(point, j) > intervals[j].upper) return true;
+      return false;
+    });
     return chosen;
   };
   const auto size = static_cast<std::size_t>(count);
   std::vector<UnitPoint> points{recommended};
-  spread_out(points, fitting(evidence.points), size, neighbourhood);
-  spread_out(points, fitting(better_half(model, sample)), size);
+  spread_out(points, chosen_from(evidence.points), size, neighbourhood);
+  spread_out(points, chosen_from(better_half(model, sample)), size);
   std::vector<EquivalentMaterial> family;
   for (const UnitPoint& point : points) {
     EquivalentMaterial member;
     member.point = point;
-    for (Eigen::Index j = 0; j < point.size(); ++j)
-      member.values.push_back(value_between(evidence.parameters[static_cast<std::size_t>(j)], point[j]));
-    for (const std::size_t k : fitted) member.readings.push_back(model.predict(k, point).mean);
+    for (std::size_t j = 0; j < evidence.parameters.size(); ++j) member.values.push_back(value(point, j));
+    for (const std::size_t k : model.fitted()) member.readings.push_back(model.expected(k, point));
     member.simulated = std::ranges::find(evidence.points, point) != evidence.points.end();
     member.normalised_error = model.normalised_error(point);
     family.push_back(std::move(member));

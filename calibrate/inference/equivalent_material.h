@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "calibrate/inference/parameter_interval.h"
 #include "calibrate/inference/response_model.h"
 
 namespace pastefit {
@@ -23,10 +24,14 @@ void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& po
 /// The half of the points with the smaller normalised errors.
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points);
 
-/// The recommended candidate; then simulated ones whose fitted readings are each predicted within the laboratory's
-/// standard deviation, or as near as the recommended one's; then such members of the sample.
-std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<std::size_t>& fitted,
-                                          const std::vector<UnitPoint>& sample, const UnitPoint& recommended,
+/// Those points of which every fitted reading is expected within the laboratory's deviation, or as near as the
+/// recommended one's. None is named where the response jumps and nobody has simulated it.
+std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
+                               const UnitPoint& recommended);
+
+/// The recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
+std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
+                                          const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
                                           int count);
 
 }  // namespace pastefit

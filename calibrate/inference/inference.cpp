@@ -6,14 +6,44 @@
 
 #include "calibrate/inference/posterior.h"
 #include "calibrate/inference/response_model.h"
+#include "calibrate/study/parameters.h"
 
 namespace pastefit {
 
 namespace {
 
 std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const InferenceOptions& options) {
+  if (model.training_data().parameters.size() == 1) {
+    std::vector<UnitPoint> line;
+    for (const double x : sample_along(model, UnitPoint::Constant(1, 0.5), 0, options.sample))
+      line.push_back(UnitPoint::Constant(1, x));
+    return line;
+  }
   return posterior_sample([&](const UnitPoint& point) { return model.log_posterior(point); },
                           static_cast<int>(model.training_data().parameters.size()), options.sample, options.seed);
+}
+
+/// The ends of the range of a single parameter that may meet the laboratory as far as is known, and were not simulated:
+/// beyond the outermost simulation a model knows little.
+std::vector<UnitPoint> open_ends(const TrainingData& evidence, const std::vector<UnitPoint>& sample) {
+  constexpr double near = 0.1;
+  std::vector<UnitPoint> out;
+  if (evidence.parameters.size() != 1) return out;
+  for (const double end : {0.0, 1.0}) {
+    const bool open = std::ranges::any_of(sample, [&](const UnitPoint& one) { return std::abs(one[0] - end) < near; });
+    UnitPoint point = UnitPoint::Constant(1, end);
+    if (open && std::ranges::find(evidence.points, point) == evidence.points.end()) out.push_back(std::move(point));
+  }
+  return out;
+}
+
+/// A material that fits: what is said to fit of each parameter contains it.
+void widen_by(std::vector<ParameterInterval>& intervals, const TrainingData& evidence, const UnitPoint& point) {
+  for (std::size_t j = 0; j < intervals.size(); ++j) {
+    const double value = value_between(evidence.parameters[j], point[static_cast<Eigen::Index>(j)]);
+    intervals[j].fitting_lower = std::min(intervals[j].fitting_lower, value);
+    intervals[j].fitting_upper = std::max(intervals[j].fitting_upper, value);
+  }
 }
 
 /// Whether the linear combinations give the uncertainties of the sample.
@@ -43,8 +73,11 @@ std::vector<std::vector<double>> correlation_of(const Moments& moments) {
 std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options) {
   const ResponseModel model(evidence);
+  const std::vector<UnitPoint> sample = sample_posterior(model, options);
   std::vector<UnitPoint> chosen{recommended};
-  spread_out(chosen, better_half(model, sample_posterior(model, options)), static_cast<std::size_t>(count) + 1);
+  for (UnitPoint& end : open_ends(evidence, sample))
+    if (std::ssize(chosen) <= count) chosen.push_back(std::move(end));
+  spread_out(chosen, better_half(model, sample), static_cast<std::size_t>(count) + 1);
   chosen.erase(chosen.begin());
   return chosen;
 }
@@ -65,12 +98,17 @@ Inference infer(const TrainingData& evidence, const UnitPoint& recommended, cons
   out.combinations = combinations_of(model, fitted, recommended);
   for (Eigen::Index j = 0; j < recommended.size(); ++j)
     out.intervals.push_back(interval_of(model, sample, moments, recommended, j));
+  std::vector<UnitPoint> seen = sample;
+  seen.insert(seen.end(), evidence.points.begin(), evidence.points.end());
+  for (const UnitPoint& point : fitting(model, seen, recommended)) widen_by(out.intervals, evidence, point);
+  out.jumps = !model.trust().predicts(recommended);
   out.linear = explains(out.combinations, out.intervals);
   for (Combination& combination : out.combinations) heed_sample(combination, evidence, moments);
   out.correlation = correlation_of(moments);
   out.conditions = evidence.conditions;
-  out.family = family_of(model, fitted, sample, recommended, options.family);
-  out.gains = measurement_gains(model, sample, moments, recommended, out.combinations.front().lead, options.repeats);
+  out.family = family_of(model, sample, recommended, out.intervals, options.family);
+  if (!out.jumps)
+    out.gains = measurement_gains(model, sample, moments, recommended, out.combinations.front().lead, options.repeats);
   return out;
 }
 

@@ -22,6 +22,7 @@ struct Inference {
   std::vector<Combination> combinations;         ///< best determined first; one for each free parameter
   bool linear = false;                           ///< the combinations explain the intervals; if not, the
                                                  ///< intervals hold
+  bool jumps = false;                            ///< near the recommended candidate, so that nothing is predicted there
   std::vector<EquivalentMaterial> family;        ///< far apart from each other; the recommended one first
   std::vector<MeasurementGain> gains;            ///< best first
   std::vector<ConditionEffect> conditions;       ///< effects of unstated conditions; contained in the intervals
@@ -36,8 +37,9 @@ struct InferenceOptions {
   std::uint64_t seed = 1;
 };
 
-/// Candidates to simulate next: from the posterior sample, as far from each other and from `recommended` as possible.
-/// Shape: `count` points, fewer if the sample has no more.
+/// Candidates to simulate next: from the posterior sample, as far from each other and from `recommended` as possible;
+/// first the ends of the range of a single parameter, where they may meet the laboratory. Shape: `count` points, fewer
+/// if the sample has no more.
 std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options = {});
 

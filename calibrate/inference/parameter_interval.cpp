@@ -10,9 +10,9 @@ namespace pastefit {
 
 namespace {
 
-constexpr double border = 0.05;  // of a range: the outermost part, whose density decides whether the data set an end
-constexpr double thin = 0.2;     // density there over the uniform one, below which the data set the end
-constexpr double tail = 0.025;   // share of the sample beyond each end of an interval
+constexpr double border = 0.01;  // of a range: where the sample shows whether the data set an end
+constexpr double thin = 0.2;     // density at a bound, over the mean one, below which the data set the end
+constexpr double tail = 0.025;   // of the sample beyond each end of an interval
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -46,25 +46,27 @@ Ends ends_of(std::vector<double> coordinates) {
   return ends;
 }
 
-/// The central 95 % of the posterior along one coordinate, the others held.
-std::pair<double, double> held_ends(const ResponseModel& model, UnitPoint point, Eigen::Index coordinate) {
+/// Ends that contain these of another interval, and a value. An end beyond the sample's own is as known as the other's.
+void contain(Ends& ends, const Ends& others) {
+  if (others.lower < ends.lower) {
+    ends.lower = others.lower;
+    ends.lower_known = others.lower_known;
+  }
+  if (others.upper > ends.upper) {
+    ends.upper = others.upper;
+    ends.upper_known = others.upper_known;
+  }
+}
+
+/// Where the cells end over which a posterior is summed: evenly, and at what was simulated, where it may change at
+/// once.
+std::vector<double> cell_ends(const ResponseModel& model) {
   constexpr int cells = 400;
-  std::vector<double> logarithms;
-  for (int i = 0; i < cells; ++i) {
-    point[coordinate] = (i + 0.5) / cells;
-    logarithms.push_back(model.log_posterior(point));
-  }
-  const double most = *std::ranges::max_element(logarithms);
-  double sum = 0;
-  for (double& value : logarithms) sum += value = std::exp(value - most);
-  std::pair<double, double> ends{0, 1};
-  double reached = 0;
-  for (int i = 0; i < cells; ++i) {
-    const double after = reached + logarithms[static_cast<std::size_t>(i)] / sum;
-    if (reached < tail && after >= tail) ends.first = static_cast<double>(i) / cells;
-    if (reached < 1 - tail && after >= 1 - tail) ends.second = static_cast<double>(i + 1) / cells;
-    reached = after;
-  }
+  std::vector<double> ends;
+  for (int i = 0; i <= cells; ++i) ends.push_back(static_cast<double>(i) / cells);
+  if (model.trust().uses_neighbours())
+    for (const double coordinate : model.trust().coordinates()) ends.push_back(std::clamp(coordinate, 0.0, 1.0));
+  std::ranges::sort(ends);
   return ends;
 }
 
@@ -92,25 +94,62 @@ Eigen::VectorXd deviations_before(const TrainingData& evidence) {
   return out;
 }
 
+std::vector<double> sample_along(const ResponseModel& model, UnitPoint point, Eigen::Index coordinate, int count) {
+  const std::vector<double> ends = cell_ends(model);
+  std::vector<double> logarithms;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    point[coordinate] = (ends[i - 1] + ends[i]) / 2;
+    logarithms.push_back(model.log_posterior(point));
+  }
+  const double most = *std::ranges::max_element(logarithms);
+  std::vector<double> reached{0};
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    reached.push_back(reached.back() + (ends[i] - ends[i - 1]) * std::exp(logarithms[i - 1] - most));
+  std::vector<double> out;
+  std::size_t cell = 1;
+  for (int i = 0; i < count; ++i) {
+    const double share = (i + 0.5) / count * reached.back();
+    while (cell + 1 < reached.size() && reached[cell] < share) ++cell;
+    const double within = (share - reached[cell - 1]) / std::max(reached[cell] - reached[cell - 1], 1e-300);
+    out.push_back(std::lerp(ends[cell - 1], ends[cell], std::clamp(within, 0.0, 1.0)));
+  }
+  return out;
+}
+
+bool ParameterInterval::any_value_fits() const {
+  constexpr double near = 0.1;  // of the range
+  Parameter within;
+  within.scale = scale;
+  within.lower = bound_lower;
+  within.upper = bound_upper;
+  return unit_of(within, fitting_lower) < near && unit_of(within, fitting_upper) > 1 - near;
+}
+
 ParameterInterval interval_of(const ResponseModel& model, const std::vector<UnitPoint>& sample, const Moments& moments,
                               const UnitPoint& recommended, Eigen::Index coordinate) {
   const Parameter& parameter = model.training_data().parameters[static_cast<std::size_t>(coordinate)];
   std::vector<double> coordinates;
   for (const UnitPoint& member : sample) coordinates.push_back(member[coordinate]);
-  const Ends ends = ends_of(std::move(coordinates));
-  const auto [held_lower, held_upper] = held_ends(model, recommended, coordinate);
+  const double own = recommended[coordinate];
+  Ends held = ends_of(sample_along(model, recommended, coordinate, static_cast<int>(sample.size())));
+  contain(held, {own, own, own > 0, own < 1});
+  Ends ends = recommended.size() == 1 ? held : ends_of(std::move(coordinates));
+  contain(ends, held);
   ParameterInterval one;
   one.name = parameter.name;
   one.scale = parameter.scale;
   one.bound_lower = parameter.lower;
   one.bound_upper = parameter.upper;
-  one.recommended = value_between(parameter, recommended[coordinate]);
+  one.recommended = value_between(parameter, own);
   one.lower = value_between(parameter, ends.lower);
   one.upper = value_between(parameter, ends.upper);
   one.lower_known = ends.lower_known;
   one.upper_known = ends.upper_known;
-  one.held_lower = value_between(parameter, held_lower);
-  one.held_upper = value_between(parameter, held_upper);
+  one.held_lower = value_between(parameter, held.lower);
+  one.held_upper = value_between(parameter, held.upper);
+  one.held_lower_known = held.lower_known;
+  one.held_upper_known = held.upper_known;
+  one.fitting_lower = one.fitting_upper = one.recommended;
   one.prior = parameter.prior;
   one.deviation_before = deviation_before(parameter);
   one.uncertainty = std::sqrt(moments.covariance(coordinate, coordinate)) / one.deviation_before;

@@ -15,15 +15,23 @@ struct ParameterInterval {
   Scale scale = Scale::linear;
   double bound_lower = 0, bound_upper = 0;  ///< of the study
   double recommended = 0;
-  double lower = 0, upper = 0;  ///< 95 % credible interval, all parameters free; an end that the data do not set is
-                                ///< the study's bound
-  bool lower_known = false, upper_known = false;  ///< the end is set by the data, not by the study's bound
-  double held_lower = 0, held_upper = 0;          ///< 95 %, the other parameters held at the recommended values
-  std::optional<Prior> prior;                     ///< of the study; contained in all of these
-  double deviation_before = 0;                    ///< prior standard deviation of the coordinate, bounds included
-  double uncertainty = 1;                         ///< posterior standard deviation over the prior one
+  double lower = 0, upper = 0;  ///< 95 %, all parameters free; the study's bound
+                                ///< where the data set none
+  bool lower_known = false,
+       upper_known = false;  ///< the end was set by the data, not by the study's bound
+  double held_lower = 0,
+         held_upper = 0;  ///< 95 %, the other parameters held at the recommended values; within those above, and the
+                          ///< same where no other is free
+  bool held_lower_known = false, held_upper_known = false;  ///< as above
+  double fitting_lower = 0, fitting_upper = 0;  ///< of materials that are expected to fit, wherever the others are
+  std::optional<Prior> prior;                   ///< what was known beforehand, contained in all of these
+  double deviation_before = 0;                  ///< of its coordinate, by the bounds and the prior alone
+  double uncertainty = 1;                       ///< standard deviation after the measurement over that one
 
   bool interval_exists() const { return lower_known && upper_known; }
+  bool held_exists() const { return held_lower_known || held_upper_known; }
+  /// Materials that are expected to fit lie near both bounds.
+  bool any_value_fits() const;
   bool not_identified() const { return !lower_known && !upper_known; }
 };
 
@@ -32,7 +40,11 @@ double deviation_before(const Parameter& parameter);
 /// Of each.
 Eigen::VectorXd deviations_before(const TrainingData& evidence);
 
-/// The interval of the parameter at a coordinate. `sample`: of the posterior; `moments`: of that sample.
+/// The posterior along one coordinate of `point`, the others held, as `count` coordinates that lie in proportion to it.
+std::vector<double> sample_along(const ResponseModel& model, UnitPoint point, Eigen::Index coordinate, int count);
+
+/// Of the parameter of a coordinate. `sample`: of the posterior; `moments`: its own. The interval with all parameters
+/// free contains the one with the others held, and both contain the recommended value.
 ParameterInterval interval_of(const ResponseModel& model, const std::vector<UnitPoint>& sample, const Moments& moments,
                               const UnitPoint& recommended, Eigen::Index coordinate);
 

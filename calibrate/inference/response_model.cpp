@@ -30,7 +30,8 @@ double distance_from_priors(const TrainingData& evidence, const UnitPoint& point
 
 ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(evidence)) {
   if (evidence_.points.empty()) throw std::logic_error("a response model needs a simulation that ended well");
-  const auto [places, sites] = sites_of(evidence_.points);
+  const Sites known = sites_of(evidence_.points);
+  const auto& [places, sites] = known;
   for (std::size_t k = 0; k < evidence_.readings.size(); ++k) {
     const ReadingTrainingData& reading = evidence_.readings[k];
     std::vector<ReadingModel::Answer> answers;
@@ -45,6 +46,7 @@ ResponseModel::ResponseModel(TrainingData evidence) : evidence_(std::move(eviden
   count_independent();
   take_conditions();
   learn_rejections();
+  trust_.emplace(evidence_, known, models_, fitted_);
   if (evidence_.failed.empty()) return;
   std::vector<UnitPoint> all = evidence_.points;
   all.insert(all.end(), evidence_.failed.begin(), evidence_.failed.end());
@@ -160,6 +162,23 @@ ReadingModel::Prediction ResponseModel::predict(std::size_t reading, const UnitP
   return models_.at(reading).predict(point);
 }
 
+double ResponseModel::expected(std::size_t reading, const UnitPoint& point) const {
+  if (!trust_->predicts(point)) {
+    Replicates answers;
+    const Eigen::VectorXd& simulated = evidence_.readings.at(reading).simulated;
+    for (std::size_t i = 0; i < evidence_.points.size(); ++i)
+      if (const double value = simulated[static_cast<Eigen::Index>(i)];
+          evidence_.points[i] == point && !std::isnan(value))
+        answers.add(value);
+    if (answers.weight > 0) return answers.mean;
+  }
+  return predict(reading, point).mean;
+}
+
+bool ResponseModel::is_known(const UnitPoint& point) const {
+  return trust_->predicts(point) || std::ranges::find(evidence_.points, point) != evidence_.points.end();
+}
+
 double ResponseModel::noise(std::size_t reading, const UnitPoint& point) const {
   return models_.at(reading).noise_at(predict(reading, point).mean);
 }
@@ -215,7 +234,7 @@ double ResponseModel::normalised_error(const UnitPoint& point) const {
   double squares = 0;
   for (const std::size_t k : fitted_) {
     const ReadingTrainingData& reading = evidence_.readings[k];
-    squares += reading.weight * std::pow((models_[k].predict(point).mean - *reading.measured) / reading.deviation, 2);
+    squares += reading.weight * std::pow((expected(k, point) - *reading.measured) / reading.deviation, 2);
   }
   return std::sqrt(squares + distance_from_priors(evidence_, point));
 }
@@ -225,6 +244,7 @@ double ResponseModel::log_posterior(const UnitPoint& point) const {
 }
 
 double ResponseModel::log_likelihood(const UnitPoint& point) const {
+  if (trust_->uses_neighbours()) return trust_->log_likelihood(point[0]);
   const std::vector<ReadingModel::Prediction> known = predictions(point);
   Eigen::VectorXd differences(std::ssize(known));
   for (std::size_t k = 0; k < known.size(); ++k)
@@ -235,8 +255,10 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
     return Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
   };
   const double by_laboratory = half_log_determinant(of_laboratory);
-  double sum = -0.5 * of_both.matrixL().solve(differences).squaredNorm() - by_laboratory -
-               independent_ * (half_log_determinant(of_both) - by_laboratory);
+  // A model that knows little between two simulations of one parameter is held to what both of them read.
+  const double met =
+      std::min(-0.5 * of_both.matrixL().solve(differences).squaredNorm(), trust_->log_likelihood(point[0]));
+  double sum = met - by_laboratory - independent_ * (half_log_determinant(of_both) - by_laboratory);
   if (rejections_) sum += evidence_.accepted_heaps * std::log1p(-rejections_->probability(point));
   if (failures_) sum += std::log(std::clamp(1 - failures_->predict(point).mean, least_survival, 1.0));
   return sum;

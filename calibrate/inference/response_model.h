@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "calibrate/inference/surrogate_trust.h"
 #include "calibrate/inference/training_data.h"
 #include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
@@ -33,7 +34,8 @@ namespace pastefit {
 /// R the correlation matrix of the N fitted readings over all simulations, n the effective number of independent ones.
 /// Two heights and two spreads of one heap are nearly one number: without the factor n/N a candidate of large
 /// predictive variance would lose likelihood for each of them, and regions without simulations would seem to be ruled
-/// out. Requirement: at least one simulation ended well.
+/// out. Where one parameter is free and the response jumps, neighbouring simulations take the place of the models
+/// (`SurrogateTrust`). Requirement: at least one simulation ended well.
 class ResponseModel {
  public:
   explicit ResponseModel(TrainingData evidence);
@@ -41,6 +43,11 @@ class ResponseModel {
   const TrainingData& training_data() const { return evidence_; }
   /// Mean reading of a candidate, and its predictive variance.
   ReadingModel::Prediction predict(std::size_t reading, const UnitPoint& point) const;
+  /// The reading to expect of a candidate: of the model, and where that may not predict, of its own simulations if
+  /// there are any.
+  double expected(std::size_t reading, const UnitPoint& point) const;
+  /// Whether `expected` may be told to a person: the model may predict the candidate, or it was simulated.
+  bool is_known(const UnitPoint& point) const;
   /// Standard deviation of the reading of one simulation about its mean, at this candidate.
   double noise(std::size_t reading, const UnitPoint& point) const;
   /// The readings that are fitted, as indices.
@@ -56,6 +63,8 @@ class ResponseModel {
   double log_likelihood(const UnitPoint& point) const;
   /// The log-likelihood plus the logarithm of the priors, up to a constant.
   double log_posterior(const UnitPoint& point) const;
+  /// Where the models of the fitted readings may be believed.
+  const SurrogateTrust& trust() const { return *trust_; }
 
  private:
   /// Rows of two readings that are of the same heaps.
@@ -82,6 +91,7 @@ class ResponseModel {
   std::vector<std::vector<std::vector<Shared>>> shared_;  // of each fitted reading with those before it
   std::optional<GaussianProcess> failures_;
   std::optional<Exceedance> rejections_;
+  std::optional<SurrogateTrust> trust_;
 };
 
 }  // namespace pastefit

@@ -212,6 +212,16 @@ ReadingModel::Prediction ReadingModel::predict(const UnitPoint& point) const {
   return out;
 }
 
+std::vector<double> ReadingModel::leave_one_out() const {
+  std::vector<double> out(rows_.size(), 0);
+  if (scale_ == 0) return out;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (!rows_[i].is_bound) out[i] = scale_ * weights_[k] / inverse_(k, k);
+  }
+  return out;
+}
+
 double ReadingModel::noise_at(double mean) const {
   return scale_ == 0 ? 0 : scale_ * std::sqrt(noise_variance((mean - centre_) / scale_));
 }

@@ -59,6 +59,9 @@ class ReadingModel {
   /// Standard deviation of one simulation about its mean, where that mean is `mean`.
   double noise_at(double mean) const;
   const std::vector<Row>& rows() const { return rows_; }
+  /// By how much each row differs from what the model says of its place without it (settings kept), in the reading's
+  /// unit; 0 for bounds.
+  std::vector<double> leave_one_out() const;
 
  private:
   /// Hyper-parameters, of standardised readings.

@@ -1,5 +1,6 @@
 #include "calibrate/report/card_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "calibrate/base/foreign_text.h"
@@ -12,14 +13,22 @@ namespace pastefit {
 
 namespace {
 
-std::string inference_lines(const CardInference& inference) {
+BoundEnds bounds_in(const Card& card, const CardInference::Interval& interval) {
+  const auto& parameters = card.material.parameters;
+  const auto found = std::ranges::find(parameters, interval.parameter, &Parameter::name);
+  return found == parameters.end() ? BoundEnds{} : ends_at_bounds(interval, *found);
+}
+
+std::string inference_lines(const Card& card) {
+  const CardInference& inference = card.inference;
   std::string out = "What the readings leave open\n";
   if (inference.intervals.empty() && inference.not_identified.empty())
     return out + "  not worked out: other materials may meet the same readings\n";
   if (!inference.intervals.empty())
     out += format("  intervals of %g %% confidence (%s)\n", 100 * inference.level, inference.method.c_str());
   for (const auto& interval : inference.intervals)
-    out += format("  %-24s %14.6g to %.6g\n", interval.parameter.c_str(), interval.lower, interval.upper);
+    out += format("  %-24s ", interval.parameter.c_str()) +
+           interval_in_words(interval.lower, interval.upper, bounds_in(card, interval), 6) + "\n";
   for (const auto& pair : inference.correlations)
     out += format("  %-24s %14.2f with %s\n", pair.first.c_str(), pair.value, pair.second.c_str());
   for (const auto& unseen : inference.not_identified)
@@ -115,8 +124,8 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
 std::string text_of(const Card& card) {
   const std::string unconfirmed = unconfirmed_line(card);
   std::string out = (unconfirmed.empty() ? "" : one_line(unconfirmed) + "\n\n") + summary_of(card);
-  for (const auto& part : {inference_lines(card.inference), conditions_lines(card), origin_lines(card),
-                           baseline_lines(card), rescaling_lines(card)})
+  for (const auto& part :
+       {inference_lines(card), conditions_lines(card), origin_lines(card), baseline_lines(card), rescaling_lines(card)})
     if (!part.empty()) out += "\n" + wrapped(lines_of(part));
   for (const auto& one : card.further_confirmations) out += "\n" + wrapped(further_confirmation_text(one));
   return out;

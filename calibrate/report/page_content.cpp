@@ -40,7 +40,11 @@ ordered_json parameters_of(const Findings& findings) {
     }
     const auto& known = card.inference;
     for (const auto& interval : known.intervals)
-      if (interval.parameter == parameter.name) one["interval"] = {interval.lower, interval.upper};
+      if (interval.parameter == parameter.name) {
+        const BoundEnds at_bounds = ends_at_bounds(interval, parameter);
+        one["interval"] = {interval.lower, interval.upper};
+        if (at_bounds.lower || at_bounds.upper) one["at_bounds"] = {at_bounds.lower, at_bounds.upper};
+      }
     for (const auto& unseen : known.not_identified)
       if (unseen.parameter == parameter.name) one["not_identified"] = unseen.reason;
     out.push_back(std::move(one));

@@ -46,6 +46,10 @@ class Batch(Desk):
             self.assertEqual(float(row["strength_pa"]), card["material"]["parameters"]["strength_pa"])
             interval = card.get("intervals", {}).get("parameters", {}).get("strength_pa", {})
             self.assertEqual(row["lower_strength_pa"], str(interval.get("lower", "")))
+            lower, upper = json.loads(studies[number].read_text())["parameters"]["strength_pa"]["free"]
+            at_bounds = [interval.get("lower") == lower, interval.get("upper") == upper]
+            self.assertEqual(row["at_bounds_strength_pa"], {(True, True): "both", (True, False): "lower",
+                                                            (False, True): "upper"}.get(tuple(at_bounds), ""))
             self.assertEqual(float(row["mix.water_kg_m3"]), 250 - 4 * number)
             self.assertEqual(float(row["material.bulk_density_kg_m3"]), 2300)
             self.assertEqual(int(row["simulations"]), card["search"]["simulations"])

@@ -221,7 +221,7 @@ TEST_CASE("what no simulation has looked at is not ruled out by readings that ar
 TEST_CASE("the words name what is fixed, what is not, and what to measure") {
   const std::string words = describe(infer(evidence_for({first_alone, second_alone}), middle));
   CHECK(words.find("step1.height_mm fixes first to") != std::string::npos);
-  CHECK(words.find("second is not told by this test") != std::string::npos);
+  CHECK(words.find("second is not identifiable from this test") != std::string::npos);
   CHECK(words.find("measurements of step1.spread_mm") != std::string::npos);
   CHECK(warning_before(5, 0, {"a"}).find("1 fitted reading fixes at most 1 combination") != std::string::npos);
   CHECK(warning_before(1, 0, {"a", "b"}).empty());
@@ -293,4 +293,95 @@ TEST_CASE("that a laboratory reports its heaps tells against materials of which 
   CHECK(range(0).second > 0.95);
   CHECK(range(3).second < 0.85);
   CHECK(range(3).first < 0.05);
+}
+
+namespace {
+
+/// One parameter between 0 and 1 and one reading, at these coordinates.
+TrainingData evidence_along(const std::vector<double>& coordinates, const std::function<double(double)>& mean,
+                            double measured, double deviation) {
+  TrainingData evidence;
+  Parameter parameter;
+  parameter.name = "only";
+  parameter.free = true;
+  parameter.upper = 1;
+  evidence.parameters.push_back(parameter);
+  ReadingTrainingData reading;
+  reading.name = "step1.height_mm";
+  reading.measured = measured;
+  reading.deviation = deviation;
+  reading.weight = 1;
+  reading.simulated.resize(std::ssize(coordinates));
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    evidence.points.push_back(UnitPoint::Constant(1, coordinates[i]));
+    reading.simulated[static_cast<Eigen::Index>(i)] = mean(coordinates[i]);
+  }
+  evidence.readings.push_back(std::move(reading));
+  return evidence;
+}
+
+double stands_or_flows(double x) {
+  return x < 0.62 ? 70 + 5 * x : 290 + 10 * x;
+}
+
+const std::vector<double> halved{0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.61, 0.615, 0.625, 0.65, 0.7, 0.8, 0.9, 0.98};
+
+}  // namespace
+
+TEST_CASE("one free parameter has one interval") {
+  const auto line = [](double x) { return 100 * x; };
+  for (const double measured : {50.0, 4.0}) {
+    const UnitPoint at = UnitPoint::Constant(1, measured / 100);
+    const Inference inference = infer(evidence_along(halved, line, measured, 5), at);
+    const ParameterInterval& one = inference.intervals[0];
+    CHECK(one.lower == one.held_lower);
+    CHECK(one.upper == one.held_upper);
+    CHECK(one.lower_known == (measured > 10));
+    const std::string words = describe(inference);
+    CHECK(words.find("held") == std::string::npos);
+    CHECK(words.find("all parameters free") == std::string::npos);
+    CHECK((words.find("(the study's bound)") != std::string::npos) == !one.lower_known);
+  }
+}
+
+TEST_CASE("intervals with all parameters free contain those with the others held, and what is named as fitting") {
+  for (const auto& law : {first_alone, sum_of_both})
+    for (const double off : {0.0, 0.2, -0.2}) {
+      const Inference inference = infer(evidence_for({law, second_alone}), UnitPoint{{0.5 + off, 0.5 - off}});
+      for (std::size_t j = 0; j < inference.intervals.size(); ++j) {
+        const ParameterInterval& one = inference.intervals[j];
+        CHECK(one.lower <= one.held_lower);
+        CHECK(one.upper >= one.held_upper);
+        for (const EquivalentMaterial& member : inference.family) {
+          CHECK(member.values[j] >= one.lower);
+          CHECK(member.values[j] <= one.upper);
+        }
+      }
+    }
+}
+
+TEST_CASE("an interval ends at the simulations on either side of a jump") {
+  const Inference inference = infer(evidence_along(halved, stands_or_flows, 150, 10), UnitPoint::Constant(1, 0.625));
+  CHECK(inference.jumps);
+  CHECK(inference.intervals[0].lower >= 0.6);
+  CHECK(inference.intervals[0].upper <= 0.65);
+}
+
+TEST_CASE("nothing is predicted across a jump: no material that nobody simulated, no gain of a measurement") {
+  const Inference inference = infer(evidence_along(halved, stands_or_flows, 150, 10), UnitPoint::Constant(1, 0.625));
+  for (const EquivalentMaterial& member : inference.family) {
+    CHECK(member.simulated);
+    CHECK(member.readings[0] == Approx(stands_or_flows(member.values[0])));
+  }
+  CHECK(inference.gains.empty());
+  CHECK_THAT(describe(inference), Catch::Contains("jumps"));
+
+  // With two parameters, near the threshold alone.
+  auto threshold = first_alone;
+  threshold.mean = [](const UnitPoint& x) { return stands_or_flows(x[0]); };
+  threshold.measured = 150;
+  threshold.deviation = 10;
+  const Inference two = infer(evidence_for({threshold}, 60), UnitPoint{{0.6, 0.5}});
+  for (const EquivalentMaterial& member : two.family)
+    if (!member.simulated) CHECK(std::abs(member.values[0] - 0.62) > 0.02);
 }

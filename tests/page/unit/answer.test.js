@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { dateWords } from "../../../calibrate/report/page/source/certificate.js";
+import { endsInWords } from "../../../calibrate/report/page/source/parameters.js";
 import { phaseWords } from "../../../calibrate/report/page/source/player.js";
 import { conditionsOf } from "../../../calibrate/report/page/source/provenance.js";
 import { isMeasured, judged } from "../../../calibrate/report/page/source/readings.js";
@@ -131,7 +132,7 @@ test("while a search goes on the facts say its best whole run", () => {
   ];
   const list = facts(contentWith({ search: { ...search, history, wall_s: 30 } }));
   assert.equal(list[0][0], "12.3 mm");
-  assert.deepEqual(list[1], ["4", "simulations kept, 30 s of computing"]);
+  assert.deepEqual(list[1], ["4", "simulations kept, 30 s from start to end"]);
 });
 
 test("each reading is met, missed or predicted, and parameters are fitted or open", () => {
@@ -161,6 +162,12 @@ test("each reading is met, missed or predicted, and parameters are fitted or ope
     ],
     ["Open", ["friction 0.15: one choice among many that the readings allow"]],
   ]);
+});
+
+test("an end of an interval that the study's bound sets is marked", () => {
+  const one = { name: "strength_pa", free: true, value: 50, interval: /** @type {[number, number]} */ ([13.2, 526]) };
+  assert.equal(endsInWords(one), "13.2 to 526");
+  assert.equal(endsInWords({ ...one, at_bounds: [true, false] }), "13.2 (the study's bound) to 526");
 });
 
 test("without intervals nothing is said to be open", () => {

@@ -152,6 +152,13 @@ test("the scale of heights leaves out what is poured from above", async () => {
   assert.equal(pull, 2);
 });
 
+test("a scale of heights ends at the highest grain of the test, not of the filling", async () => {
+  const film = await read();
+  const filling = film.frames()[0];
+  filling.phase = "fill.settle"; // its grain stands at 1000 quanta
+  assert.ok(Math.abs(film.extremes().height - 0.35) < 1e-12);
+});
+
 test("the box of the grains is that with which the test begins", async () => {
   const { centre, across } = (await read()).box();
   const near = (/** @type {number} */ one, /** @type {number} */ other) => assert.ok(Math.abs(one - other) < 1e-12);

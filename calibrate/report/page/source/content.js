@@ -52,6 +52,7 @@
  * @property {string} [meaning]
  * @property {number} [value] left out where nothing was found yet
  * @property {[number, number]} [interval]
+ * @property {[boolean, boolean]} [at_bounds] ends of it that are the study's bounds
  * @property {string} [not_identified] why there is no interval
  */
 

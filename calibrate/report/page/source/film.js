@@ -195,7 +195,9 @@ export class Film {
   extremes() {
     let height = 0;
     let touching = 1;
-    for (const frame of this.frames().filter(({ phase }) => !phase.startsWith("fill.pour"))) {
+    // Grains that are still being filled in stand higher than any heap.
+    const ofTest = this.frames().filter(({ phase }) => !phase.startsWith("fill."));
+    for (const frame of ofTest.length > 0 ? ofTest : this.frames()) {
       for (const steps of frame.places[2]) height = Math.max(height, steps);
       for (const count of frame.touching) touching = Math.max(touching, count);
     }

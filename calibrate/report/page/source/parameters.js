@@ -46,11 +46,19 @@ function bar(parameter) {
 }
 
 /**
+ * The ends of an interval; one that the readings do not set is marked.
+ * @param {Parameter} parameter
+ */
+export function endsInWords({ interval = [NaN, NaN], at_bounds: bounds = [false, false] }) {
+  return interval.map((end, i) => number(end, 3) + (bounds[i] ? " (the study's bound)" : "")).join(" to ");
+}
+
+/**
  * @param {Parameter} parameter
  * @param {number} level
  */
 function intervalWords(parameter, level) {
-  if (parameter.interval) return `${number(parameter.interval[0], 3)} to ${number(parameter.interval[1], 3)}`;
+  if (parameter.interval) return endsInWords(parameter);
   return parameter.not_identified ?? (level > 0 ? "not bounded by the readings" : "not worked out");
 }
 

@@ -53,6 +53,9 @@ export class Player {
       role: "img",
       "aria-label": "The grains of the confirmed run in three dimensions. Arrow keys turn, space plays.",
     });
+    this.canvas.addEventListener("webglcontextlost", () =>
+      place.replaceChildren(notShown("the browser has lost WebGL")),
+    );
     this.scene = new Scene(this.canvas, film);
     this.button = element("button", { type: "button", class: "play", onclick: () => this.toggle() }, "\u25b6 Play");
     this.slider = this.sliderOf(film);
@@ -163,6 +166,12 @@ export class Player {
 }
 
 /**
+ * What stands in the place of the film.
+ * @param {string} why
+ */
+const notShown = (why) => element("p", { class: "notice" }, `The film cannot be shown here: ${why}`);
+
+/**
  * The film of a test. What the browser cannot show is said instead.
  * @param {import("./content.js").FilmIndex} index
  * @param {string} text its bytes
@@ -171,9 +180,6 @@ export function filmPlayer(index, text) {
   const place = element("div", { class: "player" });
   Film.read(index, text)
     .then((film) => new Player(film, place))
-    .catch((error) => {
-      const said = `The film cannot be shown here: ${error.message}`;
-      place.replaceChildren(element("p", { class: "notice" }, said));
-    });
+    .catch((error) => place.replaceChildren(notShown(error.message)));
   return place;
 }

@@ -2,6 +2,7 @@
 import { element, pairs } from "./dom.js";
 import { fullName, unitOf, words } from "./names.js";
 import { duration, errorWords, number, plusMinus } from "./numbers.js";
+import { endsInWords } from "./parameters.js";
 import { isMeasured } from "./readings.js";
 
 /** @typedef {import("./content.js").Content} Content */
@@ -56,7 +57,8 @@ export function facts({ verdict, search, parameters = [], interval_level: level 
     const allowed = `misfit of the best single run so far; allowed, as a mean over fresh packings: ${number(asked, 3)}`;
     if (misfits.length > 0) list.push([`${number(Math.min(...misfits), 3)} ${unit}`, allowed]);
   }
-  if (history.length > 0) list.push([`${history.length}`, `simulations kept, ${duration(search.wall_s)} of computing`]);
+  if (history.length > 0)
+    list.push([`${history.length}`, `simulations kept, ${duration(search.wall_s)} from start to end`]);
   return list;
 }
 
@@ -68,8 +70,7 @@ const withValue = ({ name, value }) => `${name} ${number(value)}`;
  * @param {number} level
  */
 function withInterval(parameter, level) {
-  const [low, high] = parameter.interval ?? [];
-  return `${withValue(parameter)} (${number(100 * level, 3)} %: ${number(low, 3)} to ${number(high, 3)})`;
+  return `${withValue(parameter)} (${number(100 * level, 3)} %: ${endsInWords(parameter)})`;
 }
 
 /**
