@@ -9,6 +9,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/format.h"
 #include "calibrate/base/json_document.h"
+#include "calibrate/base/source_to_fill_in.h"
 #include "calibrate/card/card_description.h"
 
 namespace pastefit {
@@ -270,9 +271,11 @@ Result<Card> card_from_json(const json& document) {
     card_fields::describe_card(reader, read);
     card_fields::check_names(reader, read.tests);
   }
-  for (CardTest& test : read.tests)
+  for (CardTest& test : read.tests) {
+    test.lab.source = stated_source(std::move(test.lab.source));
     for (CardObservable& reading : test.observables)
       if (reading.packings == 0) reading.packings = static_cast<int>(read.confirmation.packings.size());
+  }
   if (faults.empty()) faults = card_fields::differing_forms(read);
   if (!faults.empty()) return faults;
   return read;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibrate/base/object_schema.h"
+#include "calibrate/base/source_to_fill_in.h"
 #include "calibrate/base/units.h"
 #include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
@@ -53,6 +54,7 @@ std::string with_provenance(std::string text) {
     "twin": false  // true: not measured, but made by a simulation with known parameters
   },
 )";
+  static_assert(provenance.find(kSourceToFillIn) != std::string_view::npos);
   if (const auto at = text.find(place); at != std::string::npos)
     text.replace(at, place.size(), provenance.substr(1));  // without the line break that it begins with here
   return text;

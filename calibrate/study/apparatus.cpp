@@ -9,6 +9,7 @@
 #include "calibrate/base/data_folders.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/source_to_fill_in.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/reading_words.h"
@@ -152,6 +153,7 @@ std::vector<fs::path> apparatus_folders(const fs::path& folder) {
 void read_provenance(ObjectReader& document, Provenance& provenance) {
   document.object("provenance", Need::required,
                   [&](ObjectReader& reader) { describe_file_provenance(reader, provenance); });
+  provenance.source = stated_source(std::move(provenance.source));
 }
 
 void tell_provenance(ObjectSchema& document) {

@@ -12,6 +12,7 @@
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/rounded.h"
+#include "calibrate/base/source_to_fill_in.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
@@ -403,7 +404,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
 
   ordered_json lab{{"format", "pastefit-lab-1"},
                    {"title", one_line(sheet.title)},
-                   {"provenance", {{"source", "laboratory, person, date"}}},
+                   {"provenance", {{"source", kSourceToFillIn}}},
                    {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
                    {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
                    {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
