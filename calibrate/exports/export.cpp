@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/base/fault_text.h"
+#include "calibrate/base/format.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -21,6 +22,12 @@ std::vector<ExportWall> walls_of(const Test& test) {
         return {};
       },
       test);
+}
+
+std::string grain_density_in_words(const ExportScene& scene) {
+  const std::string own = format("%.9g kg/m^3", scene.grain_density_kg_m3);
+  if (!scene.card_density_kg_m3 || *scene.card_density_kg_m3 == scene.grain_density_kg_m3) return own;
+  return own + format(" in this packing (%.9g on the card, the mean of its packings)", *scene.card_density_kg_m3);
 }
 
 std::span<const Exporter> exporters() {
@@ -49,7 +56,7 @@ Result<Exporter> exporter_named(const std::string& name) {
   for (const char letter : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   auto near = nearest(small, names);
   for (const std::string& one : names)
-    if (!small.empty() && one.starts_with(small)) near = one;
+    if (!small.empty() && one.starts_with(small) && (!near || *near != small)) near = one;
   return Fault{"--to " + printable(name), "is no target of an export",
                near ? "did you mean '" + *near + "'?" : "one of " + list};
 }

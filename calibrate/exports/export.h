@@ -50,6 +50,10 @@ struct ExportScene {
   GrainPair mean_pair() const { return {radius_m(), radius_m(), radius_m()}; }
 };
 
+/// "3105.1 kg/m^3 in this packing (3173 on the card, the mean of its packings)": the density of the deck's grains and,
+/// where it is another, the card's.
+std::string grain_density_in_words(const ExportScene& scene);
+
 /// Mould and table of a slump test, the tools of granules; nothing of a drop test, whose plate is of the grains'
 /// material.
 std::vector<ExportWall> walls_of(const Test& test);

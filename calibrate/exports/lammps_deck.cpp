@@ -109,8 +109,8 @@ std::string material_file(const ExportScene& scene, const LammpsLaws& laws) {
   out += "#\n# Names and numbers of the laws are those of the card; style/README.md explains them.\n#\n";
   out += "# Include it where the grains are there (read_data, create_box), in a script with:\n";
   out += "#   units si, atom_style sphere, newton off, comm_modify mode single vel yes\n";
-  out += format("#   density of a grain %.9g kg/m^3, mean radius %.9g m, time steps of %.6g s at most\n",
-                scene.grain_density_kg_m3, scene.radius_m(), deck_time_step_s(scene));
+  out += "#   density of a grain " + grain_density_in_words(scene) +
+         format(",\n#   mean radius %.9g m, time steps of %.6g s at most\n", scene.radius_m(), deck_time_step_s(scene));
   for (const auto& wall : laws.walls) out += "#   " + wall_fix(wall.name);
   out += "\n" + laws.guard + laws.pairs;
   for (const auto& wall : laws.walls) out += "variable     " + wall.name + "_law string \"" + wall.law + "\"\n";

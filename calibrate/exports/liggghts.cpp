@@ -116,8 +116,8 @@ std::string liggghts_material(const ExportScene& scene, const Written& written, 
                 walls.size() + 1);
   out += "#   units lj, atom_style granular, " + atom_modify(scene.contact()) +
          ", newton off, communicate single vel yes\n";
-  out += format("#   density of a grain %.9g kg/m^3, mean radius %.9g m, time steps of %.6g s at most\n",
-                scene.grain_density_kg_m3, scene.radius_m(), written.time_step_s);
+  out += "#   density of a grain " + grain_density_in_words(scene) +
+         format(",\n#   mean radius %.9g m, time steps of %.6g s at most\n", scene.radius_m(), written.time_step_s);
   for (std::size_t i = 0; i < walls.size(); ++i)
     out += "#   fix " + walls[i].name + " all wall/gran ${wall_model} mesh n_meshes ... meshes ..." +
            models.wall_end() + format(", each fix mesh/surface file ... type %zu\n", i + 2);

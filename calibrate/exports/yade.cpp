@@ -265,7 +265,7 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   out += "# rolling: stiffness over the shear stiffness [m^2], largest moment over the normal force [m]\n";
   number("KROT", rolls ? 2.25 * lever * lever / constants.tangential_ratio : 0);
   number("ETA", rolls ? contact.rolling_friction * pair.effective_radius_m() : 0);
-  out += "# longest time step, density of a grain\n";
+  out += "# longest time step; density of a grain, " + grain_density_in_words(scene) + "\n";
   number("TIME_STEP", deck_time_step_s(scene));
   number("GRAIN_DENSITY", scene.grain_density_kg_m3);
   return out + kModule;

@@ -4,6 +4,7 @@
 
 #include "calibrate/base/format.h"
 #include "calibrate/base/rounded.h"
+#include "calibrate/exports/lammps_deck.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
@@ -57,6 +58,16 @@ TypeInGroup grains_to_type(const Material& material) {
       {"shear modulus", mega * shear_modulus(contact.youngs_modulus_pa, contact.poissons_ratio), "MPa", ""});
   group.rows.push_back({"Poisson's ratio", contact.poissons_ratio, "", ""});
   return group;
+}
+
+/// The longest step of the card's export, for the smallest of the grains.
+double longest_step_s(const Card& card, const Test& test) {
+  ExportScene scene;
+  scene.test = test;
+  const GrainSizes& grains = scene.grains();
+  scene.grain_density_kg_m3 = card.material.grain_density_kg_m3.value_or(card.material.bulk_density_kg_m3);
+  scene.sizes.radii_m = {grains.distribution == SizeDistribution::mono ? grains.radius_m : grains.smallest_m};
+  return deck_time_step_s(scene);
 }
 
 TypeInGroup grain_on_grain(const ContactModel& contact, double radius) {
@@ -137,6 +148,10 @@ std::vector<TypeInGroup> type_in_table(const Card& card) {
   const bool attracts = bridges || contact.normal != NormalLaw::hertz;
   std::vector<TypeInGroup> groups{grains_to_type(card.material),
                                   grain_on_grain(contact, card.material.grains.radius_m)};
+  double step_s = longest_step_s(card, card.tests.front().test);
+  for (const CardTest& one : card.tests) step_s = std::min(step_s, longest_step_s(card, one.test));
+  groups.front().rows.push_back(
+      {"longest time step", step_s, "s", "0.1 of the Rayleigh time, less where it is damped"});
   if (bridges) groups.push_back(attraction_of(card.material));
   for (const CardTest& one : card.tests) {
     Test test = one.test;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "calibrate/base/wrapped_text.h"
@@ -159,4 +161,38 @@ TEST_CASE("a card whose adhesion grows with the pressure says near which pressur
   CHECK_THAT(reservations_on(card)[0], Catch::Contains("grows with the pressure") && Catch::Contains("6.91 kPa"));
   contact.cohesion_n = 0.05;
   CHECK(reservations_on(card).empty());
+}
+
+TEST_CASE("what a person types in holds the longest time step") {
+  const Card card = shipped("concrete-mix-79");
+  const TypeInRow& step = row_of(type_in_table(card), "Grains", "longest time step");
+  CHECK(step.unit == "s");
+  const ContactModel& contact = card.material.contact;
+  const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
+  const double radius = card.material.grains.distribution == SizeDistribution::mono ? card.material.grains.radius_m
+                                                                                    : card.material.grains.smallest_m;
+  const double rayleigh = std::numbers::pi * radius * std::sqrt(*card.material.grain_density_kg_m3 / shear) /
+                          (0.1631 * contact.poissons_ratio + 0.8766);
+  CHECK(step.value <= 0.1 * rayleigh);
+  CHECK(step.value > 0.02 * rayleigh);
+}
+
+TEST_CASE("the source that a starting file leaves to fill in is nobody's") {
+  Card card = shipped("concrete-mix-79");
+  card.tests[0].lab.source = "laboratory, person, date";
+  const auto read = card_from_json(nlohmann::json::parse(to_json(card).dump()));
+  REQUIRE(read.ok());
+  CHECK(read.value().tests[0].lab.source.empty());
+  CHECK(text_of(read.value()).find("laboratory, person, date") == std::string::npos);
+}
+
+TEST_CASE("an end of an interval that is the study's bound is marked in a card's text") {
+  Card card = shipped("concrete-mix-79");
+  const auto free = std::ranges::find(card.material.parameters, true, &Parameter::free);
+  REQUIRE(free != card.material.parameters.end());
+  card.inference.level = 0.95;
+  card.inference.intervals = {{free->name, free->lower, 0.5 * (free->lower + free->upper)}};
+  CHECK(ends_at_bounds(card.inference.intervals[0], *free).lower);
+  CHECK_FALSE(ends_at_bounds(card.inference.intervals[0], *free).upper);
+  CHECK_THAT(text_of(card), Catch::Contains("(the study's bound) to"));
 }
