@@ -97,7 +97,7 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     return read.ok() ? Faults{} : read.faults();
   };
   if (!ask(sheet.mould,
-           "mould: abrams, abrams-en, en12350-5, haegermann-table, astm-c1437, haegermann, mini-cone, lifted-cylinder, "
+           "mould: abrams, abrams-en, hinged-plate, haegermann-table, astm-c1437, haegermann, mini-cone, lifted-cylinder, "
            "or base/top/height in mm",
            "abrams", mould_faults) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",
@@ -201,7 +201,7 @@ Command add_new(CLI::App& verb) {
                   "a preset (abrams, haegermann, ...), or base/top/height: \"200/100/300\", \"8/4/12 in\"")
       ->type_name("MOULD");
   verb.add_option("--drops", sheet.drops,
-                  "of the preset's plate or table, e.g. 15 with en12350-5; without it the preset's")
+                  "of the preset's plate or table, e.g. 15 with hinged-plate; without it the preset's")
       ->check(whole_number(1, 1000))
       ->type_name("N");
   verb.add_option("--density", sheet.density, "of the fresh material, in kg/m3 or with its unit: \"145 lb/ft3\"")

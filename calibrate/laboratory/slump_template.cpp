@@ -11,7 +11,7 @@ constexpr std::string_view slump_lab =
 
   %provenance%
 
-  // Presets: abrams, abrams-en, en12350-5 (with drop plate), haegermann-table and astm-c1437 (dropped 15 and 25 times),
+  // Presets: abrams, abrams-en, hinged-plate (drops once), haegermann-table and astm-c1437 (dropped 15 and 25 times),
   // haegermann (no strokes), mini-cone, lifted-cylinder. One of them with what belongs to it: pastefit template lab --mould NAME.
   // Give only what differs from the preset; without a preset give everything but the drop plate. With another mould
   // change the speed, the grains and the deviations below, too, and the study's tolerances: these are a tall cone's.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -120,7 +121,9 @@ std::span<const TargetLaws> target_laws() {
   return known_targets;
 }
 
-std::optional<TargetLaws> laws_for(std::string_view target, std::string_view law) {
+std::optional<TargetLaws> laws_for(std::string_view given, std::string_view law) {
+  std::string target(given);  // programs write their names in capitals, too
+  std::ranges::transform(target, target.begin(), [](unsigned char letter) { return std::tolower(letter); });
   const auto found = std::ranges::find_if(known_targets, [&](const TargetLaws& laws) {
     return (laws.target == target || laws.export_target == target) && (law.empty() || laws.law == law);
   });

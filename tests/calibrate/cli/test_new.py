@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from desk import PROGRAM, Desk, run
+from desk import PROGRAM, SOURCE, Desk, run
 
 ABRAMS = ["--mould", "abrams", "--density", "2350", "--slump", "180, 175, 190", "--spread", "330"]
 
@@ -86,6 +86,40 @@ class New(Desk):
         self.assertEqual(lab["apparatus"]["drop_plate"], {"drops": 15})
         self.assertIn("dropped 15 times", said)
         self.assertNotIn("drops its plate once", said)
+
+    def test_the_rig_that_drops_once_has_a_name_of_its_own(self):
+        for mould, words in (("hinged-plate", "drops its plate once"), ("en12350-5", "is now called hinged-plate")):
+            with self.subTest(mould=mould):
+                lab, _, said = self.files("--mould", mould, "--density", "2350", "--spread2", "400", "--force")
+                self.assertIn(words, " ".join(said.split()))
+                self.assertIn("15 drops", " ".join(said.split()))
+        titles = [json.loads((SOURCE / f"data/apparatus/{name}.json").read_text())["title"]
+                  for name in ("hinged-plate", "en12350-5")]
+        self.assertTrue(all("dropped once" in title for title in titles), titles)
+
+    def test_a_program_is_known_however_its_name_is_written(self):
+        cone = ["--mould", "abrams", "--density", "2350", "--slump", "180", "--force"]
+        laws = [self.files(*cone, "--for", word)[1]["contact"] for word in ("edem", "EDEM", "Edem")]
+        self.assertEqual(laws, laws[:1] * 3)
+
+    def test_numbers_as_people_write_them_are_read_or_answered_with_what_to_write(self):
+        cone = ["--density", "2350"]
+        for arguments, words in ((["--slump", "180,175,190"], '"180, 175, 190"'), (["--spread", "500 x 510"], '"500, 510"'),
+                                 (["--slump", "180 +- 10"], '"standard_deviation"'),
+                                 (["--slump", "> 250"], "of a limit it is only known that the reading lies beyond it"),
+                                 (["--slump", "180", "--mould", "Abrams"], 'did you mean "abrams"?')):
+            with self.subTest(arguments=arguments):
+                mould = [] if "--mould" in arguments else ["--mould", "abrams"]
+                self.fails(run("new", self.folder / "x", *cone, *mould, *arguments), 2, words)
+        lab, _, _ = self.files(*cone, "--mould", "abrams", "--slump", "7 1/4 in", "--force")
+        self.assertEqual(lab["measurements"]["step1.slump_mm"]["value"], 184.15)
+
+    def test_a_title_that_is_no_utf_8_is_one_all_the_same(self):
+        for verb in (["new", self.out, "--mould", "abrams", "--density", "2350", "--slump", "180", "--title", b"caf\xe9"],):
+            result = subprocess.run([PROGRAM.encode(), *(word if isinstance(word, bytes) else str(word).encode() for word in verb)],
+                                    capture_output=True, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(document(self.out / "lab.json")["title"].startswith("caf"))
 
     def test_a_time_has_the_deviation_of_a_time_and_frees_the_viscosity(self):
         flow = ["--mould", "abrams", "--density", "2350", "--spread", "650"]
