@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "calibrate/base/fault_text.h"
 #include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_document.h"
+#include "calibrate/batch/array_job.h"
 #include "calibrate/card/card.h"
+#include "calibrate/exports/lammps_log.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/search/residual_size.h"
 #include "calibrate/store/outcome_json.h"
@@ -149,7 +153,45 @@ void sheet(const fs::path& file) {
     throw std::logic_error("a study that was made is refused: " + message_of(read.faults()));
 }
 
-constexpr std::array<Reader, 8> kReaders{
+/// What `pastefit confirm` takes from a run goes to the card.
+void lammps_log(std::string_view content) {
+  const LammpsLog log = read_lammps_log(content);
+  const bool sane = std::isfinite(log.wall_s) && log.wall_s >= 0 && std::isfinite(log.core_s) && log.core_s >= 0 &&
+                    log.ranks >= 0 && log.copies >= 0;
+  if (!sane) throw std::logic_error("times or ranks that no run can have");
+}
+
+/// Lines of a script that Slurm reads.
+std::vector<std::string> slurm_lines(const std::string& script) {
+  std::vector<std::string> out;
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("#SBATCH")) out.push_back(line);
+  return out;
+}
+
+/// A folder of a batch, as a line of text: a script has the options that it has for a plain folder, and no pattern of
+/// Slurm's but its own.
+void slurm_folder(std::string_view content) {
+  ArrayJob job;
+  job.program = "/usr/bin/pastefit";
+  job.directory = "/home";
+  job.studies = {"a.json"};
+  job.out = "plain";
+  const std::size_t usual = slurm_lines(array_job_script(job)).size();
+  job.out = std::string(content);
+  if (const Faults faults = unusable_in_job(job); !faults.empty()) return judge(Result<int>(faults));
+  const auto lines = slurm_lines(array_job_script(job));
+  if (lines.size() != usual) throw std::logic_error("the folder's name adds an option of Slurm");
+  for (const std::string& line : lines) {
+    std::size_t single = 0;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (line[i] == '%') line[i + 1 < line.size() ? i + 1 : i] == '%' ? ++i : ++single;
+    if (single > 1) throw std::logic_error("Slurm takes a % of the folder's name for a pattern");
+  }
+}
+
+constexpr std::array<Reader, 10> kReaders{
     {{"lab", [](std::string_view content) { judge(read_lab(file_of(content))); }},
      {"apparatus", [](std::string_view content) { judge(read_apparatus_file(file_of(content))); }},
      {"study", [](std::string_view content) { study(file_of(content)); }},
@@ -157,7 +199,9 @@ constexpr std::array<Reader, 8> kReaders{
      {"physics_case", [](std::string_view content) { judge(read_case(file_of(content))); }},
      {"impact", [](std::string_view content) { impact(file_of(content)); }},
      {"store", [](std::string_view content) { row(file_of(content)); }},
-     {"sheet", [](std::string_view content) { sheet(file_of(content)); }}}};
+     {"sheet", [](std::string_view content) { sheet(file_of(content)); }},
+     {"lammps_log", lammps_log},
+     {"slurm_folder", slurm_folder}}};
 
 }  // namespace
 
@@ -175,7 +219,7 @@ std::vector<fs::path> corpus_of(const Reader& reader) {
   for (const fs::path& folder : folders)
     if (fs::is_directory(folder))
       for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".json") files.push_back(entry.path());
+        if (entry.path().extension() == ".json" || entry.path().extension() == ".txt") files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }

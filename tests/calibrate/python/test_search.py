@@ -6,6 +6,7 @@ import json
 import math
 import pathlib
 import os
+import random
 import sqlite3
 
 import numpy as np
@@ -113,6 +114,30 @@ class Problem(Desk):
             self.assertIn(name, fault.where)
         fault, = self.faults(pf.Problem, repose(measurements={"error": {"value": 1, "standard_deviation": 1}}, tolerances={}))
         self.assertIn("measurements.error", fault.where)
+
+    def test_whatever_a_store_holds_it_is_read_or_refused(self):
+        problem, file = pf.Problem(repose()), self.folder / "answers.sqlite"
+        pf.Search(problem, store=file, engine="drum").run(drum)
+        whole, dice = file.read_bytes(), random.Random(1)
+        for attack in range(300):
+            broken = bytearray(whole)
+            for _ in range(dice.randint(1, 6)):
+                at = dice.randrange(max(len(broken), 1))
+                kind = dice.randrange(4)
+                if kind == 0 and broken:
+                    broken[at % len(broken)] ^= 1 << dice.randrange(8)
+                elif kind == 1:
+                    del broken[at:at + dice.randint(1, 200)]
+                elif kind == 2:
+                    broken[at:at] = dice.choice([b"\n", b"null", b"[]", b"1e999", b"-1", b'"', b"}", b"{", b"NaN"])
+                else:
+                    broken[at:at] = broken[at:at + dice.randint(1, 300)]
+            file.write_bytes(broken)
+            with self.subTest(attack=attack):
+                try:
+                    pf.Search(problem, store=file, engine="drum")
+                except pf.InputError as refused:
+                    self.assertTrue(refused.faults)
 
     def test_answers_that_are_damaged_or_forged_are_asked_again_and_never_believed(self):
         problem, file = pf.Problem(repose()), self.folder / "answers"
