@@ -5,6 +5,7 @@ usage: test_long_runs.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -46,6 +47,21 @@ class Progress(Desk):
         line, after_s = self.lines_of("verify")
         self.assertRegex(line, r"^\d+ of \d+ points, \d+ s gone.*left$")
         self.assertLess(after_s, 60)
+
+    def test_an_impact_of_many_grains_says_within_seconds_how_far_it_is(self):
+        grains = [{"radius_m": 0.001, "centre_m": [0.0025 * (i % 100), 0.0025 * (i // 100 % 100), 0.0025 * (i // 10000)],
+                   "velocity_m_s": [0, 0, 0.01 * (i % 7)]} for i in range(20000)]
+        impact = self.folder / "impact.json"
+        impact.write_text(json.dumps({
+            "format": "pastefit-impact-1", "contact": {"youngs_modulus_pa": 1e7, "poissons_ratio": 0.3},
+            "density_kg_m3": 2500, "grains": grains, "duration_s": 0.5, "time_step": {"fixed_s": 5e-6}}))
+        with subprocess.Popen([PROGRAM, "simulate", impact], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            said = process.stderr.read(1)
+            ticks = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+            used_s = sum(map(float, ticks)) / os.sysconf("SC_CLK_TCK")
+            process.kill()
+        self.assertTrue(said)
+        self.assertLess(used_s, 5)  # of processor time: others use this machine, too
 
     def test_what_is_quiet_or_short_says_nothing(self):
         self.assertEqual(run("verify", "--quiet").stderr, "")
