@@ -150,8 +150,7 @@ std::vector<TypeInGroup> type_in_table(const Card& card) {
                                   grain_on_grain(contact, card.material.grains.radius_m)};
   double step_s = longest_step_s(card, card.tests.front().test);
   for (const CardTest& one : card.tests) step_s = std::min(step_s, longest_step_s(card, one.test));
-  groups.front().rows.push_back(
-      {"longest time step", step_s, "s", "0.1 of the Rayleigh time, less where it is damped"});
+  groups.front().rows.push_back({"longest time step", step_s, "s", "at most"});
   if (bridges) groups.push_back(attraction_of(card.material));
   for (const CardTest& one : card.tests) {
     Test test = one.test;
