@@ -10,6 +10,7 @@
 #include "calibrate/store/program.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 

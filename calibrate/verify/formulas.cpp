@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

@@ -62,7 +62,7 @@ struct ElastoPlasticAdhesion {
         is_linear ? select(touching, Real(2.0 / 3) * radius, zero) : sqrt_radius * square_root(depth);
     normal.force = k.stiffening * first * (deep - power(yielded));
     normal.load = larger(normal.force + most, zero);
-    normal.reserve = fused(k.cohesion, scale * scale, most);
+    normal.reserve = select(touching, fused(k.cohesion, scale * scale, most), zero);
     normal.plastic = yielded;
     return normal;
   }

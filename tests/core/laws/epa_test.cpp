@@ -76,6 +76,16 @@ TEMPLATE_TEST_CASE("friction feels the force and all adhesion that the overlap m
   }
 }
 
+TEMPLATE_TEST_CASE("grains apart have no reserve that rolling or friction could feel", "", Epa, Luding) {
+  ContactModel model = yielding(TestType::choice);
+  model.cohesion_n = 0.3;
+  LedContact<TestType> contact(model);
+  CHECK(contact.to(1e-4).reserve > 0.3);
+  const auto apart = contact.to(-1e-6);
+  CHECK_FALSE(apart.touching);
+  CHECK(apart.reserve == 0);
+}
+
 TEST_CASE("without plasticity and adhesion EPA is Hertz") {
   const auto final_state = [](NormalLaw law) {
     ContactModel model = yielding(law, 0, 0);
