@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/evaluate/cost.h"
+#include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/inference/condition_effects.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
-#include "calibrate/search/low_fidelity.h"
-#include "calibrate/search/memory.h"
-#include "calibrate/search/residual_size.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "calibrate/card/card.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/inference/inference.h"
 #include "calibrate/laboratory/engine.h"
-#include "calibrate/search/evaluator.h"
 #include "calibrate/search/search.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"

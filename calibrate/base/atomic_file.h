@@ -23,4 +23,17 @@ Faults write_atomically(const std::filesystem::path& file, std::string_view cont
 /// Errors: as `write_atomically`.
 Faults probe_beside(const std::filesystem::path& file, std::size_t bytes);
 
+/// Holds a file against other processes that lock it, until it is destroyed: who reads, changes and replaces it in
+/// between loses nobody's change. Waits for them. A file that cannot be opened is not held.
+class FileLock {
+ public:
+  explicit FileLock(const std::filesystem::path& file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
 }  // namespace pastefit

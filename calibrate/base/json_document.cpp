@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 namespace {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
 #include "calibrate/base/field.h"
 #include "calibrate/base/json_document.h"
+#include "calibrate/base/text.h"
 #include "core/result.h"
 
 namespace pastefit {

@@ -1,13 +1,18 @@
 #include "calibrate/base/machine.h"
 
 #include <gnu/libc-version.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <cstdlib>  // says whether it is the GNU C library
 #include <fstream>
 #include <limits>
 #include <thread>
+
+#ifdef __GLIBC__
+#endif
 
 namespace pastefit {
 
@@ -33,6 +38,13 @@ double memory_available_bytes() {
     if (word == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
   }
   return std::numeric_limits<double>::infinity();
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes]; blocks below it are not mapped one by one
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
 }
 
 }  // namespace pastefit

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 namespace {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {

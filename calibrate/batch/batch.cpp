@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_document.h"
+#include "calibrate/base/text.h"
 #include "calibrate/report/findings.h"
 #include "calibrate/report/report_page.h"
 #include "calibrate/search/calibration.h"

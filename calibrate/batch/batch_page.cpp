@@ -3,9 +3,7 @@
 #include <cctype>
 #include <map>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/report/report_page.h"
 
 namespace pastefit {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/report/reservations.h"
 #include "calibrate/search/calibration.h"

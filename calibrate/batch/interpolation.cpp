@@ -7,8 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/batch/batch_table.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/search/calibration.h"

@@ -5,7 +5,7 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/card/card.h"
-#include "calibrate/search/evaluator.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/search/search.h"
 
 namespace pastefit {

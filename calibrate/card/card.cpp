@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
 

@@ -5,11 +5,9 @@
 #include <set>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
 #include "calibrate/base/json_document.h"
 #include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card_description.h"
 
 namespace pastefit {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
 
 namespace pastefit {

@@ -5,10 +5,9 @@
 #include <bit>
 #include <cmath>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
+#include "calibrate/base/text.h"
 #include "calibrate/check/law.h"
 #include "calibrate/check/runs.h"
 #include "calibrate/store/program.h"

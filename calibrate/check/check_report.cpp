@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

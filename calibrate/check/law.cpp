@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/apparatus/impact/impact.h"
 

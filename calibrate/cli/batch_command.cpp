@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/batch/array_job.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/batch/batch_page.h"
@@ -25,7 +23,7 @@
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
-#include "calibrate/search/effort.h"
+#include "calibrate/evaluate/cost.h"
 
 namespace pastefit {
 

@@ -2,8 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
@@ -15,10 +14,10 @@
 #include "calibrate/cli/progress_line.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/study_remarks.h"
+#include "calibrate/evaluate/cost.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/report/calibration_folder.h"
 #include "calibrate/report/report_page.h"
-#include "calibrate/search/effort.h"
-#include "calibrate/search/record.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/tests.h"

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"

@@ -11,12 +11,11 @@
 #include <sstream>
 #include <system_error>
 
-#include "calibrate/base/file_lock.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/atomic_file.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/rescale.h"
-#include "calibrate/check/further_confirmation.h"
+#include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/lammps_program.h"
@@ -24,8 +23,8 @@
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/evaluate/cost.h"
 #include "calibrate/report/card_text.h"
-#include "calibrate/search/memory.h"
 
 namespace pastefit {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
 

@@ -3,15 +3,15 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/card_study.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/search/record.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"

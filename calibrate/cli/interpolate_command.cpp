@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/batch/batch.h"
 #include "calibrate/batch/interpolation.h"
 #include "calibrate/card/card.h"

@@ -10,8 +10,7 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/content_hash.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/child_process.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/exports/lammps_deck.h"

@@ -6,9 +6,7 @@
 #include <system_error>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/child_process.h"
 #include "calibrate/cli/status_line.h"
 #include "calibrate/exports/heap_dump.h"

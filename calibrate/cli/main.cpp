@@ -7,15 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/freed_memory.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
-#include "calibrate/store/kernels_variable.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"
 

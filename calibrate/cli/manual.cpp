@@ -1,6 +1,6 @@
 #include "calibrate/cli/manual.h"
 
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/store/program.h"
 
 namespace pastefit {

@@ -8,8 +8,7 @@
 #include <system_error>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/output_file.h"
@@ -97,7 +96,8 @@ bool ask_sheet(Sheet& sheet, const fs::path& folder) {
     return read.ok() ? Faults{} : read.faults();
   };
   if (!ask(sheet.mould,
-           "mould: abrams, abrams-en, hinged-plate, haegermann-table, astm-c1437, haegermann, mini-cone, lifted-cylinder, "
+           "mould: abrams, abrams-en, hinged-plate, haegermann-table, astm-c1437, haegermann, mini-cone, "
+           "lifted-cylinder, "
            "or base/top/height in mm",
            "abrams", mould_faults) ||
       !ask(sheet.density, "density of the fresh material (kg/m3, or with its unit: 145 lb/ft3)", "",

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

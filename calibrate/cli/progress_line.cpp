@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
 

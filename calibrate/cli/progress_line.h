@@ -4,7 +4,7 @@
 #include <string>
 
 #include "calibrate/cli/status_line.h"
-#include "calibrate/search/evaluator.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/search/search.h"
 
 namespace pastefit {

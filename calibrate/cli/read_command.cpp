@@ -4,9 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
 #include "calibrate/base/statistics.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/option_checks.h"
 #include "calibrate/cli/standard_output.h"

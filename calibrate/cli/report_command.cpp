@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/interrupt.h"
 #include "calibrate/cli/machine_options.h"

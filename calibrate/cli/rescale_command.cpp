@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
@@ -15,9 +14,8 @@
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"
+#include "calibrate/evaluate/cost.h"
 #include "calibrate/report/card_text.h"
-#include "calibrate/search/effort.h"
-#include "calibrate/search/memory.h"
 
 namespace pastefit {
 

@@ -1,7 +1,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"

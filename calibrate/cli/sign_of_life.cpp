@@ -1,6 +1,6 @@
 #include "calibrate/cli/sign_of_life.h"
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/terminal.h"
 
 namespace pastefit {

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/scene.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/effort_checks.h"
@@ -21,8 +20,7 @@
 #include "calibrate/cli/simulation_text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/understood.h"
-#include "calibrate/search/effort.h"
-#include "calibrate/search/memory.h"
+#include "calibrate/evaluate/cost.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {

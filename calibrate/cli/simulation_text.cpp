@@ -3,8 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/store/outcome_json.h"

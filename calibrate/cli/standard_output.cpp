@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/terminal.h"
 

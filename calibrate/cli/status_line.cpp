@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
 

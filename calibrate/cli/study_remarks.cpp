@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/understood.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
-#include "calibrate/search/record.h"
 #include "calibrate/study/coarseness.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/laboratory/test.h"

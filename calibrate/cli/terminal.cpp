@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "calibrate/base/format.h"
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/base/format.h"
 #include "calibrate/base/machine.h"
-#include "calibrate/base/processor_time.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/study/parameters.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/work_line.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/export.h"
 
 namespace pastefit {

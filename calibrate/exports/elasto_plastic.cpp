@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/nearest_law.h"
 #include "calibrate/verify/force_curve.h"
 #include "core/laws/constants.h"

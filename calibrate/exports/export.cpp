@@ -8,8 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

@@ -3,9 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
 
 namespace pastefit {

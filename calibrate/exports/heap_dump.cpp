@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "core/apparatus/slump/packing.h"
 #include "core/apparatus/slump/ruler.h"
 

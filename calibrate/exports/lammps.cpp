@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "calibrate/base/data_folders.h"
-#include "calibrate/base/format.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"

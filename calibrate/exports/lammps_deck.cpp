@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/store/program.h"
 #include "core/laws/constants.h"

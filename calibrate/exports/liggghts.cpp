@@ -2,8 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/edinburgh.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/store/program.h"
 

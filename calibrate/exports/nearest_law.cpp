@@ -6,8 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/names.h"
 #include "core/laws/constants.h"
 #include "core/laws/table.h"

@@ -1,6 +1,6 @@
 #include "calibrate/exports/parameter_table.h"
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"

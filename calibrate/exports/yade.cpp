@@ -1,8 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"

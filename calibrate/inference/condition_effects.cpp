@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

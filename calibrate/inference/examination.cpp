@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/search/strategy_state.h"
 
 namespace pastefit {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "core/random.h"
 
 namespace pastefit {

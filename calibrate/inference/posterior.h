@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/evaluate/objective.h"
 
 namespace pastefit {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/dimension.h"
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "calibrate/base/format.h"
 #include "calibrate/base/object_schema.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "core/world/world.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/slump_curves.h"
 

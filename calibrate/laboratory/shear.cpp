@@ -4,9 +4,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/format.h"
 #include "calibrate/base/object_schema.h"
 #include "calibrate/base/object_writer.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/specimen_json.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 
 namespace pastefit {

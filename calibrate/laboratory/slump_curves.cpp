@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 
 namespace pastefit {

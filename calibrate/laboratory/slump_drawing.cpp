@@ -3,7 +3,7 @@
 #include <numbers>
 #include <string>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/granule_test.h"
 #include "calibrate/laboratory/slump.h"

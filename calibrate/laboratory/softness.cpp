@@ -1,6 +1,6 @@
 #include "calibrate/laboratory/softness.h"
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

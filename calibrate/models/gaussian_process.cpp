@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "calibrate/models/hyperparameters.h"
-#include "calibrate/models/matern.h"
 #include "calibrate/models/replicates.h"
 
 namespace pastefit {
+
 namespace {
 
 constexpr double default_length = 1.0;

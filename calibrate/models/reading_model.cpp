@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "calibrate/models/gaussian_process.h"
 #include "calibrate/models/hyperparameters.h"
-#include "calibrate/models/matern.h"
 
 namespace pastefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit::python {
 

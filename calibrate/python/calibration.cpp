@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
@@ -18,7 +19,6 @@
 #include "calibrate/report/calibration_folder.h"
 #include "calibrate/report/run_recordings.h"
 #include "calibrate/report/summary.h"
-#include "calibrate/search/record.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/tests.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/evaluate/reading_scoring.h"
 #include "calibrate/python/answers.h"
 #include "calibrate/python/custom_problem.h"
-#include "calibrate/search/reading_scoring.h"
 #include "calibrate/store/store.h"
 
 namespace pastefit::python {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "calibrate/card/calibration_card.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/python/result_json.h"
-#include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

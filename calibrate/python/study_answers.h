@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/python/answers.h"
-#include "calibrate/search/study_scoring.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 

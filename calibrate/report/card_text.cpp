@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
 #include "calibrate/report/summary.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/granule_test.h"
 
 namespace pastefit {

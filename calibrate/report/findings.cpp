@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "calibrate/card/card_study.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/examination.h"
-#include "calibrate/search/record.h"
 
 namespace pastefit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/parameters.h"
 #include "core/laws/table.h"

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

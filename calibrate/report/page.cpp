@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/report/page_content.h"
 
 // The page as esbuild leaves it, between two symbols. Bytes of a file in a few lines of assembler: a source made of

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/standing.h"
 #include "calibrate/inference/description.h"

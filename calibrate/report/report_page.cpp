@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/shell_word.h"
+#include "calibrate/base/text.h"
 #include "calibrate/report/curve_csv.h"
 #include "calibrate/report/kept_views.h"
 #include "calibrate/report/page.h"

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
+#include "calibrate/evaluate/run_observer.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/report/run_recording.h"
-#include "calibrate/search/run_observer.h"
 
 namespace pastefit {
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card_study.h"
+#include "calibrate/evaluate/early_end.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/inference/response_model.h"
-#include "calibrate/search/early_end.h"
-#include "calibrate/search/record.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"

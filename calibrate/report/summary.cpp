@@ -4,9 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrate/base/foreign_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/standing.h"
 #include "calibrate/report/reservations.h"

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/verify/force_curve.h"

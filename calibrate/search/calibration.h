@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calibrate/search/response.h"
+#include "calibrate/evaluate/response.h"
 
 namespace pastefit {
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/evaluate/objective.h"
 
 namespace pastefit {
 

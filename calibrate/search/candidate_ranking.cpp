@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "calibrate/search/response.h"
+#include "calibrate/evaluate/response.h"
 
 namespace pastefit {
 namespace {

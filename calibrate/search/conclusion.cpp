@@ -1,6 +1,6 @@
 #include "calibrate/search/conclusion.h"
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/judge/verdict.h"
 
 namespace pastefit {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/evaluate/response.h"
 #include "calibrate/models/exceedance.h"
-#include "calibrate/search/response.h"
 #include "calibrate/search/surrogate.h"
 
 namespace pastefit {
@@ -13,15 +13,6 @@ std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count) {
   std::vector<std::uint64_t> packings;
   for (int k = 0; k < count; ++k) packings.push_back(coarse_packings + seed * 1000 + static_cast<std::uint64_t>(k));
   return packings;
-}
-
-Study with_coarse_grains(Study study) {
-  for (StudyTest& test : study.tests) {
-    if (!why_of_that_size(test.lab.test).empty()) continue;
-    GrainSizes& grains = specimen_of(test.lab.test).grains;
-    grains = enlarged(grains, coarse_radius_ratio);
-  }
-  return study;
 }
 
 namespace {

@@ -4,23 +4,16 @@
 #include <span>
 #include <vector>
 
-#include "calibrate/search/objective.h"
+#include "calibrate/evaluate/objective.h"
 #include "calibrate/study/study.h"
 
 namespace pastefit {
-
-/// Radius of the coarse grains over that of the study. A simulation costs about the fourth power of it: a fifth.
-inline constexpr double coarse_radius_ratio = 1.5;
 
 /// First packing seed of coarse grains: its simulations can lie in one store with those of the study.
 inline constexpr std::uint64_t coarse_packings = 1ULL << 40;
 
 /// The packings of coarse grains: the same for every candidate.
 std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count);
-
-/// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
-/// hundred grains in the mould it may not be fit to run: see `validate`.
-Study with_coarse_grains(Study study);
 
 /// What coarse simulations say of fine ones: each feasible one, its residuals moved by the bias between the rungs,
 ///     bias = mean over the feasible fine simulations of (their residuals - coarse surrogate at their point),

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/models/gaussian_process.h"
 #include "calibrate/optimisers/nlopt.h"
 #include "calibrate/search/low_fidelity.h"

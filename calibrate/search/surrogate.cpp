@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibrate/evaluate/response.h"
 #include "calibrate/optimisers/nlopt.h"
-#include "calibrate/search/response.h"
 
 namespace pastefit {
 namespace {

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "calibrate/evaluate/objective.h"
 #include "calibrate/models/exceedance.h"
 #include "calibrate/models/gaussian_process.h"
-#include "calibrate/models/replicate_variance.h"
-#include "calibrate/search/objective.h"
+#include "calibrate/models/replicates.h"
 
 namespace pastefit {
 

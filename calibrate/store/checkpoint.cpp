@@ -11,8 +11,7 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/content_hash.h"
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "calibrate/base/data_folders.h"
-#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/laboratory/reading_words.h"

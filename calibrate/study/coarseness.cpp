@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/tests.h"
 

@@ -6,7 +6,7 @@
 
 #include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/coarseness.h"

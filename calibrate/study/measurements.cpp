@@ -7,8 +7,7 @@
 #include <numeric>
 #include <span>
 
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/reading_words.h"
 #include "calibrate/study/schemas.h"

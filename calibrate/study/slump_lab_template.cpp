@@ -6,12 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/format.h"
-#include "calibrate/base/rounded.h"
 #include "calibrate/base/template_lines.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/base/wrapped_text.h"
 #include "calibrate/study/apparatus.h"
 
 namespace pastefit {

@@ -8,11 +8,9 @@
 #include <numeric>
 #include <set>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/foreign_text.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/rounded.h"
 #include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"

@@ -92,8 +92,8 @@ struct SearchOptions {
                                   ///< many as the laboratory's own, if that is more
   int examination_simulations = 12;  ///< after it, of the same budget: which other candidates fit as well
   std::optional<double> tolerance_mm = std::nullopt;  ///< of each fitted length that has none of its own
-  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/search/low_fidelity.h`)
-  bool end_early = true;      ///< candidates need not run to their end (`calibrate/search/early_end.h`)
+  bool coarse_first = false;  ///< look with coarse grains before fine ones (`calibrate/study/tests.h`)
+  bool end_early = true;      ///< candidates need not run to their end (`calibrate/evaluate/early_end.h`)
   std::uint64_t seed = 1;
 };
 

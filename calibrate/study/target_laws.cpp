@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calibrate/base/fault_text.h"
 #include "calibrate/base/template_lines.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/schemas.h"
 #include "calibrate/study/tolerance.h"
@@ -221,6 +221,15 @@ std::string inputs_of(const Study& study) {
     inputs["laboratories"].push_back(std::move(content));
   }
   return inputs.dump();
+}
+
+Study with_coarse_grains(Study study) {
+  for (StudyTest& test : study.tests) {
+    if (!why_of_that_size(test.lab.test).empty()) continue;
+    GrainSizes& grains = specimen_of(test.lab.test).grains;
+    grains = enlarged(grains, coarse_radius_ratio);
+  }
+  return study;
 }
 
 }  // namespace pastefit

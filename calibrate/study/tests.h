@@ -62,4 +62,11 @@ Result<std::size_t> place_of_test(const Tests& tests, const std::string& name) {
 /// of its laboratory files.
 std::string inputs_of(const Study& study);
 
+/// Radius of the coarse grains over that of the study. A simulation costs about the fourth power of it: a fifth.
+inline constexpr double coarse_radius_ratio = 1.5;
+
+/// The study with grains `coarse_radius_ratio` times as large; its parameters are free of scale. With fewer than some
+/// hundred grains in the mould it may not be fit to run: see `validate`.
+Study with_coarse_grains(Study study);
+
 }  // namespace pastefit

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {

@@ -4,8 +4,7 @@
 #include <optional>
 #include <regex>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/rounded.h"
+#include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 
 namespace pastefit {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "core/step/run.h"
 
 namespace pastefit {

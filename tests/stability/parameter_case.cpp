@@ -18,15 +18,15 @@ namespace {
 // Parameter j of corner n is at its upper end where n and column j have an odd number of bits in common. No four or
 // fewer columns add up to nothing (mod 2): that makes the strength 4 (Bose & Bush 1952). Nine bits have no more than
 // 23 such columns (Wagner's code of length 23 and distance 5); found by drawing.
-constexpr std::array<unsigned, 23> kColumns{1,   2,  4,   8,   16,  32, 64,  128, 256, 267, 346, 499,
-                                            279, 95, 447, 149, 365, 62, 121, 143, 500, 220, 178};
+constexpr std::array<unsigned, 23> kDesign{1,   2,  4,   8,   16,  32, 64,  128, 256, 267, 346, 499,
+                                           279, 95, 447, 149, 365, 62, 121, 143, 500, 220, 178};
 
 constexpr bool have_strength_4() {
-  for (const unsigned a : kColumns)
-    for (const unsigned b : kColumns)
-      for (const unsigned c : kColumns) {
+  for (const unsigned a : kDesign)
+    for (const unsigned b : kDesign)
+      for (const unsigned c : kDesign) {
         if (a < b && b < c && (a ^ b ^ c) == 0) return false;
-        for (const unsigned d : kColumns)
+        for (const unsigned d : kDesign)
           if (a < b && b < c && c < d && (a ^ b ^ c ^ d) == 0) return false;
       }
   return true;
@@ -83,8 +83,8 @@ std::vector<StressCase> parameter_cases(int first, int count, std::uint64_t seed
   for (int number = first; number < first + count; ++number) {
     std::vector<double> unit;
     for (std::size_t j = 0; j < parameter_kinds().size(); ++j) {
-      const auto place = static_cast<std::uint64_t>(number) * kColumns.size() + j;
-      const bool upper = std::popcount(static_cast<unsigned>(number) & kColumns.at(j)) % 2 == 1;
+      const auto place = static_cast<std::uint64_t>(number) * kDesign.size() + j;
+      const bool upper = std::popcount(static_cast<unsigned>(number) & kDesign.at(j)) % 2 == 1;
       unit.push_back(number < kParameterCorners ? upper : points.uniform(place));
     }
     cases.push_back(case_at(unit, number, RandomStream(laws.bits(static_cast<std::uint64_t>(number)), "law")));

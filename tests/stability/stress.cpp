@@ -26,7 +26,7 @@ namespace {
 // A run that ignores its bounds is killed after this many times the processor time it was allowed.
 constexpr double kPatience = 3;
 
-std::string packed(const Verdict& v) {
+std::string packed(const StressVerdict& v) {
   std::ostringstream text;
   text.precision(17);
   text << v.end << '\t' << v.phase << '\t' << v.message << '\t' << v.particles << '\t' << v.steps << '\t'
@@ -36,9 +36,9 @@ std::string packed(const Verdict& v) {
 }
 
 /// Empty unless the text is complete.
-std::optional<Verdict> unpacked(const std::string& text) {
+std::optional<StressVerdict> unpacked(const std::string& text) {
   std::istringstream in(text);
-  Verdict v;
+  StressVerdict v;
   std::getline(in, v.end, '\t');
   std::getline(in, v.phase, '\t');
   std::getline(in, v.message, '\t');
@@ -71,14 +71,14 @@ std::pair<pid_t, Job> launch(const StressCase& stress, const Bounds& bounds) {
   return {child, {stress, ends[0]}};
 }
 
-Verdict collect(const Job& job, int status) {
+StressVerdict collect(const Job& job, int status) {
   // An answer is far smaller than a pipe holds, so that it lies there whole when the process has ended.
   char answer[4096];
   const ssize_t length = read(job.answer, answer, sizeof answer);
   close(job.answer);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && length > 0)
     if (const auto verdict = unpacked({answer, static_cast<std::size_t>(length)})) return *verdict;
-  Verdict verdict;
+  StressVerdict verdict;
   verdict.end = "defect";
   if (!WIFSIGNALED(status))
     verdict.message = "the process ended with status " + std::to_string(WEXITSTATUS(status));
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   std::vector<StressResult> results;
   std::vector<StressCase> to_run;
   std::ifstream before(csv_path);
-  const std::map<int, Verdict> known = read_csv(before);
+  const std::map<int, StressVerdict> known = read_csv(before);
   for (const StressCase& stress : cases) {
     const auto done = known.find(stress.number);
     if (done == known.end())

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "core/laws/constants.h"
 
 namespace pastefit {

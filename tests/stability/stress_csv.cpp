@@ -29,7 +29,7 @@ void write_csv_head(std::ostream& csv, const StressCase& any) {
 }
 
 void write_csv_row(std::ostream& csv, const StressResult& r) {
-  const Verdict& v = r.verdict;
+  const StressVerdict& v = r.verdict;
   csv << r.stress.number;
   for (const auto& [name, value] : inputs_of(r.stress)) csv << ',' << value;
   csv << ',' << v.end << ',' << v.phase << ',' << v.particles << ',' << v.steps << ',' << v.simulated_s << ','
@@ -38,8 +38,8 @@ void write_csv_row(std::ostream& csv, const StressResult& r) {
       << std::flush;
 }
 
-std::map<int, Verdict> read_csv(std::istream& csv) {
-  std::map<int, Verdict> verdicts;
+std::map<int, StressVerdict> read_csv(std::istream& csv) {
+  std::map<int, StressVerdict> verdicts;
   std::string row;
   std::getline(csv, row);
   while (std::getline(csv, row)) {
@@ -48,7 +48,7 @@ std::map<int, Verdict> read_csv(std::istream& csv) {
     const std::vector<std::string> fields = fields_of(row.substr(0, quote));
     if (fields.size() <= kVerdictColumns) continue;
     const std::string* field = &fields[fields.size() - kVerdictColumns];
-    Verdict v;
+    StressVerdict v;
     v.end = field[0];
     v.phase = field[1];
     v.particles = std::stoll(field[2]);

@@ -13,6 +13,6 @@ void write_csv_row(std::ostream& csv, const StressResult& result);
 
 /// The verdicts of a file written by the two above, by the number of their case. Rows that are incomplete, as the last
 /// one of a campaign that was killed may be, are left out.
-std::map<int, Verdict> read_csv(std::istream& csv);
+std::map<int, StressVerdict> read_csv(std::istream& csv);
 
 }  // namespace pastefit

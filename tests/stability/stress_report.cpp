@@ -149,7 +149,7 @@ double quantile(std::vector<double> values, double q) {
 
 void write_quantiles(std::ostream& out, const std::vector<StressResult>& results) {
   out << "| of valid runs | smallest | 5 % | median | 95 % | largest |\n|---|---:|---:|---:|---:|---:|\n";
-  const auto row = [&](const char* name, const std::function<double(const Verdict&)>& value) {
+  const auto row = [&](const char* name, const std::function<double(const StressVerdict&)>& value) {
     std::vector<double> values;
     for (const StressResult& r : results)
       if (r.verdict.end == "valid") values.push_back(value(r.verdict));
@@ -161,12 +161,12 @@ void write_quantiles(std::ostream& out, const std::vector<StressResult>& results
     }
     out << '\n';
   };
-  row("energy created over put in (negative: lost unexplained)", [](const Verdict& v) { return v.energy_error; });
-  row("steps", [](const Verdict& v) { return static_cast<double>(v.steps); });
-  row("simulated time [s]", [](const Verdict& v) { return v.simulated_s; });
-  row("processor time [s]", [](const Verdict& v) { return v.cpu_s; });
-  row("height after step 1 [mm]", [](const Verdict& v) { return v.height1_mm; });
-  row("spread after step 1 [mm]", [](const Verdict& v) { return v.spread_mm; });
+  row("energy created over put in (negative: lost unexplained)", [](const StressVerdict& v) { return v.energy_error; });
+  row("steps", [](const StressVerdict& v) { return static_cast<double>(v.steps); });
+  row("simulated time [s]", [](const StressVerdict& v) { return v.simulated_s; });
+  row("processor time [s]", [](const StressVerdict& v) { return v.cpu_s; });
+  row("height after step 1 [mm]", [](const StressVerdict& v) { return v.height1_mm; });
+  row("spread after step 1 [mm]", [](const StressVerdict& v) { return v.spread_mm; });
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace pastefit {
 /// A case and how it ended.
 struct StressResult {
   StressCase stress;
-  Verdict verdict;
+  StressVerdict verdict;
 };
 
 /// Markdown: ends in all; ends by region of the box (rows: ranges; columns: ends); failures by reason and phase with a

@@ -153,7 +153,7 @@ std::shared_ptr<const Packing> grown(const Packing& packing, double share) {
   return result;
 }
 
-void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict) {
+void judge_run(const StressCase& stress, const Bounds& bounds, StressVerdict& verdict) {
   const auto defect = [&](std::string message) {
     verdict.end = "defect";
     verdict.message = std::move(message);
@@ -205,8 +205,8 @@ void judge_run(const StressCase& stress, const Bounds& bounds, Verdict& verdict)
 
 }  // namespace
 
-Verdict judge(const StressCase& stress, const Bounds& bounds) {
-  Verdict verdict;
+StressVerdict judge(const StressCase& stress, const Bounds& bounds) {
+  StressVerdict verdict;
   const double start = cpu_seconds();
   try {
     judge_run(stress, bounds, verdict);

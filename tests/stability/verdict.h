@@ -8,7 +8,7 @@
 namespace pastefit {
 
 /// How a run of the campaign ended.
-struct Verdict {
+struct StressVerdict {
   std::string end;      ///< "valid", the name of a failure's reason, or "defect"
   std::string phase;    ///< of a failure
   std::string message;  ///< of a failure, or what is wrong
@@ -27,6 +27,6 @@ struct Bounds {
 /// Runs the case and judges its end. A defect is: faults in an admissible test, an exception, readings that are absent,
 /// not finite or out of their physical range without a failure, energy created without a failure (or with one, of a
 /// case that `keeps_energy`), grains that vanish or pass a wall without a failure, a failure without phase or message.
-Verdict judge(const StressCase& stress, const Bounds& bounds);
+StressVerdict judge(const StressCase& stress, const Bounds& bounds);
 
 }  // namespace pastefit

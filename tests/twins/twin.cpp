@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "calibrate/evaluate/response.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/inference/response_model.h"
-#include "calibrate/search/response.h"
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/search/evaluator.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/search/search.h"
 #include "calibrate/study/study.h"
 

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "calibrate/base/format.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "tests/twins/twin_table.h"
 
 using namespace pastefit;

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "calibrate/base/fault_text.h"
-#include "calibrate/base/processor_time.h"
-#include "calibrate/search/evaluator.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/text.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/search/low_fidelity.h"
 #include "calibrate/study/tests.h"
 #include "core/observe/heap.h"

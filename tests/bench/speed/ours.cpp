@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "calibrate/base/processor_time.h"
+#include "calibrate/base/machine.h"
 #include "core/step/stepper.h"
 
 namespace pastefit {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "calibrate/base/processor_time.h"
+#include "calibrate/base/machine.h"
 #include "core/laws/contact.h"
 #include "core/step/kernels.h"
 #include "tests/bench/speed/measure.h"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/freed_memory.h"
+#include "calibrate/base/machine.h"
 #include "core/step/kernels.h"
 #include "tests/bench/speed/report.h"
 #include "tests/bench/speed/roofline.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/base/processor_time.h"
+#include "calibrate/base/machine.h"
 #include "calibrate/search/search.h"
 #include "tests/calibrate/search/fake_slump.h"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/foreign_text.h"
+#include "calibrate/base/text.h"
 
 using namespace pastefit;
 

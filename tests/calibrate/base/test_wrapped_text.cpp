@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 
 using namespace pastefit;
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/check/further_confirmation.h"
+#include "calibrate/check/rescale_bias.h"
 
 using namespace pastefit;
 

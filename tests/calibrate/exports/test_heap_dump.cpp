@@ -11,8 +11,8 @@ using namespace pastefit::export_scenes;
 namespace {
 
 const std::string kHead = "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n";
-const std::string kColumns = "ITEM: ATOMS id type x y z radius \n";
-const std::string kTwo = kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n1 1 -0.1 -2e-1 0.4 0.009\n";
+const std::string kColumnsLine = "ITEM: ATOMS id type x y z radius \n";
+const std::string kTwo = kHead + kColumnsLine + "2 1 0.1 0.2 0.3 0.008\n1 1 -0.1 -2e-1 0.4 0.009\n";
 
 void fails(const std::string& text, const std::string& where, const std::string& what) {
   const auto read = parse_dump(text, "heap.dump");
@@ -40,16 +40,18 @@ TEST_CASE("a dump's last snapshot is read in the order of the grains' numbers, w
 TEST_CASE("a dump that is no whole one of grains is refused with the line") {
   fails("", "heap.dump", "no line \"ITEM: ATOMS");
   fails("{\"format\": \"pastefit-card-6\"}\n", "heap.dump", "no line \"ITEM: ATOMS");
-  fails(kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n", "line 10", "ends after 1 grains of 2");
-  fails(kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n1 1 0.1 0.2\n", "line 11", "holds 4 columns, the header 6");
+  fails(kHead + kColumnsLine + "2 1 0.1 0.2 0.3 0.008\n", "line 10", "ends after 1 grains of 2");
+  fails(kHead + kColumnsLine + "2 1 0.1 0.2 0.3 0.008\n1 1 0.1 0.2\n", "line 11", "holds 4 columns, the header 6");
   fails(kHead + "ITEM: ATOMS id type x y z\n1 1 0 0 0\n2 1 0 0 0\n", "line 9", "lacks the column radius");
   fails(kHead + "ITEM: ATOMS\n", "line 9", "lacks the column id");
-  fails(kHead + kColumns, "line 9", "no grain");
-  fails("ITEM: NUMBER OF ATOMS\nmany\n" + kColumns + "1 1 0 0 0 0.1\n", "line 2", "number of atoms");
+  fails(kHead + kColumnsLine, "line 9", "no grain");
+  fails("ITEM: NUMBER OF ATOMS\nmany\n" + kColumnsLine + "1 1 0 0 0 0.1\n", "line 2", "number of atoms");
 }
 
 TEST_CASE("a number of a dump that is none, not finite or not possible is refused with its column") {
-  const auto with = [](const std::string& row) { return kHead + kColumns + "2 1 0.1 0.2 0.3 0.008\n" + row + "\n"; };
+  const auto with = [](const std::string& row) {
+    return kHead + kColumnsLine + "2 1 0.1 0.2 0.3 0.008\n" + row + "\n";
+  };
   fails(with("1 1 nan 0 0 0.008"), "line 11", "x is");
   fails(with("1 1 0 inf 0 0.008"), "line 11", "y is");
   fails(with("1 1 0 0 0x1 0.008"), "line 11", "z is");
@@ -60,7 +62,7 @@ TEST_CASE("a number of a dump that is none, not finite or not possible is refuse
 }
 
 TEST_CASE("of a dump with many faults the first twenty are listed") {
-  std::string text = kColumns;
+  std::string text = kColumnsLine;
   for (int i = 0; i < 100; ++i) text += "1 1 nan 0 0 0.1\n";
   CHECK(parse_dump(text, "heap.dump").faults().size() == 20);
 }

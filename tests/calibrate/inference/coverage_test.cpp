@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "calibrate/inference/inference.h"
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "tests/calibrate/search/synthetic.h"
 
 using namespace pastefit;

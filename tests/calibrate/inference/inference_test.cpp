@@ -5,7 +5,7 @@
 
 #include "calibrate/inference/description.h"
 #include "calibrate/inference/posterior.h"
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "tests/calibrate/search/fake_slump.h"
 
 using namespace pastefit;

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "../search/synthetic.h"
-#include "calibrate/models/matern.h"
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 
 using namespace pastefit;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 #include "tests/calibrate/search/synthetic.h"
 
 using namespace pastefit;

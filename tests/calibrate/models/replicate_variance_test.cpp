@@ -1,9 +1,8 @@
-#include "calibrate/models/replicate_variance.h"
-
 #include <catch2/catch.hpp>
 
 #include "../search/synthetic.h"
 #include "calibrate/base/statistics.h"
+#include "calibrate/models/replicates.h"
 
 using namespace pastefit;
 using namespace pastefit::synthetic;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "calibrate/base/wrapped_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/report/card_text.h"
 #include "calibrate/report/reservations.h"

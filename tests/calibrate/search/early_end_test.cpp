@@ -1,11 +1,11 @@
-#include "calibrate/search/early_end.h"
+#include "calibrate/evaluate/early_end.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "calibrate/evaluate/record.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/inference/training_data.h"
-#include "calibrate/search/record.h"
-#include "calibrate/search/response.h"
 #include "calibrate/search/search.h"
 #include "calibrate/search/surrogate.h"
 #include "tests/calibrate/search/fake_slump.h"

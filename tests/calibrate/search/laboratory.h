@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "calibrate/search/evaluator.h"
+#include "calibrate/evaluate/evaluator.h"
 #include "calibrate/study/parameters.h"
 #include "core/apparatus/slump/packing.h"
 #include "tests/calibrate/folder.h"

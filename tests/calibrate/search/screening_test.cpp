@@ -6,7 +6,7 @@
 
 #include "answered.h"
 #include "calibrate/card/card.h"
-#include "calibrate/search/study_scoring.h"
+#include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "fake_slump.h"

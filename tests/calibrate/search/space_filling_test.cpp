@@ -1,7 +1,7 @@
-#include "calibrate/search/space_filling.h"
-
 #include <catch2/catch.hpp>
 #include <stdexcept>
+
+#include "calibrate/search/screening.h"
 
 using namespace pastefit;
 

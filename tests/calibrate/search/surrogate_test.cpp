@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "calibrate/search/space_filling.h"
+#include "calibrate/search/screening.h"
 
 using namespace pastefit;
 

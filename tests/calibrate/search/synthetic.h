@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
-#include "calibrate/search/objective.h"
-#include "calibrate/search/response.h"
-#include "calibrate/search/space_filling.h"
+#include "calibrate/evaluate/objective.h"
+#include "calibrate/evaluate/response.h"
+#include "calibrate/search/screening.h"
 
 namespace pastefit::synthetic {
 

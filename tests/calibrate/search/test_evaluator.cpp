@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "calibrate/base/processor_time.h"
+#include "calibrate/base/machine.h"
 #include "tests/calibrate/search/laboratory.h"
 
 using namespace pastefit;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/record.h"
 #include "tests/calibrate/search/laboratory.h"
 
 using namespace pastefit;

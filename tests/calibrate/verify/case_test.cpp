@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/fault_text.h"
+#include "calibrate/base/text.h"
 #include "calibrate/verify/verify.h"
 #include "tests/calibrate/folder.h"
 

@@ -1,4 +1,4 @@
-#include "calibrate/search/evaluator.h"
+#include "calibrate/evaluate/evaluator.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "calibrate/base/machine.h"
-#include "calibrate/base/processor_time.h"
+#include "calibrate/evaluate/early_end.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/laboratory/softness.h"
-#include "calibrate/search/early_end.h"
-#include "calibrate/search/record.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

@@ -1,4 +1,4 @@
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "calibrate/search/early_end.h"
-#include "calibrate/search/low_fidelity.h"
+#include "calibrate/evaluate/early_end.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calibrate/search/response.h"
+#include "calibrate/evaluate/response.h"
 #include "calibrate/study/tolerance.h"
 
 namespace pastefit {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "calibrate/base/worker_pool.h"
+#include "calibrate/evaluate/objective.h"
+#include "calibrate/evaluate/record.h"
+#include "calibrate/evaluate/run_observer.h"
+#include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/laboratory/engine.h"
-#include "calibrate/search/objective.h"
-#include "calibrate/search/record.h"
-#include "calibrate/search/run_observer.h"
-#include "calibrate/search/study_scoring.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

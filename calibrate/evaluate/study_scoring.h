@@ -2,12 +2,13 @@
 
 #include <vector>
 
-#include "calibrate/search/reading_scoring.h"
-#include "calibrate/search/record.h"
+#include "calibrate/evaluate/reading_scoring.h"
+#include "calibrate/evaluate/record.h"
 #include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/study/tolerance.h"
+#include "core/result.h"
 
 namespace pastefit {
 
@@ -39,5 +40,19 @@ class StudyScoring : public ReadingScoring {
   const Study& study_;
   const std::vector<std::size_t> fitted_;  // tests
 };
+
+struct Measurement;
+struct Study;
+
+/// By how many worst misses a failed candidate is off at most (`SimulationObjective`).
+inline constexpr double worst_factor = 3;
+
+/// The largest error a heap can have, in the measurement's unit. Requirement: `test` is an index of `study.tests`.
+double worst_miss(const Study& study, std::size_t test, const Measurement& measurement);
+
+/// Every prior and every fitted reading whose residual, or its square, is not finite somewhere between the bounds,
+/// places as in study and laboratory files. A study that was read has none (its numbers have ranges); one that a
+/// program put together may.
+Faults validate_residuals(const Study& study);
 
 }  // namespace pastefit

@@ -1,4 +1,4 @@
-#include "calibrate/search/early_end.h"
+#include "calibrate/evaluate/early_end.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

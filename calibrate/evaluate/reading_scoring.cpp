@@ -1,4 +1,4 @@
-#include "calibrate/search/reading_scoring.h"
+#include "calibrate/evaluate/reading_scoring.h"
 
 #include <algorithm>
 #include <cmath>

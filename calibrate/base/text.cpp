@@ -1,0 +1,272 @@
+#include "calibrate/base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
+
+namespace pastefit {
+
+namespace {
+
+/// Letters, not bytes: in UTF-8 those that go on with a letter begin with 10.
+std::size_t letters_in(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+/// Where the rest of a long line begins.
+std::size_t hanging_indent(std::string_view line, std::size_t columns) {
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  const std::size_t gap = std::min(line.find("  ", begin), line.size());
+  const std::size_t second = std::min(line.find_first_not_of(' ', gap), line.size());
+  const std::size_t column = letters_in(line.substr(0, second));
+  return second < line.size() && column <= columns / 2 ? column : begin + 2;
+}
+
+/// Whether what stands around a blank is one number: "34.9 +- 6", "95 %".
+bool within_number(std::string_view line, std::size_t blank) {
+  const std::string_view before = line.substr(0, blank), after = line.substr(blank + 1);
+  return after.starts_with('%') || after.starts_with("+- ") || before.ends_with("+-");
+}
+
+std::string wrapped_line(std::string_view line, std::size_t columns) {
+  if (letters_in(line) <= columns) return std::string(line);
+  const std::string indent(hanging_indent(line, columns), ' ');
+  std::string out, row;
+  bool has_word = false;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
+    std::size_t end = line.find(' ', word);
+    while (end < line.size() && within_number(line, end)) end = line.find(' ', end + 1);
+    end = std::min(end, line.size());
+    if (has_word && letters_in(row) + letters_in(line.substr(at, end - at)) > columns) {
+      out += row + "\n";
+      row = indent;
+      at = word;
+    }
+    row += line.substr(at, end - at);
+    has_word = true;
+    at = end;
+  }
+  return out + row;
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string out;
+  while (true) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    out += wrapped_line(text.substr(0, end), columns);
+    if (end == text.size()) return out;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
+namespace {
+
+using nlohmann::json;
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+Faults in_file(Faults faults, const std::filesystem::path& file) {
+  if (file.empty()) return faults;
+  for (Fault& fault : faults) fault.where = file.string() + (fault.where.empty() ? "" : ": " + fault.where);
+  return faults;
+}
+
+std::string message_of(const Faults& faults) {
+  std::string message;
+  for (const Fault& fault : faults) {
+    if (!message.empty()) message += '\n';
+    message += fault.where + (fault.where.empty() ? "" : ": ") + fault.what;
+    if (!fault.remedy.empty()) message += "; " + fault.remedy;
+  }
+  return message;
+}
+
+std::string shown(double number) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", number);
+  return text.data();
+}
+
+std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates) {
+  constexpr std::size_t longest = 200;  // a longer word is no slip of the pen, and the distance is quadratic
+  if (word.size() > longest) return std::nullopt;
+  const std::string* best = nullptr;
+  std::size_t best_distance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (!best || distance < best_distance) {
+      best = &candidate;
+      best_distance = distance;
+    }
+  }
+  if (!best || best_distance > std::max<std::size_t>(2, std::max(word.size(), best->size()) / 2)) return std::nullopt;
+  return *best;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  const std::string cut = text.size() > longest ? std::string(text.substr(0, longest)) + "..." : std::string(text);
+  return json(cut).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string printable(std::string_view key) {
+  const std::string text = in_quotes(key);
+  return text.substr(1, text.size() - 2);
+}
+
+std::string joined(const std::string& place, std::string_view key) {
+  return place.empty() ? std::string(key) : place + "." + std::string(key);
+}
+
+namespace {
+
+constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
+
+/// A character and the bytes that it takes; 0 bytes where there is none.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+/// The first character of a text that is not empty.
+Character first_of(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return {byte(0), 1};
+  const std::size_t bytes = byte(0) >= 0xC2 && byte(0) < 0xE0   ? 2
+                            : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
+                            : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
+                                                                : 0;
+  if (bytes == 0 || text.size() < bytes) return {};
+  std::uint32_t code = byte(0) & (0x7Fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return {};
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  const bool too_long = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
+  const bool no_letter = (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF;
+  return too_long || no_letter ? Character{} : Character{code, bytes};
+}
+
+/// Controls, separators of lines, and what turns the direction of writing.
+bool is_control(std::uint32_t code) {
+  const auto within = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
+  return code < 0x20 || within(0x7F, 0x9F) || within(0x200E, 0x200F) || within(0x2028, 0x202E) ||
+         within(0x2066, 0x2069) || within(0xFFFE, 0xFFFF);
+}
+
+/// The text, characters that `replacement` names replaced by what it answers; it answers null for what stays.
+template <class Replacement>
+std::string replaced(std::string_view text, Replacement replacement) {
+  std::string out;
+  while (!text.empty()) {
+    const Character next = first_of(text);
+    if (next.bytes == 0) {
+      out += no_character;
+      text.remove_prefix(1);
+      continue;
+    }
+    if (const char* other = replacement(next.code))
+      out += other;
+    else
+      out += is_control(next.code) ? " " : text.substr(0, next.bytes);
+    text.remove_prefix(next.bytes);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string one_line(std::string_view text) {
+  return replaced(text, [](std::uint32_t) -> const char* { return nullptr; });
+}
+
+std::string lines_of(std::string_view text) {
+  return replaced(text, [](std::uint32_t code) { return code == '\n' ? "\n" : code == '\t' ? "\t" : nullptr; });
+}
+
+std::string deck_comment(std::string_view text) {
+  return "# " +
+         replaced(text,
+                  [](std::uint32_t code) -> const char* {
+                    switch (code) {
+                      case '"':
+                      case '`':
+                        return "'";
+                      case '&':
+                        return "+";
+                      case '$':
+                      case '\\':
+                        return "/";
+                      default:
+                        return nullptr;
+                    }
+                  }) +
+         "\n";
+}
+
+std::string xml_text(std::string_view text) {
+  return replaced(text, [](std::uint32_t code) -> const char* {
+    switch (code) {
+      case '&':
+        return "&amp;";
+      case '<':
+        return "&lt;";
+      case '>':
+        return "&gt;";
+      case '"':
+        return "&quot;";
+      case '\'':
+        return "&apos;";
+      case '\n':
+        return "&#10;";
+      default:
+        return nullptr;
+    }
+  });
+}
+
+std::string json_text(const nlohmann::ordered_json& value) {
+  const auto text = [&](bool only_ascii) {
+    return value.dump(2, ' ', only_ascii, nlohmann::json::error_handler_t::replace) + "\n";
+  };
+  std::string out = text(false);
+  return lines_of(out) == out ? out : text(true);
+}
+
+std::string json_in_html(const nlohmann::ordered_json& value) {
+  std::string out;
+  for (const char letter : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) {
+    // Outside of its texts JSON has none of these.
+    if (letter == '<' || letter == '>' || letter == '&')
+      out += letter == '<' ? "\\u003c" : letter == '>' ? "\\u003e" : "\\u0026";
+    else
+      out += letter;
+  }
+  return out;
+}
+
+}  // namespace pastefit
