@@ -33,7 +33,8 @@ class Words {
   void number(const pastefit::Key& name, double& to, const pastefit::Range& range, pastefit::Default<double>) {
     number(name, to, range, pastefit::Need::optional);
   }
-  void nullable_number(const pastefit::Key& name, std::optional<double>& to, const pastefit::Range& range, pastefit::Need) {
+  void nullable_number(const pastefit::Key& name, std::optional<double>& to, const pastefit::Range& range,
+                       pastefit::Need) {
     if (values_.count(place(name)) > 0) number(name, to.emplace(), range, pastefit::Need::required);
   }
   template <class T, std::size_t N>

@@ -6,11 +6,11 @@
 #include "calibrate/check/check.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/search/low_fidelity.h"
-#include "calibrate/study/tests.h"
 #include "calibrate/search/search.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/parameters.h"
+#include "calibrate/study/tests.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/folder.h"
 
