@@ -10,9 +10,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double border = 0.01;  // of a range: where the sample shows whether the data set an end
-constexpr double thin = 0.2;     // density at a bound, over the mean one, below which the data set the end
-constexpr double tail = 0.025;   // of the sample beyond each end of an interval
+// Outermost part of a range, where the sample shows whether the data set an end: so much of the range, or of the
+// sample's own width, whichever is less, so that a narrow interval near a bound is none that ends there.
+constexpr double border_of_range = 0.05, border_of_width = 0.25;
+constexpr double thin = 0.2;    // density at a bound, over the mean one, below which the data set the end
+constexpr double tail = 0.025;  // of the sample beyond each end of an interval
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -23,6 +25,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 /// Share of the sample in the outermost part of the range, over the share of a uniform distribution.
 double density_at(const std::vector<double>& sorted, bool lower_end) {
+  const double width = quantile(sorted, 1 - tail) - quantile(sorted, tail);
+  const double border = std::clamp(border_of_width * width, 1e-6, border_of_range);
   const auto in_border =
       std::ranges::count_if(sorted, [&](double x) { return lower_end ? x < border : x > 1 - border; });
   return static_cast<double>(in_border) / static_cast<double>(sorted.size()) / border;
@@ -53,6 +57,18 @@ void contain(Ends& ends, const Ends& others) {
     ends.lower_known = others.lower_known;
   }
   if (others.upper > ends.upper) {
+    ends.upper = others.upper;
+    ends.upper_known = others.upper_known;
+  }
+}
+
+/// Ends within those of another interval.
+void clip(Ends& ends, const Ends& others) {
+  if (others.lower > ends.lower) {
+    ends.lower = others.lower;
+    ends.lower_known = others.lower_known;
+  }
+  if (others.upper < ends.upper) {
     ends.upper = others.upper;
     ends.upper_known = others.upper_known;
   }
@@ -132,9 +148,10 @@ ParameterInterval interval_of(const ResponseModel& model, const std::vector<Unit
   for (const UnitPoint& member : sample) coordinates.push_back(member[coordinate]);
   const double own = recommended[coordinate];
   Ends held = ends_of(sample_along(model, recommended, coordinate, static_cast<int>(sample.size())));
-  contain(held, {own, own, own > 0, own < 1});
   Ends ends = recommended.size() == 1 ? held : ends_of(std::move(coordinates));
-  contain(ends, held);
+  contain(ends, {own, own, own > 0, own < 1});
+  clip(held, ends);
+  contain(held, {own, own, own > 0, own < 1});
   ParameterInterval one;
   one.name = parameter.name;
   one.scale = parameter.scale;

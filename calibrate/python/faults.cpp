@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "calibrate/base/text.h"
+
 namespace pastefit::python {
 
 namespace py = pybind11;
@@ -16,7 +18,8 @@ void add_faults(py::module_&) {
       if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const BadInput& bad) {
       py::list faults;
-      for (const Fault& fault : bad.faults) faults.append(py::make_tuple(fault.where, fault.what, fault.remedy));
+      for (const Fault& fault : bad.faults)
+        faults.append(py::make_tuple(one_line(fault.where), one_line(fault.what), one_line(fault.remedy)));
       const py::object type = py::module_::import("pastefit.faults").attr("InputError");
       const py::object error = type(faults);
       PyErr_SetObject(type.ptr(), error.ptr());

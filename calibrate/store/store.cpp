@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "calibrate/base/content_hash.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/store/database.h"
 #include "calibrate/store/outcome_json.h"
@@ -118,7 +119,8 @@ Faults differences(Database& database, const std::string& file, const StoreIdent
   if (auto faults = defects(database, file); !faults.empty()) return faults;
   const std::string theirs = program_of(database);
   if (theirs == identity.program) return {};
-  return {{file + ": program", "evaluations belong to '" + theirs + "', not to '" + identity.program + "'",
+  return {{file + ": program",
+           "evaluations belong to '" + one_line(theirs) + "', not to '" + one_line(identity.program) + "'",
            "resume with the program that wrote it; or " + kStartAnew}};
 }
 

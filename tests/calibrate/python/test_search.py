@@ -218,7 +218,7 @@ class Problem(Desk):
         self.assertEqual(pf.Search(pf.Problem(repose()), store=store, engine="drum 1").run(drum).simulated, 0)
         fault, = self.faults(pf.Search, pf.Problem(repose()), store=store, engine="drum 2")
         self.assertIn("drum 2", fault.what)
-        other = pf.Problem(repose(measurements={"angle": {"value": 41, "standard_deviation": 1}}))
+        other = pf.Problem(repose(measurements={"angle_deg": {"value": 41, "standard_deviation": 1}}))
         fault, = self.faults(pf.Search, other, store=store, engine="drum 1")
         self.assertIn("another problem", fault.what)
 
