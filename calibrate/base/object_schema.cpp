@@ -108,7 +108,7 @@ void ObjectSchema::put(const Key& key, Json schema, Presence presence) {
   const std::string name(key.name);
   Json& property = object_["properties"][name] = Json::object();
   if (!key.meaning.empty()) property["description"] = key.meaning;
-  property.update(schema);
+  for (auto& [word, value] : schema.items()) property[word] = std::move(value);
   if (presence == Need::required) object_["required"].push_back(name);
 }
 
@@ -131,7 +131,7 @@ void ObjectSchema::put_known(const Key& key, const Json& entries, Need need) {
 
 Json document_schema(std::string_view title, std::string_view description, Json object, Json definitions) {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}, {"description", description}};
-  schema.update(object);
+  for (auto& [word, value] : object.items()) schema[word] = std::move(value);
   if (!definitions.is_null()) schema["definitions"] = std::move(definitions);
   return schema;
 }

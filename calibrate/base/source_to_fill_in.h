@@ -9,7 +9,7 @@ namespace pastefit {
 inline constexpr std::string_view kSourceToFillIn = "laboratory, person, date";
 
 /// The source as it was given: empty if it is still what a starting file has there, which is nobody's.
-inline std::string stated_source(std::string source) {
+inline std::string stated_source(const std::string& source) {
   return source == kSourceToFillIn ? std::string() : source;
 }
 

@@ -270,7 +270,7 @@ Result<Card> card_from_json(const json& document) {
     card_fields::check_names(reader, read.tests);
   }
   for (CardTest& test : read.tests) {
-    test.lab.source = stated_source(std::move(test.lab.source));
+    test.lab.source = stated_source(test.lab.source);
     for (CardObservable& reading : test.observables)
       if (reading.packings == 0) reading.packings = static_cast<int>(read.confirmation.packings.size());
   }

@@ -24,7 +24,7 @@ std::vector<ExportWall> walls_of(const Test& test) {
 }
 
 std::string grain_density_in_words(const ExportScene& scene) {
-  const std::string own = format("%.9g kg/m^3", scene.grain_density_kg_m3);
+  std::string own = format("%.9g kg/m^3", scene.grain_density_kg_m3);
   if (!scene.card_density_kg_m3 || *scene.card_density_kg_m3 == scene.grain_density_kg_m3) return own;
   return own + format(" in this packing (%.9g on the card, the mean of its packings)", *scene.card_density_kg_m3);
 }

@@ -153,7 +153,7 @@ std::vector<fs::path> apparatus_folders(const fs::path& folder) {
 void read_provenance(ObjectReader& document, Provenance& provenance) {
   document.object("provenance", Need::required,
                   [&](ObjectReader& reader) { describe_file_provenance(reader, provenance); });
-  provenance.source = stated_source(std::move(provenance.source));
+  provenance.source = stated_source(provenance.source);
 }
 
 void tell_provenance(ObjectSchema& document) {
