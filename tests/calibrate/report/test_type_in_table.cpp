@@ -165,7 +165,7 @@ TEST_CASE("a card whose adhesion grows with the pressure says near which pressur
 
 TEST_CASE("what a person types in holds the longest time step") {
   const Card card = shipped("concrete-mix-79");
-  const TypeInRow& step = row_of(type_in_table(card), "Grains", "longest time step");
+  const TypeInRow step = row_of(type_in_table(card), "Grains", "longest time step");
   CHECK(step.unit == "s");
   const ContactModel& contact = card.material.contact;
   const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
