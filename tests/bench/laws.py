@@ -2,14 +2,14 @@
 """Sheets as laboratories have them, calibrated as `pastefit new` sets them up, with each law of attraction.
 
 usage: laws.py PROGRAM TABLE.csv [--sheets structural,en,stiff,uci:79,...] [--laws epa,bridge] [--seeds 1,2] [--at-once 2]
-                                 [--search KEY=VALUE ...] [--parameters JSON]
+                                 [--search KEY=VALUE ...] [--parameters JSON] [--foreign 16]
        laws.py --report TABLE.csv
 
 structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120 mm with
 spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height. uci:NN: a concrete of Yeh's slump tests,
 uci:all: those whose spread is at most 1.1 of that width. The law `new` is what `pastefit new` chooses by itself. Rows that
-stand in the table are not run again. Each material is simulated on packings 201 to 216, which no search has seen; of its heaps
-those that stand are averaged. core_s is the processor time of the calibration, core_s_to_card its share of the simulations up
+stand in the table are not run again. Each material is simulated on packings 201 to 216 (`--foreign` many), which no search has
+seen; of its heaps those that stand are averaged. core_s is the processor time of the calibration, core_s_to_card its share of the simulations up
 to the end of the confirmation.
 """
 import argparse
@@ -72,10 +72,10 @@ def without_comments(text):
     return json.loads(re.sub(r"(?m)//.*$", "", text))
 
 
-def foreign_heaps(program, study, card):
+def foreign_heaps(program, study, card, number):
     sets = [part for name, value in card["material"]["parameters"].items() for part in ("--set", f"parameters.{name}={value!r}")]
     heaps = []
-    for packing in range(201, 217):
+    for packing in range(201, 201 + number):
         done = subprocess.run([program, "simulate", study, *sets, "--seed", str(packing), "--json", "--quiet"], capture_output=True, text=True)
         if done.returncode == 0:
             heaps.append(json.loads(done.stdout)["observables"])
@@ -106,19 +106,20 @@ def run(program, sheet, words, law, seed, options):
         if not (folder / "out/card.json").exists():
             return [sheet, law, seed, (folder / "said").read_text()[-200:].replace("\n", " ")] + [""] * (len(COLUMNS) - 4)
         card = json.loads((folder / "out/card.json").read_text())
-        heaps = foreign_heaps(program, folder / "study.json", card)
+        heaps = foreign_heaps(program, folder / "study.json", card, options.foreign)
     radius_mm = 100
     sheared = [heap["step1.lateral_shift_mm"] > 0.4 * radius_mm for heap in heaps]
     standing = [heap for heap, gone in zip(heaps, sheared) if not gone] or heaps
     simulations = card["search"]["simulations"]
     to_card = int(re.search(r"\((\d+) simulations\)", card["search"]["reason"] + f"({simulations} simulations)")[1])
     heights = [heap["step1.height_mm"] for heap in standing]
+    spreads = [heap["step1.spread_mm"] for heap in standing]
     free = {name: float(f"{card['material']['parameters'][name]:.3g}") for name, value in study["parameters"].items() if "free" in value}
     return [sheet, law, seed, card["search"]["status"], simulations, to_card, round(core_s), round(core_s * to_card / simulations),
             round(card["confirmation"]["error"], 2),
             len(card["confirmation"]["packings"]), card["confirmation"].get("rejected", ""), f"{sum(sheared)} of {len(heaps)}",
-            round(statistics.mean(heights), 1), round(statistics.stdev(heights), 1),
-            round(statistics.mean([heap["step1.spread_mm"] for heap in standing]), 1), json.dumps(free)]
+            round(statistics.mean(heights), 1) if heights else "", round(statistics.stdev(heights), 1) if len(heights) > 1 else "",
+            round(statistics.mean(spreads), 1) if spreads else "", json.dumps(free)]
 
 
 def measure(options):
@@ -160,7 +161,8 @@ def report(table):
 
         print(f"| {sheet} | {law} | {len(done)} of {len(of)} | {spread_of([int(r['to_card']) for r in done])} | "
               f"{spread_of([float(r['core_s_to_card']) for r in done])} | {spread_of([float(r['miss']) for r in done])} | "
-              f"{spread_of([int(r['foreign_sheared'].split()[0]) for r in done])} | {spread_of([float(r['deviation']) for r in done])} |")
+              f"{spread_of([int(r['foreign_sheared'].split()[0]) for r in done])} | "
+              f"{spread_of([float(r['deviation']) for r in done if r['deviation']])} |")
 
 
 if __name__ == "__main__":
@@ -172,6 +174,7 @@ if __name__ == "__main__":
     parser.add_argument("--seeds", default="1")
     parser.add_argument("--at-once", type=int, default=2)
     parser.add_argument("--search", action="append", default=[], type=lambda text: (text.split("=")[0], json.loads(text.split("=")[1])))
+    parser.add_argument("--foreign", type=int, default=16, help="packings of each material besides")
     parser.add_argument("--parameters", default="{}", help="JSON that replaces some of the study's parameters")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()
