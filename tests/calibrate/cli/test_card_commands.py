@@ -4,6 +4,7 @@ usage: test_card_commands.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
+import re
 import sys
 import unittest
 import xml.etree.ElementTree as xml
@@ -64,6 +65,19 @@ class CardCommands(Desk):
             self.assertEqual(result.returncode, 2)
             self.assertIn(word, result.stdout)
             self.assertFalse(out.exists())
+
+    def test_every_file_to_type_from_has_one_density_of_a_grain(self):
+        on_card = json.loads(CARD.read_text())["material"]["grain_density_kg_m3"]
+        shown = run("show", CARD).stdout
+        self.assertEqual(float(re.search(r"density of a grain +([0-9.]+)", shown)[1]), float(f"{on_card:.4g}"), shown)
+        for target in TARGETS:
+            out = self.folder / target
+            self.assertEqual(run("export", "--unconfirmed", CARD, "--to", target, "--out", out).returncode, 0)
+            said = [found[0] or found[1] for file in out.rglob("*") if file.suffix in (".csv", ".txt", ".inc", ".py")
+                    for found in re.findall(r"grain_density_kg_m3[ ,]+([0-9.]+)|density of a grain,? [^(\n]*\(([0-9.]+) on the card", file.read_text())]
+            self.assertTrue(said, target)
+            for value in said:
+                self.assertAlmostEqual(float(value), on_card, delta=1e-4, msg=target)
 
     def test_export_writes_every_target_whole_and_replaces_nothing(self):
         for target in TARGETS:
