@@ -47,7 +47,7 @@ def sheets_of(words):
         if word == "structural":
             sheets[word] = ["--mould", "abrams", "--density", "2280", "--slump", "95, 110, 100", "--spread", "270"]
         elif word == "en":
-            sheets[word] = ["--mould", "en12350-5", "--density", "1900", "--height", "135", "--height2", "118", "--sag", "9",
+            sheets[word] = ["--mould", "hinged-plate", "--density", "1900", "--height", "135", "--height2", "118", "--sag", "9",
                             "--spread", "255", "--spread2", "280"]
         elif word == "stiff":
             for slump in (40, 60, 80, 100, 120):
