@@ -182,6 +182,29 @@ class Confirm(Desk):
         self.assertIn("interrupted", said)
         self.assertEqual(self.card.read_bytes(), before)
 
+    def test_a_card_is_the_old_or_the_new_one_whenever_a_confirmation_is_killed(self):
+        before = self.card.read_bytes()
+        words = [PROGRAM, "confirm", self.card, "--program", self.engine(), "--runs", self.runs, "--packings", "2", "--quiet"]
+        start = time.monotonic()
+        subprocess.run(words, capture_output=True, check=True)
+        duration = time.monotonic() - start
+        replaced = 0
+        for kill in range(12):
+            self.card.write_bytes(before)
+            with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+                time.sleep(duration * (kill + 0.5) / 11)
+                process.kill()
+            after = self.card.read_bytes()
+            replaced += after != before
+            shown = run("show", self.card, "--json")
+            self.assertEqual(shown.returncode, 0, shown.stderr)
+            self.assertEqual(len(json.loads(shown.stdout).get("further_confirmations", [])), int(after != before))
+        self.assertLess(replaced, 12)
+        self.card.write_bytes(before)
+        result = self.confirm()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(json.loads(self.card.read_text())["further_confirmations"]), 1)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
