@@ -117,7 +117,7 @@ Result<CalibrationResult> calibrate(const Study& study, Store& store, const Cali
   const bool any = found.best.point.size() > 0 && !found.best.failed;
   if (any) {
     if (callbacks.progress)
-      callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.normalised_error, ""});
+      callbacks.progress(Progress{"examination", 0, asked.budget_simulations, found.best.error, ""});
     predict_hold_outs(study, found, objective);
     // Readings that no material meets say nothing of the parameters; and who interrupts does not want to wait.
     const bool stopped = options.stop && *options.stop;

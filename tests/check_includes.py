@@ -168,7 +168,7 @@ def missing_includes(texts):
 
 
 # A name that was given to a thing by exchanging a word everywhere; in a sentence it stands in backquotes or as a member.
-EXCHANGED = re.compile(r"(?<![`.\w(])(?:predictive_variance|normalised_error|misfit_posterior|replicate_variance|training_data)\b(?![`.(,])"
+EXCHANGED = re.compile(r"(?<![`.\w(])(?:predictive_variance|misfit_posterior|replicate_variance|training_data)\b(?![`.(,])"
                        r"|\b(?:they|it|packings) variance\b")
 
 

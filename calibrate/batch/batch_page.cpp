@@ -76,7 +76,7 @@ std::string row_in_html(const BatchRow& row, const Names& names) {
          "<br><span class=\"soft\">" + title + "</span></td>";
   out += "<td class=\"verdict\">" + xml_text(row.verdict) + (met && !row.reasons.empty() ? ", with reservations" : "") +
          "</td><td class=\"reasons\">" + xml_text(one_line(row.reasons)) + "</td>";
-  out += number(row.misfit) + number(row.sheared_share);
+  out += number(row.error) + number(row.sheared_share);
   for (const auto& reading : names.readings) {
     const auto* one = find_named(row.readings, reading);
     out += one ? number(one->measured, "measured") + number(one->simulated, "simulated") +

@@ -31,7 +31,7 @@ std::optional<double> sheared_share_of(const Card& card) {
   for (const CardTest& test : card.tests) {
     if (test.hold_out) continue;
     for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
-      if (const auto index = rejection_index(test.test, test.baseline.runs[i].observables)) {
+      if (const auto index = rejection_index(test.test, test.baseline.runs[i].readings)) {
         known = true;
         if (*index > 1) rejected[i] = true;
       }
@@ -54,13 +54,13 @@ void add(BatchRow& row, const Card& card) {
   std::vector<std::string> reasons = reservations_on(card);
   if (row.verdict != name_of(CalibrationStatus::confirmed)) reasons.insert(reasons.begin(), card.search.reason);
   for (const std::string& reason : reasons) row.reasons += (row.reasons.empty() ? "" : "; ") + reason;
-  row.misfit = card.confirmation.misfit;
+  row.error = card.confirmation.error;
   row.sheared_share = sheared_share_of(card);
   row.simulations = card.search.simulations;
   row.coarse_simulations = card.search.coarse_simulations;
   row.program = card.provenance.program;
   for (const CardTest& test : card.tests)
-    for (const CardObservable& one : test.observables)
+    for (const CardReading& one : test.readings)
       if (one.measured) row.readings.push_back({reading_name(test, one.name), *one.measured, one.simulated});
   for (const Parameter& one : card.material.parameters) {
     if (!one.free || !has_parameter(card, one.name)) continue;
@@ -114,7 +114,7 @@ std::string line(const BatchRow& row, const TableColumns& columns) {
   std::string out;
   for (const std::string& text : {row.name, row.title, row.verdict, row.reasons}) out += quoted(text) + ",";
   out += std::to_string(row.seed) + "," + std::to_string(row.simulations) + "," +
-         std::to_string(row.coarse_simulations) + "," + cell(row.core_s) + "," + cell(row.misfit) + "," +
+         std::to_string(row.coarse_simulations) + "," + cell(row.core_s) + "," + cell(row.error) + "," +
          cell(row.sheared_share);
   for (const auto& name : columns.laboratory) {
     const auto* one = find_named(row.laboratory, name);
@@ -170,7 +170,7 @@ int rank_of(const BatchRow& row) {
 std::vector<BatchRow> worst_first(std::vector<BatchRow> rows) {
   std::ranges::stable_sort(rows, [](const BatchRow& one, const BatchRow& other) {
     if (rank_of(one) != rank_of(other)) return rank_of(one) < rank_of(other);
-    return one.misfit.value_or(0) > other.misfit.value_or(0);
+    return one.error.value_or(0) > other.error.value_or(0);
   });
   return rows;
 }

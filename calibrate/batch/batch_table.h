@@ -32,7 +32,7 @@ struct BatchRow {
   /// "pending": nothing was simulated.
   std::string verdict;
   std::string reasons;                  ///< why it is not confirmed, and what speaks against a card, in words
-  std::optional<double> misfit;         ///< largest error in tolerances
+  std::optional<double> error;          ///< largest error in tolerances
   std::optional<double> sheared_share;  ///< of the heaps that confirmed it
   std::uint64_t seed = 0;
   int simulations = 0, coarse_simulations = 0;

@@ -119,7 +119,7 @@ void set_tests(Card& card, const Study& study, double density_ratio) {
     Test test = study.tests[i].lab.test;
     specimen_of(test).bulk_density_kg_m3 *= density_ratio;
     one.test = test_with(std::move(test), values_of(card.material), 1);
-    one.observables.clear();
+    one.readings.clear();
     one.within_noise.reset();
     one.baseline = {};
     one.yield_stress.reset();

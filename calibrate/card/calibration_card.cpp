@@ -17,7 +17,7 @@ namespace {
 constexpr double kHoldOutAlarm = 0.05;  // probability that a right prediction is called wrong, all readings of a test
 
 /// Mean and standard deviation of a reading over the packings; nothing if some packing did not give it.
-std::optional<CardObservable> mean_over(const std::string& name, const std::vector<Observables>& runs) {
+std::optional<CardReading> mean_over(const std::string& name, const std::vector<Readings>& runs) {
   std::vector<double> values;
   for (const auto& run : runs) {
     const auto value = run.find(name);
@@ -25,7 +25,7 @@ std::optional<CardObservable> mean_over(const std::string& name, const std::vect
     values.push_back(*value);
   }
   const Sample sample = sample_of(values);
-  CardObservable out;
+  CardReading out;
   out.name = name;
   out.simulated = sample.mean;
   out.simulated_standard_deviation = sample.standard_deviation;
@@ -34,46 +34,46 @@ std::optional<CardObservable> mean_over(const std::string& name, const std::vect
 }
 
 /// Every reading of the runs that a laboratory would accept, beside the laboratory's where it has one.
-std::vector<CardObservable> observables_of(const Study& study, std::size_t index, const std::vector<Observables>& all) {
+std::vector<CardReading> card_readings(const Study& study, std::size_t index, const std::vector<Readings>& all) {
   const StudyTest& test = study.tests[index];
-  std::vector<Observables> runs;
+  std::vector<Readings> runs;
   for (const std::size_t run : accepted(test.lab.test, all)) runs.push_back(all[run]);
-  std::vector<CardObservable> out;
+  std::vector<CardReading> out;
   for (const auto& reading : runs.at(0).all()) {
-    auto observable = mean_over(reading.name, runs);
-    if (!observable) continue;
+    auto mean = mean_over(reading.name, runs);
+    if (!mean) continue;
     for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
       const auto& measurement = test.lab.measurements[i];
-      if (measurement.observable != reading.name) continue;
-      observable->measured = measurement.value;
-      observable->standard_deviation = measurement.standard_deviation;
-      observable->repeats = measurement.repeats;
-      observable->weight = test.targets[i].weight;
-      observable->tolerance = tolerance_of(study, index, i);
+      if (measurement.reading != reading.name) continue;
+      mean->measured = measurement.value;
+      mean->standard_deviation = measurement.standard_deviation;
+      mean->repeats = measurement.repeats;
+      mean->weight = test.targets[i].weight;
+      mean->tolerance = tolerance_of(study, index, i);
     }
-    out.push_back(std::move(*observable));
+    out.push_back(std::move(*mean));
   }
   return out;
 }
 
-Observables means_of(const std::vector<CardObservable>& observables) {
-  Observables means;
-  for (const auto& observable : observables) means.set(observable.name, observable.simulated);
+Readings means_of(const std::vector<CardReading>& readings) {
+  Readings means;
+  for (const auto& reading : readings) means.set(reading.name, reading.simulated);
   return means;
 }
 
 /// Holds a prediction against the laboratory: each reading that counts within the noise of both.
 void judge(CardTest& test) {
-  std::vector<CardObservable*> judged;
-  for (auto& observable : test.observables)
-    if (observable.measured && observable.weight > 0) judged.push_back(&observable);
+  std::vector<CardReading*> judged;
+  for (auto& reading : test.readings)
+    if (reading.measured && reading.weight > 0) judged.push_back(&reading);
   const double share = kHoldOutAlarm / static_cast<double>(judged.size());
   test.within_noise = !judged.empty();
-  for (auto* observable : judged) {
-    const Sample measured{observable->repeats, *observable->measured, observable->standard_deviation};
-    const Sample simulated{observable->packings, observable->simulated, observable->simulated_standard_deviation};
-    observable->band = unequal_band_of(measured, simulated, share);
-    const bool within = std::abs(observable->simulated - *observable->measured) <= *observable->band;
+  for (auto* reading : judged) {
+    const Sample measured{reading->repeats, *reading->measured, reading->standard_deviation};
+    const Sample simulated{reading->packings, reading->simulated, reading->simulated_standard_deviation};
+    reading->band = unequal_band_of(measured, simulated, share);
+    const bool within = std::abs(reading->simulated - *reading->measured) <= *reading->band;
     test.within_noise = *test.within_noise && within;
   }
 }
@@ -93,9 +93,9 @@ CardTest card_test_of(const Study& study, std::size_t index, const std::vector<d
   if (test.lab.repeats.sheared > 0) add_note(sheared_in_words(test.lab.repeats));
   out.test = test_with(test.lab.test, values, first_packing);
   if (baseline.runs.empty()) return out;
-  std::vector<Observables> runs;
-  for (const Baseline::Run& run : baseline.runs) runs.push_back(run.observables);
-  out.observables = observables_of(study, index, runs);
+  std::vector<Readings> runs;
+  for (const Baseline::Run& run : baseline.runs) runs.push_back(run.readings);
+  out.readings = card_readings(study, index, runs);
   out.baseline = baseline;
   if (out.hold_out) judge(out);
   return out;
@@ -106,7 +106,7 @@ Material material_of(const Study& study, const std::vector<double>& values, cons
   const Specimen& specimen = specimen_of(first.test);
   Material material{specimen.bulk_density_kg_m3, {}, specimen.grains, specimen.contact, study.parameters};
   for (std::size_t i = 0; i < values.size(); ++i) material.parameters[i].value = values[i];
-  material.grain_density_kg_m3 = grain_density_of(first.test, means_of(first.observables));
+  material.grain_density_kg_m3 = grain_density_of(first.test, means_of(first.readings));
   return material;
 }
 
@@ -141,7 +141,7 @@ Card card_of(const Study& study, const Calibration& calibration, const SearchOpt
 
   const double share = rejected_share_of(study);
   const Verdict verdict = verdict_on(evidence_of(shown), share);
-  card.confirmation = {shown.packings, fresh, shown.normalised_error, fresh && verdict == Verdict::meets,
+  card.confirmation = {shown.packings, fresh, shown.error, fresh && verdict == Verdict::meets,
                        fresh && verdict == Verdict::refuted};
   if (fresh) card.confirmation.rejected_share = share;
   card.search = {options.strategy,

@@ -9,9 +9,9 @@
 
 namespace pastefit {
 
-std::optional<double> standard_error(const CardObservable& observable) {
-  if (observable.packings < 2) return std::nullopt;
-  return observable.simulated_standard_deviation / std::sqrt(static_cast<double>(observable.packings));
+std::optional<double> standard_error(const CardReading& reading) {
+  if (reading.packings < 2) return std::nullopt;
+  return reading.simulated_standard_deviation / std::sqrt(static_cast<double>(reading.packings));
 }
 
 std::vector<double> values_of(const Material& material) {
@@ -25,22 +25,22 @@ bool has_parameter(const Card& card, std::string_view name) {
          std::ranges::any_of(card.tests, [&](const CardTest& test) { return acts_in(test.test, name); });
 }
 
-std::string reading_name(const CardTest& test, std::string_view observable) {
-  return (test.name.empty() ? "" : test.name + "/") + std::string(observable);
+std::string reading_name(const CardTest& test, std::string_view reading) {
+  return (test.name.empty() ? "" : test.name + "/") + std::string(reading);
 }
 
 std::string heading_of(const CardTest& test) {
   return test.name.empty() ? "" : "Test " + test.name + ": ";
 }
 
-MisfitUnit misfit_unit_of(const Card& card) {
+ErrorUnit error_unit_of(const Card& card) {
   std::vector<std::pair<std::string_view, double>> fitted;
   for (const auto& test : card.tests) {
     if (test.hold_out) continue;
-    for (const auto& one : test.observables)
+    for (const auto& one : test.readings)
       if (one.measured && one.weight > 0) fitted.emplace_back(one.name, one.tolerance);
   }
-  return misfit_unit_of(fitted);
+  return error_unit_of(fitted);
 }
 
 std::string interpolation_in_words(const Interpolation& interpolation) {

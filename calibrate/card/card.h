@@ -12,12 +12,12 @@
 #include "calibrate/study/study.h"
 #include "calibrate/study/tolerance.h"
 #include "calibrate/study/unstated_conditions.h"
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 
 namespace pastefit {
 
 /// One reading of the calibrated material, against the laboratory if it was measured there.
-struct CardObservable {
+struct CardReading {
   std::string name;                         ///< e.g. "step1.height_mm"; the unit of all that follows
   double simulated = 0;                     ///< mean over those packings that a laboratory would accept (`accepted`)
   double simulated_standard_deviation = 0;  ///< from packing to packing
@@ -32,13 +32,13 @@ struct CardObservable {
 
 /// Of the simulated mean: simulated_standard_deviation/sqrt(packings). Nothing for one packing, which says nothing of
 /// it.
-std::optional<double> standard_error(const CardObservable& observable);
+std::optional<double> standard_error(const CardReading& reading);
 
 /// What one engine read off a test of the card, packing by packing: what a regression check compares with.
 struct Baseline {
   struct Run {
     std::uint64_t packing = 0;
-    Observables observables;  ///< the same readings in every run
+    Readings readings;  ///< the same readings in every run
   };
   std::string program;  ///< `program_identity` of the engine
   std::string machine;  ///< `machine_type` it ran on
@@ -65,9 +65,9 @@ struct CardTest {
   Provenance lab;
   std::optional<Measurement> yield_stress = std::nullopt;  ///< that the laboratory measured [Pa]; compared, not fitted
   Test test;  ///< apparatus, grains and contact laws, in SI; the grains may be of other sizes than the material's
-  std::vector<CardObservable> observables;  ///< none: it was not simulated
-  std::optional<bool> within_noise;         ///< of a hold-out: every reading that counts lies within its band
-  Baseline baseline;                        ///< no runs: older than baselines; `observables` stand in
+  std::vector<CardReading> readings;  ///< none: it was not simulated
+  std::optional<bool> within_noise;   ///< of a hold-out: every reading that counts lies within its band
+  Baseline baseline;                  ///< no runs: older than baselines; `readings` stand in
 };
 
 struct Card;
@@ -75,7 +75,7 @@ struct Card;
 bool has_parameter(const Card& card, std::string_view name);
 
 /// "slow/step1.height_mm", as in a study of several tests; the reading's own name if the test has none.
-std::string reading_name(const CardTest& test, std::string_view observable);
+std::string reading_name(const CardTest& test, std::string_view reading);
 
 /// "Test slow: ", for people; nothing if the test has no name.
 std::string heading_of(const CardTest& test);
@@ -84,7 +84,7 @@ std::string heading_of(const CardTest& test);
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds of the packings that the simulated readings are means over
   bool fresh = false;                   ///< the search had not seen them; false: it was stopped before
-  double misfit = 0;                    ///< largest difference of a fitted reading over its tolerance; 1 is asked for
+  double error = 0;                     ///< largest difference of a fitted reading over its tolerance; 1 is asked for
   bool meets_laboratory = false;        ///< on fresh packings, and their noise leaves no doubt (`verdict_on`)
   bool refuted = false;  ///< likewise it does not: its readings, or the heaps that a laboratory would reject
   /// Of heaps that a laboratory would reject, at most (1: not judged); nothing if the card was not judged on fresh
@@ -140,7 +140,7 @@ struct CardInference {
 /// A change of the baseline that was meant.
 struct Rebaseline {
   struct Moved {
-    std::string observable;
+    std::string reading;
     double before = 0, after = 0;  ///< mean over the packings
   };
   std::string why;
@@ -151,7 +151,7 @@ struct Rebaseline {
 /// A card that was carried to another grain size, and what that did to its readings.
 struct Rescaling {
   struct Bias {
-    std::string observable;
+    std::string reading;
     double before = 0, after = 0;  ///< mean over the packings of either size
     double standard_error = 0;     ///< of the difference
   };
@@ -163,7 +163,7 @@ struct Rescaling {
 /// confirmation.
 struct FurtherConfirmation {
   struct Reading {
-    std::string observable;
+    std::string name;
     double card = 0;                          ///< mean of the card's own confirmation
     double simulated = 0;                     ///< mean there, over the heaps that a laboratory would accept
     double simulated_standard_deviation = 0;  ///< there, from packing to packing
@@ -178,7 +178,7 @@ struct FurtherConfirmation {
   int accepted = 0;  ///< packings whose heap a laboratory would accept; all, if it would accept none
   int ranks = 1;
   double wall_s = 0, core_s = 0;  ///< of the time steps of all packings; processor time of all ranks together
-  std::optional<double> misfit;   ///< as the card's own; nothing if no reading of the test is fitted
+  std::optional<double> error;    ///< as the card's own; nothing if no reading of the test is fitted
   bool meets_laboratory = false;  ///< the noise of the packings leaves no doubt (`verdict_on`)
   std::vector<Reading> readings;  ///< that both have
 };
@@ -213,8 +213,8 @@ struct Card {
 /// The card's title, which begins with what an interpolated one is.
 std::string title_of(const Card& card);
 
-/// In which people are told the card's misfit.
-MisfitUnit misfit_unit_of(const Card& card);
+/// In which people are told the card's error.
+ErrorUnit error_unit_of(const Card& card);
 
 /// Which ends of an interval of a parameter are the bounds of the study: the readings do not set them.
 struct BoundEnds {

@@ -133,7 +133,7 @@ void describe_card_test(Fields& fields, Of& test, const Whole& material, std::si
       {"measured_yield_stress_pa",
        "what the laboratory measured with a vane or another rheometer; compared, not fitted; absent if it did not"},
       test.yield_stress, [](auto& measured, auto& one) {
-        if constexpr (Fields::reads) one.observable = "yield_stress_pa";
+        if constexpr (Fields::reads) one.reading = "yield_stress_pa";
         measured.number({"value", "mean of the repeats"}, one.value, positive, required);
         measured.number({"standard_deviation", "of one measurement"}, one.standard_deviation, positive, required);
         measured.integer({"repeats", "measurements that the value is a mean of"}, one.repeats, 1, many, required);
@@ -157,7 +157,7 @@ void describe_card_test(Fields& fields, Of& test, const Whole& material, std::si
   fields.entries({"readings",
                   "what was read, simulated and measured, by name, which carries the unit; simulated: mean over the "
                   "confirmation packings that a laboratory would accept"},
-                 test.observables, &CardObservable::name, required, [&](auto& readings, const Key& name, auto& one) {
+                 test.readings, &CardReading::name, required, [&](auto& readings, const Key& name, auto& one) {
                    readings.object(name, required, [&](auto& reading) {
                      describe_reading(reading, one, simulated_range(name, of_ranges), packings);
                    });
@@ -206,7 +206,7 @@ void describe_confirmation(Fields& fields, Of& confirmation) {
   fields.number({"error",
                  "largest difference of a fitted reading from the laboratory, over its tolerance; at most 1 "
                  "is allowed"},
-                confirmation.misfit, not_negative, required);
+                confirmation.error, not_negative, required);
   fields.flag({"meets_laboratory", "every fitted reading is within its tolerance, surely enough"},
               confirmation.meets_laboratory, required);
   fields.flag({"refuted", "true: a reading is not, or too many heaps shear off, surely enough"}, confirmation.refuted,
@@ -305,7 +305,7 @@ void describe_rebaseline(Fields& fields, Of& change) {
   fields.text({"why", "in words"}, change.why, required);
   fields.text({"program_before", "version and fingerprint"}, change.program_before, required);
   fields.text({"program_after", "version and fingerprint"}, change.program_after, required);
-  named_objects(fields, {"moved", "means of readings that changed"}, change.moved, &Rebaseline::Moved::observable,
+  named_objects(fields, {"moved", "means of readings that changed"}, change.moved, &Rebaseline::Moved::reading,
                 required, [](auto& moved, auto& one) {
                   moved.number({"before", "mean"}, one.before, any, required);
                   moved.number({"after", "mean"}, one.after, any, required);
@@ -315,8 +315,8 @@ void describe_rebaseline(Fields& fields, Of& change) {
 template <class Fields, class Of>
 void describe_rescaling(Fields& fields, Of& step) {
   fields.number({"from_radius_m", "mean radius before"}, step.from_radius_m, grain_radius, required);
-  named_objects(fields, {"bias", "what the step did to the readings"}, step.bias, &Rescaling::Bias::observable,
-                required, [](auto& bias, auto& one) {
+  named_objects(fields, {"bias", "what the step did to the readings"}, step.bias, &Rescaling::Bias::reading, required,
+                [](auto& bias, auto& one) {
                   bias.number({"before", "mean"}, one.before, any, required);
                   bias.number({"after", "mean"}, one.after, any, required);
                   bias.number({"standard_error", "of their difference"}, one.standard_error, not_negative, required);
@@ -336,12 +336,12 @@ void describe_further_confirmation(Fields& fields, Of& one) {
   fields.number({"wall_s", "wall time of the time steps of all packings"}, one.wall_s, not_negative, required);
   fields.number({"core_s", "processor time of the time steps of all packings, all ranks together"}, one.core_s,
                 not_negative, required);
-  fields.optional_number({"error", "largest difference of a fitted reading over its tolerance"}, one.misfit,
+  fields.optional_number({"error", "largest difference of a fitted reading over its tolerance"}, one.error,
                          not_negative);
   fields.flag({"meets_laboratory", "there, and the noise of the packings leaves no doubt"}, one.meets_laboratory,
               required);
-  named_objects(fields, {"readings", "those that the card has, too"}, one.readings,
-                &FurtherConfirmation::Reading::observable, required, [](auto& reading, auto& own) {
+  named_objects(fields, {"readings", "those that the card has, too"}, one.readings, &FurtherConfirmation::Reading::name,
+                required, [](auto& reading, auto& own) {
                   reading.number({"card", "mean of the card's own confirmation"}, own.card, any, required);
                   reading.number({"simulated", "mean there"}, own.simulated, any, required);
                   reading.number({"simulated_standard_deviation", "there, from packing to packing"},

@@ -20,7 +20,7 @@ BaselineColumns baseline_columns(const Baseline& baseline) {
   BaselineColumns columns;
   for (const Baseline::Run& run : baseline.runs) {
     columns.packings.push_back(run.packing);
-    for (const auto& [name, value] : run.observables.all()) {
+    for (const auto& [name, value] : run.readings.all()) {
       auto column = std::ranges::find(columns.readings, name, &BaselineColumns::Column::name);
       if (column == columns.readings.end()) column = columns.readings.insert(column, {name, {}});
       column->values.push_back(value);
@@ -34,7 +34,7 @@ std::vector<Baseline::Run> baseline_runs(const BaselineColumns& columns) {
   for (const std::uint64_t packing : columns.packings) runs.push_back({packing, {}});
   for (const auto& [name, values] : columns.readings)
     if (values.size() == runs.size())  // else a fault was told
-      for (std::size_t i = 0; i < runs.size(); ++i) runs[i].observables.set(name, values[i]);
+      for (std::size_t i = 0; i < runs.size(); ++i) runs[i].readings.set(name, values[i]);
   return runs;
 }
 
@@ -271,7 +271,7 @@ Result<Card> card_from_json(const json& document) {
   }
   for (CardTest& test : read.tests) {
     test.lab.source = stated_source(test.lab.source);
-    for (CardObservable& reading : test.observables)
+    for (CardReading& reading : test.readings)
       if (reading.packings == 0) reading.packings = static_cast<int>(read.confirmation.packings.size());
   }
   if (faults.empty()) faults = card_fields::differing_forms(read);

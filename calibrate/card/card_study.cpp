@@ -23,7 +23,7 @@ Study study_of(const Card& card) {
     test.lab.provenance = of_card.lab;
     test.lab.test = of_card.test;
     test.lab.hash = of_card.lab_hash;
-    for (const CardObservable& one : of_card.observables) {
+    for (const CardReading& one : of_card.readings) {
       if (!one.measured) continue;
       test.lab.measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
       test.targets.push_back({one.name, one.weight, one.tolerance});

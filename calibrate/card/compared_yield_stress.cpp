@@ -8,8 +8,8 @@
 namespace pastefit {
 
 std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test) {
-  Observables measured, simulated;
-  for (const CardObservable& one : test.observables) {
+  Readings measured, simulated;
+  for (const CardReading& one : test.readings) {
     simulated.set(one.name, one.simulated);
     if (one.measured) measured.set(one.name, *one.measured);
   }
@@ -44,7 +44,7 @@ nlohmann::ordered_json with_yield_stresses(const Card& card) {
   return out;
 }
 
-nlohmann::ordered_json yield_stresses_json(const Test& test, const Observables& readings) {
+nlohmann::ordered_json yield_stresses_json(const Test& test, const Readings& readings) {
   nlohmann::ordered_json out;
   for (const YieldStress& one : yield_stresses_of(test, readings))
     out[one.reading] = {{"formula", one.formula}, {"simulated", one.pa}};

@@ -31,6 +31,6 @@ nlohmann::ordered_json yield_stresses_json(const CardTest& test);
 nlohmann::ordered_json with_yield_stresses(const Card& card);
 
 /// Of the readings of one run: {"formula", "simulated"}.
-nlohmann::ordered_json yield_stresses_json(const Test& test, const Observables& readings);
+nlohmann::ordered_json yield_stresses_json(const Test& test, const Readings& readings);
 
 }  // namespace pastefit

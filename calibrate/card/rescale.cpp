@@ -25,7 +25,7 @@ Result<Card> rescaled(Card card, double radius) {
   for (CardTest& test : card.tests) {
     Specimen& specimen = specimen_of(test.test);
     if (!has_that_size(test)) carry(specimen.grains, specimen.contact);
-    test.observables.clear();
+    test.readings.clear();
     test.within_noise.reset();
     test.baseline = {};
     for (Fault fault : validate(test.test)) {
@@ -36,7 +36,7 @@ Result<Card> rescaled(Card card, double radius) {
   if (!all.empty()) return all;
   card.confirmation.packings.clear();
   card.confirmation.fresh = card.confirmation.meets_laboratory = card.confirmation.refuted = false;
-  card.confirmation.misfit = 0;
+  card.confirmation.error = 0;
   card.search.reason = "The material was carried over from grains of another size and not confirmed there.";
   card.rebaselined.clear();
   card.further_confirmations.clear();

@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-bool is_fitted(const CardObservable& one) {
+bool is_fitted(const CardReading& one) {
   return one.measured && one.weight > 0 && one.tolerance > 0;
 }
 
@@ -27,7 +27,7 @@ Farthest farthest_of(const Card& card) {
   Farthest farthest;
   for (const CardTest& test : card.tests) {
     if (test.hold_out) continue;
-    for (const CardObservable& one : test.observables) {
+    for (const CardReading& one : test.readings) {
       if (!is_fitted(one)) continue;
       const Farthest this_one{reading_name(test, one.name), std::abs(one.simulated - *one.measured), one.tolerance};
       if (farthest.name.empty() || this_one.share() > farthest.share()) farthest = this_one;
@@ -52,7 +52,7 @@ Rejected rejected_of(const Card& card) {
   for (const CardTest& test : card.tests) {
     if (test.hold_out) continue;
     const auto rejected = std::ranges::count_if(
-        test.baseline.runs, [&](const Baseline::Run& run) { return is_rejected(test.test, run.observables); });
+        test.baseline.runs, [&](const Baseline::Run& run) { return is_rejected(test.test, run.readings); });
     const Rejected here{&test, static_cast<std::size_t>(rejected), test.baseline.runs.size()};
     if (!most.test || here.runs > most.runs) most = here;
   }
@@ -81,13 +81,13 @@ Evidence evidence_of(std::span<const CardTest> tests) {
   std::vector<double> indices;
   for (const CardTest& test : tests) {
     if (test.hold_out) continue;
-    for (const CardObservable& one : test.observables)
+    for (const CardReading& one : test.readings)
       if (is_fitted(one))
         out.add_reading(one.simulated - *one.measured, standard_error(one).value_or(0), one.tolerance);
     indices.resize(std::max(indices.size(), test.baseline.runs.size()), std::nan(""));
     for (std::size_t i = 0; i < test.baseline.runs.size(); ++i)
       indices[i] =
-          std::fmax(indices[i], rejection_index(test.test, test.baseline.runs[i].observables).value_or(std::nan("")));
+          std::fmax(indices[i], rejection_index(test.test, test.baseline.runs[i].readings).value_or(std::nan("")));
   }
   for (const double index : indices) out.add_heap(index);
   return out;
@@ -151,7 +151,7 @@ std::string what_to_try(const Card& card) {
 bool only_heaps_refute(const Card& card) {
   const Farthest farthest = farthest_of(card);
   const bool fresh = card.confirmation.fresh && !card.interpolated;
-  return fresh && card.confirmation.refuted && card.confirmation.misfit <= 1 && farthest.share() <= 1;
+  return fresh && card.confirmation.refuted && card.confirmation.error <= 1 && farthest.share() <= 1;
 }
 
 std::string cause_unconfirmed(const Card& card) {

@@ -35,13 +35,12 @@ struct Promise {
 std::vector<Promise> promises_of(const CardTest& test) {
   std::vector<Promise> out;
   if (test.baseline.runs.empty()) {
-    for (const auto& observable : test.observables)
-      if (is_checked(test.test, observable.name))
-        out.push_back(
-            {observable.name, {observable.packings, observable.simulated, observable.simulated_standard_deviation}});
+    for (const auto& reading : test.readings)
+      if (is_checked(test.test, reading.name))
+        out.push_back({reading.name, {reading.packings, reading.simulated, reading.simulated_standard_deviation}});
     return out;
   }
-  for (const auto& [name, value] : test.baseline.runs[0].observables.all())
+  for (const auto& [name, value] : test.baseline.runs[0].readings.all())
     if (is_checked(test.test, name)) out.push_back({name, sample_of(column_of(test.baseline.runs, name))});
   return out;
 }
@@ -79,7 +78,7 @@ std::optional<std::string> keep_runs(const std::vector<std::uint64_t>& packings,
     if (const auto& failure = outcomes[i].failure)
       return "Packing " + std::to_string(packings[i]) + " failed (" + std::string(name_of(failure->reason)) + " in " +
              failure->phase + "): " + failure->message;
-    baseline.runs.push_back({packings[i], outcomes[i].observables});
+    baseline.runs.push_back({packings[i], outcomes[i].readings});
   }
   return std::nullopt;
 }
@@ -87,8 +86,8 @@ std::optional<std::string> keep_runs(const std::vector<std::uint64_t>& packings,
 SameBits compare_bits(const Baseline& before, const Baseline& now) {
   if (before.runs.empty()) return SameBits::not_comparable;
   for (std::size_t i = 0; i < now.runs.size(); ++i)
-    for (const auto& [name, value] : before.runs[i].observables.all()) {
-      const auto again = now.runs[i].observables.find(name);
+    for (const auto& [name, value] : before.runs[i].readings.all()) {
+      const auto again = now.runs[i].readings.find(name);
       if (!again || std::bit_cast<std::uint64_t>(*again) != std::bit_cast<std::uint64_t>(value)) return SameBits::other;
     }
   return SameBits::same;
@@ -259,10 +258,10 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   const auto runs = accepted(test, now.runs);
   const double share = options.false_alarm / static_cast<double>(lab.measurements.size());
   for (const auto& measurement : lab.measurements) {
-    const auto read = sample_of(column_of(runs, measurement.observable));
+    const auto read = sample_of(column_of(runs, measurement.reading));
     if (read.count == 0) continue;
     const Sample measured{measurement.repeats, measurement.value, measurement.standard_deviation};
-    out.readings.push_back({measurement.observable, measured.mean, read.mean, unequal_band_of(measured, read, share),
+    out.readings.push_back({measurement.reading, measured.mean, read.mean, unequal_band_of(measured, read, share),
                             measured.count, read.count});
   }
   judge(out, options);

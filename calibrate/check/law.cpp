@@ -42,7 +42,7 @@ std::vector<CheckedReading> check_law(const Material& material, const CheckEngin
   std::vector<CheckedReading> readings;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const auto name = "pull" + std::to_string(i) + "_n";
-    const auto got = outcome.observables.find(name);
+    const auto got = outcome.readings.find(name);
     readings.push_back({format("law.attraction_n at %.2f of the reach", shares[i]),
                         attraction_n(material.contact, pair, -pull.pull_gaps_m[i]),
                         got && !outcome.failure ? *got : std::numeric_limits<double>::infinity(), 1e-6 * at_touch, 1,

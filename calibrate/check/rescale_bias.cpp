@@ -19,7 +19,7 @@ Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vect
     if (const auto& failure = outcomes[i].failure)
       return Fault{heading_of(test) + "packing " + std::to_string(packings[i]),
                    "failed: " + std::string(name_of(failure->reason)), failure->message};
-    runs.push_back({packings[i], outcomes[i].observables});
+    runs.push_back({packings[i], outcomes[i].readings});
   }
   return runs;
 }
@@ -41,19 +41,19 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
 
     const auto old_accepted = accepted(old_test.test, old_runs.value());
     const auto now_accepted = accepted(test.test, runs.value());
-    test.observables.clear();
-    for (const auto& [name, value] : runs.value()[0].observables.all()) {
+    test.readings.clear();
+    for (const auto& [name, value] : runs.value()[0].readings.all()) {
       const auto old_sample = sample_of(column_of(old_accepted, name));
       const auto sample = sample_of(column_of(now_accepted, name));
-      CardObservable observable;
-      for (const auto& known : old_test.observables)
-        if (known.name == name) observable = known;
-      observable.name = name;
-      observable.simulated = sample.mean;
-      observable.simulated_standard_deviation = sample.standard_deviation;
-      observable.packings = sample.count;
-      observable.band.reset();
-      test.observables.push_back(observable);
+      CardReading reading;
+      for (const auto& known : old_test.readings)
+        if (known.name == name) reading = known;
+      reading.name = name;
+      reading.simulated = sample.mean;
+      reading.simulated_standard_deviation = sample.standard_deviation;
+      reading.packings = sample.count;
+      reading.band.reset();
+      test.readings.push_back(reading);
       after.rescaled.back().bias.push_back({reading_name(test, name), old_sample.mean, sample.mean,
                                             std::hypot(old_sample.standard_deviation / std::sqrt(old_sample.count),
                                                        sample.standard_deviation / std::sqrt(sample.count))});
@@ -78,25 +78,25 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
   out.wall_s = done.wall_s;
   out.core_s = done.core_s;
   CardTest there = test;
-  there.observables.clear();
+  there.readings.clear();
   there.test = simulated;
   there.baseline.runs = done.runs;
-  for (const CardObservable& of_card : test.observables) {
+  for (const CardReading& of_card : test.readings) {
     const auto sample = sample_of(column_of(heaps, of_card.name));
     if (sample.count == 0) continue;
-    CardObservable observable = of_card;
-    observable.simulated = sample.mean;
-    observable.simulated_standard_deviation = sample.standard_deviation;
-    observable.packings = sample.count;
-    const auto error = standard_error(observable), error_of_card = standard_error(of_card);
-    FurtherConfirmation::Reading reading{of_card.name, of_card.simulated, sample.mean, sample.standard_deviation, {}};
-    if (error && error_of_card) reading.standard_error = std::hypot(*error, *error_of_card);
-    out.readings.push_back(std::move(reading));
-    there.observables.push_back(std::move(observable));
+    CardReading reading = of_card;
+    reading.simulated = sample.mean;
+    reading.simulated_standard_deviation = sample.standard_deviation;
+    reading.packings = sample.count;
+    const auto error = standard_error(reading), error_of_card = standard_error(of_card);
+    FurtherConfirmation::Reading beside{of_card.name, of_card.simulated, sample.mean, sample.standard_deviation, {}};
+    if (error && error_of_card) beside.standard_error = std::hypot(*error, *error_of_card);
+    out.readings.push_back(std::move(beside));
+    there.readings.push_back(std::move(reading));
   }
   if (evidence_of({&there, 1}).readings == 0) return out;
   const Confirmation confirmation = confirmation_by(card, {&there, 1}, out.packings);
-  out.misfit = confirmation.misfit;
+  out.error = confirmation.error;
   out.meets_laboratory = confirmation.meets_laboratory;
   return out;
 }

@@ -25,8 +25,8 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
 }
 
 std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs) {
-  std::vector<Observables> all;
-  for (const Baseline::Run& run : runs) all.push_back(run.observables);
+  std::vector<Readings> all;
+  for (const Baseline::Run& run : runs) all.push_back(run.readings);
   std::vector<Baseline::Run> out;
   for (const std::size_t run : accepted(test, all)) out.push_back(runs[run]);
   return out;
@@ -35,7 +35,7 @@ std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline
 std::vector<double> column_of(const std::vector<Baseline::Run>& runs, const std::string& name) {
   std::vector<double> column;
   for (const auto& run : runs)
-    if (const auto value = run.observables.find(name)) column.push_back(*value);
+    if (const auto value = run.readings.find(name)) column.push_back(*value);
   return column;
 }
 

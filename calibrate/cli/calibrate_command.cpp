@@ -103,7 +103,7 @@ int run_calibrate(const CalibrateArguments& options) {
   if (const auto faults = strangers_in(study, store.value(), file); !faults.empty()) return report(faults);
 
   print_remarks(study, store.value(), file, options.threads);
-  ProgressLine line(work_ahead(study), misfit_unit_of(study));
+  ProgressLine line(work_ahead(study), error_unit_of(study));
   LivePage page(options.out);
   RunRecordings looks;
   const auto show = [&](const Progress& progress) {

@@ -61,7 +61,7 @@ int rebaseline_all(const CheckCommand& options) {
     const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
     print("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
     for (const auto& moved : cards[i].rebaselined.back().moved)
-      print("  %-26s %12.6g -> %.6g\n", moved.observable.c_str(), moved.before, moved.after);
+      print("  %-26s %12.6g -> %.6g\n", moved.reading.c_str(), moved.before, moved.after);
   }
   return kDone;
 }

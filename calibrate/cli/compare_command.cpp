@@ -42,7 +42,7 @@ const std::string kFigure = "comparison.svg";
 const std::vector<std::string> kComparison = with_store({kTrials, kCourse, kFigure});
 constexpr std::uint64_t kFirstJudge = 1'000'000'001;  // packings far from those of any search
 
-std::string trials_csv(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
+std::string trials_csv(const std::vector<StrategyTrial>& trials, const ErrorUnit& unit) {
   std::string out = std::string("strategy,seed,status,simulations,failures,judged_misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
     out += format("%s,%llu,%s,%d,%d,", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed),
@@ -51,17 +51,17 @@ std::string trials_csv(const std::vector<StrategyTrial>& trials, const MisfitUni
   return out;
 }
 
-std::string course_of(const std::vector<StrategyTrial>& trials, const MisfitUnit& unit) {
+std::string course_of(const std::vector<StrategyTrial>& trials, const ErrorUnit& unit) {
   std::string out = std::string("strategy,seed,simulations,misfit_") + unit.name() + "\n";
   for (const auto& trial : trials)
-    for (std::size_t i = 0; i < trial.normalised_error.size(); ++i)
-      if (trial.normalised_error[i] >= 0 && (i == 0 || trial.normalised_error[i] != trial.normalised_error[i - 1]))
+    for (std::size_t i = 0; i < trial.errors.size(); ++i)
+      if (trial.errors[i] >= 0 && (i == 0 || trial.errors[i] != trial.errors[i - 1]))
         out += format("%s,%llu,%zu,%.4g\n", trial.strategy.c_str(), static_cast<unsigned long long>(trial.seed), i + 1,
-                      unit.of(trial.normalised_error[i]));
+                      unit.of(trial.errors[i]));
   return out;
 }
 
-void print_comparison(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+void print_comparison(const std::vector<StrategySummary>& rows, const ErrorUnit& unit) {
   print("%-22s %10s %12s %18s %12s\n", "strategy", "confirmed", "simulations",
         unit.tolerance_mm ? "judged misfit mm" : "judged misfit", unit.tolerance_mm ? "worst mm" : "worst");
   for (const auto& row : rows) {
@@ -78,7 +78,7 @@ void print_comparison(const std::vector<StrategySummary>& rows, const MisfitUnit
 }
 
 /// The same, in the words of the table.
-nlohmann::ordered_json comparison_json(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+nlohmann::ordered_json comparison_json(const std::vector<StrategySummary>& rows, const ErrorUnit& unit) {
   auto out = nlohmann::ordered_json::array();
   const auto judged = [&](double miss) { return miss >= 0 ? nlohmann::ordered_json(unit.of(miss)) : nullptr; };
   const std::string name = std::string("judged_misfit_") + unit.name();
@@ -142,7 +142,7 @@ Result<OutputFolder> comparison_folder(const CompareOptions& options) {
 /// Runs the trials, and says of each how it ended.
 std::vector<StrategyTrial> run_trials(const CompareOptions& options, const ComparisonOptions& comparison,
                                       const Study& study, Store& store) {
-  const MisfitUnit unit = misfit_unit_of(study);
+  const ErrorUnit unit = error_unit_of(study);
   const auto& stop = listen_for_stop();
   const auto objective = [&](int budget) -> std::unique_ptr<Objective> {
     EvaluatorOptions evaluator;
@@ -161,7 +161,7 @@ std::vector<StrategyTrial> run_trials(const CompareOptions& options, const Compa
 /// The table, its course and its figure.
 Faults write_comparison(const OutputFolder& folder, const std::vector<StrategyTrial>& trials,
                         const std::vector<StrategySummary>& rows, const Study& study) {
-  const MisfitUnit unit = misfit_unit_of(study);
+  const ErrorUnit unit = error_unit_of(study);
   const std::vector<std::pair<std::string, std::string>> files{{kTrials, trials_csv(trials, unit)},
                                                                {kCourse, course_of(trials, unit)},
                                                                {kFigure, misfit_figure(rows, unit, study.title)}};
@@ -193,7 +193,7 @@ int compare(const CompareOptions& options) {
   const bool all = trials.size() == asked;
   if (!all) std::fprintf(stderr, "pastefit: stopped before all strategies were through; go on with --resume\n");
   const auto rows = summary_of(trials);
-  const MisfitUnit unit = misfit_unit_of(study);
+  const ErrorUnit unit = error_unit_of(study);
   if (options.json)
     print("%s", json_text(comparison_json(rows, unit)).c_str());
   else

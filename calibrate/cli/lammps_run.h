@@ -7,7 +7,7 @@
 
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_log.h"
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 
 namespace pastefit {
 
@@ -19,7 +19,7 @@ struct LammpsLaunch {
 
 /// A heap that LAMMPS left, as pastefit reads it.
 struct LammpsHeap {
-  Observables readings;
+  Readings readings;
   LammpsLog log;
 };
 

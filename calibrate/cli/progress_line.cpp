@@ -9,7 +9,7 @@
 
 namespace pastefit {
 
-ProgressLine::ProgressLine(const WorkAhead& work, const MisfitUnit& unit)
+ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
     : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(5)}),
       work_(work),
       unit_(unit) {}
@@ -19,7 +19,7 @@ void ProgressLine::show(const Progress& progress) {
   const bool new_phase = progress.phase != phase_;
   if (new_phase) done_before_ = done();
   phase_ = progress.phase;
-  best_miss_ = progress.best_miss;
+  best_error_ = progress.best_error;
   rewrite(new_phase);
   if (!progress.note.empty()) note("%s%s\n", line_.is_terminal() ? "\n" : "", progress.note.c_str());
 }
@@ -50,7 +50,7 @@ std::string ProgressLine::text() const {
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
       fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, line_.is_terminal() ? "" : " simulations"),
-              best_miss_ < 0 ? "no misfit yet" : "misfit " + unit_.words(best_miss_, "%.2f"), time_left(),
+              best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"), time_left(),
               failed > 0 ? format("%d failed", failed) : "",
               counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
   if (line_.is_terminal()) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));

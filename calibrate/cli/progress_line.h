@@ -24,7 +24,7 @@ struct WorkAhead {
 /// budget allows, both at the rate of simulations so far.
 class ProgressLine {
  public:
-  ProgressLine(const WorkAhead& work, const MisfitUnit& unit);
+  ProgressLine(const WorkAhead& work, const ErrorUnit& unit);
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
   void end();                                 ///< ends the rewritten line
@@ -38,11 +38,11 @@ class ProgressLine {
 
   StatusLine line_;
   const WorkAhead work_;
-  const MisfitUnit unit_;
+  const ErrorUnit unit_;
   std::mutex mutex_;
   std::string phase_ = "start";
   int done_before_ = 0;  // the phase
-  double best_miss_ = -1;
+  double best_error_ = -1;
   EvaluationCounts counts_;
   std::string last_;
 };

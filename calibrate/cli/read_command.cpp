@@ -33,18 +33,18 @@ struct ReadOptions {
 struct HeapReading {
   std::string name;
   double read = 0;
-  const CardObservable* of_card = nullptr;  ///< null: the card does not have it
-  std::optional<double> band;               ///< of |read - simulated| by the noise of packings; none: it is unknown
+  const CardReading* of_card = nullptr;  ///< null: the card does not have it
+  std::optional<double> band;            ///< of |read - simulated| by the noise of packings; none: it is unknown
 
   bool agrees() const { return !band || std::abs(read - of_card->simulated) <= *band; }
 };
 
-std::vector<HeapReading> beside_card(const Observables& readings, const CardTest& test) {
+std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& test) {
   std::vector<HeapReading> out;
-  for (const Observable& reading : readings.all()) {
+  for (const Reading& reading : readings.all()) {
     HeapReading one{reading.name, reading.value, nullptr, std::nullopt};
-    const auto of_card = std::ranges::find(test.observables, reading.name, &CardObservable::name);
-    if (of_card != test.observables.end()) {
+    const auto of_card = std::ranges::find(test.readings, reading.name, &CardReading::name);
+    if (of_card != test.readings.end()) {
       one.of_card = &*of_card;
       if (of_card->packings >= kFewestPackings)
         one.band = band_of({of_card->packings, of_card->simulated, of_card->simulated_standard_deviation},

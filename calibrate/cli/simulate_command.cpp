@@ -185,7 +185,7 @@ class Simulation {
       if (const auto faults = write(outcome, text); !faults.empty()) return report(faults, kFailed);
     if (saved_) saved_->remove();
     if (test_)
-      if (const auto remarks = remarks_on(*test_, {&outcome.observables, 1}); !remarks.empty())
+      if (const auto remarks = remarks_on(*test_, {&outcome.readings, 1}); !remarks.empty())
         note("pastefit: %s\n", remarks.c_str());
     if (options_.time_step_s) judge_step(*options_.time_step_s, outcome.run.advised_step_s);
     if (!outcome.failure) return kDone;

@@ -28,9 +28,9 @@ std::string simulation_json(const Outcome& outcome, const Test* test,
                             const std::map<std::string_view, Outline>& outlines, double wall_s) {
   const auto& run = outcome.run;
   nlohmann::ordered_json out;
-  out["observables"] = to_json(outcome.observables);
+  out["observables"] = to_json(outcome.readings);
   if (test && !outcome.failure)
-    if (auto stresses = yield_stresses_json(*test, outcome.observables); !stresses.empty())
+    if (auto stresses = yield_stresses_json(*test, outcome.readings); !stresses.empty())
       out["yield_stress_pa"] = std::move(stresses);
   if (!outlines.empty()) out["outlines_mm"] = outlines_json(outlines);
   out["run"] = {{"particles", run.particles},
@@ -47,7 +47,7 @@ std::string simulation_json(const Outcome& outcome, const Test* test,
 }
 
 void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
-  for (const auto& [name, value] : outcome.observables.all()) print("%-26s %12.6g\n", name.c_str(), value);
+  for (const auto& [name, value] : outcome.readings.all()) print("%-26s %12.6g\n", name.c_str(), value);
   if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
   const auto& run = outcome.run;
   print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million\nparticle-steps a second)%s\n",

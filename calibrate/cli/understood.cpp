@@ -34,7 +34,7 @@ std::string readings_to_be_met(const Study& study) {
   for (const StudyReading& reading : readings_of(study)) {
     if (reading.weight == 0) continue;
     out += format("  %-24s %s", reading.name.c_str(), plain(reading.measurement.value, 5).c_str()) + " within " +
-           plain(reading.tolerance) + unit_at_end(reading.measurement.observable) + "\n";
+           plain(reading.tolerance) + unit_at_end(reading.measurement.reading) + "\n";
   }
   return out;
 }
@@ -70,7 +70,7 @@ std::string unseen_parameters(const Study& study) {
     std::vector<std::string_view> readings;
     const StudyTest& test = study.tests[i];
     for (std::size_t k = 0; k < test.targets.size(); ++k)
-      if (test.targets[k].weight > 0) readings.push_back(test.lab.measurements[k].observable);
+      if (test.targets[k].weight > 0) readings.push_back(test.lab.measurements[k].reading);
     const std::string unseen = unseen_by(test.lab.test, readings, free);
     if (unseen.empty()) return "";
     out = unseen;

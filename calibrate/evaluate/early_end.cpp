@@ -25,11 +25,11 @@ std::optional<Cutoff> cutoff_of(const Study& study, std::size_t test) {
   for (std::size_t k = 0; k < one.lab.measurements.size(); ++k) {
     const Measurement& measurement = one.lab.measurements[k];
     if (one.targets.at(k).weight == 0) continue;
-    later_stage = later_stage || find_kind(kinds, measurement.observable)->stage > ending->stage;
-    if (measurement.observable != ending->name) continue;
+    later_stage = later_stage || find_kind(kinds, measurement.reading)->stage > ending->stage;
+    if (measurement.reading != ending->name) continue;
     const double level = std::max(level_in_tolerances * tolerance_of(study, test, k),
                                   level_in_deviations * measurement.standard_deviation);
-    cutoff = Cutoff{measurement.observable, measurement.value - level, measurement.value + level};
+    cutoff = Cutoff{measurement.reading, measurement.value - level, measurement.value + level};
   }
   if (cutoff && !later_stage) cutoff->highest = Cutoff{}.highest;
   return cutoff;
@@ -41,24 +41,24 @@ std::string key_of_ended(const std::string& whole_key, const Cutoff& cutoff) {
 
 StoredEvaluation seen_through(const Test& test, const Cutoff& cutoff, StoredEvaluation evaluation) {
   if (evaluation.failure) return evaluation;
-  const auto read = evaluation.observables.find(cutoff.reading);
+  const auto read = evaluation.readings.find(cutoff.reading);
   if (!read && !evaluation.run.ended_early) return evaluation;
   const bool below = !read || *read < cutoff.lowest;
   if (!below && !(*read > cutoff.highest)) return evaluation;
   const auto kinds = reading_kinds(test);
   const int last = find_kind(kinds, cutoff.reading)->stage - (below ? 1 : 0);
-  Observables seen;
-  for (const auto& [name, value] : evaluation.observables.all())
+  Readings seen;
+  for (const auto& [name, value] : evaluation.readings.all())
     if (const ReadingKind* kind = find_kind(kinds, name); kind && kind->stage <= last) seen.set(name, value);
   if (below) seen.set(cutoff.reading, cutoff.lowest);
-  evaluation.observables = std::move(seen);
+  evaluation.readings = std::move(seen);
   evaluation.run.ended_early = true;
   return evaluation;
 }
 
-bool is_upper_bound(const Study& study, std::size_t test, std::string_view observable, double value) {
+bool is_upper_bound(const Study& study, std::size_t test, std::string_view reading, double value) {
   const auto cutoff = cutoff_of(study, test);
-  return cutoff && observable == cutoff->reading && value <= cutoff->lowest;
+  return cutoff && reading == cutoff->reading && value <= cutoff->lowest;
 }
 
 std::optional<StoredEvaluation> find(const Store& store, const Test& test, const std::string& whole_key,

@@ -30,7 +30,7 @@ std::string key_of_ended(const std::string& whole_key, const Cutoff& cutoff);
 StoredEvaluation seen_through(const Test& test, const Cutoff& cutoff, StoredEvaluation evaluation);
 
 /// True if this reading of an evaluation seen through its cutoff is the lower end: it read so or less.
-bool is_upper_bound(const Study& study, std::size_t test, std::string_view observable, double value);
+bool is_upper_bound(const Study& study, std::size_t test, std::string_view reading, double value);
 
 /// The evaluation of a name, seen through the cutoff; without one the one that ran to its end.
 std::optional<StoredEvaluation> find(const Store& store, const Test& test, const std::string& whole_key,

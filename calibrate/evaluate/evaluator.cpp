@@ -39,7 +39,7 @@ EvaluationCounts& EvaluationCounts::operator+=(const EvaluationCounts& other) {
   simulated += other.simulated;
   answered += other.answered;
   for (const auto& [reason, count] : other.failures) failures[reason] += count;
-  if (best_miss < 0 || (other.best_miss >= 0 && other.best_miss < best_miss)) best_miss = other.best_miss;
+  if (best_error < 0 || (other.best_error >= 0 && other.best_error < best_error)) best_error = other.best_error;
   return *this;
 }
 
@@ -174,9 +174,8 @@ std::vector<Response> SimulationObjective::responses_of(std::span<const UnitPoin
 
   const std::lock_guard lock(mutex_);
   for (const auto& response : responses)
-    if (!response.failed && !response.censored &&
-        (counts_.best_miss < 0 || response.normalised_error < counts_.best_miss))
-      counts_.best_miss = response.normalised_error;
+    if (!response.failed && !response.censored && (counts_.best_error < 0 || response.error < counts_.best_error))
+      counts_.best_error = response.error;
   if (options_.observer) options_.observer(counts_);
   return responses;
 }
@@ -225,7 +224,7 @@ void SimulationObjective::run(Task& task) {
   if (outcome.failure && outcome.failure->reason == FailureReason::stopped)
     outcome.failure->message = "The simulation took longer than its limit; use coarser or softer grains.";
   evaluation.failure = outcome.failure;
-  if (!evaluation.failure) evaluation.observables = std::move(outcome.observables);
+  if (!evaluation.failure) evaluation.readings = std::move(outcome.readings);
   evaluation.run = outcome.run;
   evaluation.sketch = sketcher.sketch(outcome);
   if (outcome.run.ended_early) evaluation.key = key_of_ended(evaluation.key, task.cutoff.value());

@@ -32,7 +32,7 @@ struct EvaluationCounts {
   int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
   int answered = 0;                       ///< known to the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
-  double best_miss = -1;                  ///< of the candidates that did not fail; negative: none yet
+  double best_error = -1;                 ///< of the candidates that did not fail; negative: none yet
 
   EvaluationCounts& operator+=(const EvaluationCounts& other);  ///< the same of two objectives
 };

@@ -28,7 +28,7 @@ class Scoring {
   /// The residual of a reading that is off by just that; 0: it is not fitted.
   virtual double allowance(std::size_t) const { return 1; }
   /// In which people are told what a candidate misses by.
-  virtual MisfitUnit misfit_unit() const { return {}; }
+  virtual ErrorUnit error_unit() const { return {}; }
   /// What share of a candidate's heaps a laboratory may reject; 1: it is not judged.
   virtual double rejected_share() const { return 1; }
   /// Where a screening looks, by what is known before anything was simulated; a search goes beyond where that promises

@@ -30,11 +30,9 @@ double ReadingScoring::allowance(std::size_t reading) const {
 
 double ReadingScoring::certain_miss(const Response& response, std::size_t reading) const {
   const StudyReading& fitted = readings_[reading];
-  const double difference = response.observables[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
+  const double difference = response.readings[static_cast<Eigen::Index>(reading)] - fitted.measurement.value;
   if (std::isnan(difference)) return 0;
-  const auto bounded = [&](const Evaluation& one) {
-    return one.censored && is_bound(fitted, one.observables[reading]);
-  };
+  const auto bounded = [&](const Evaluation& one) { return one.censored && is_bound(fitted, one.readings[reading]); };
   return std::ranges::any_of(response.evaluations, bounded) ? std::min(difference, 0.0) : difference;
 }
 
@@ -42,7 +40,7 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
   const auto count = static_cast<Eigen::Index>(readings_.size());
   const auto packings = static_cast<double>(evaluations.size());
   Response out;
-  out.observables = Eigen::VectorXd::Zero(count);
+  out.readings = Eigen::VectorXd::Zero(count);
   double failure_factor = 2;
   for (const auto& evaluation : evaluations) {
     out.packings.push_back(evaluation.packing);
@@ -58,7 +56,7 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
   const auto judged = accepted(evaluations);
   for (const Evaluation* one : judged)
     for (Eigen::Index i = 0; i < count && !one->failure; ++i)
-      out.observables[i] += one->observables[static_cast<std::size_t>(i)] / static_cast<double>(judged.size());
+      out.readings[i] += one->readings[static_cast<std::size_t>(i)] / static_cast<double>(judged.size());
   if (!evaluations.empty()) out.point = evaluations.front().point;
   out.evaluations = std::move(evaluations);
 
@@ -70,13 +68,13 @@ Response ReadingScoring::response_of(std::vector<Evaluation> evaluations) const 
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [test, name, measurement, weight, tolerance] = readings_[static_cast<std::size_t>(i)];
     if (out.failed)
-      out.observables[i] = measurement.value + failure_factor * largest_error(readings_[static_cast<std::size_t>(i)]);
-    double difference = out.observables[i] - measurement.value;
+      out.readings[i] = measurement.value + failure_factor * largest_error(readings_[static_cast<std::size_t>(i)]);
+    double difference = out.readings[i] - measurement.value;
     if (out.censored && !out.failed) difference = certain_miss(out, static_cast<std::size_t>(i));
     out.residuals[i] = std::sqrt(weight) * difference / measurement.standard_deviation;
     if (weight == 0) continue;
     const double error = std::sqrt(squared_standard_error(out, static_cast<std::size_t>(i)));
-    out.normalised_error = std::max(out.normalised_error, std::abs(difference) / tolerance);
+    out.error = std::max(out.error, std::abs(difference) / tolerance);
     out.noise = std::max(out.noise, error / tolerance);
   }
   out.misfit = 0.5 * out.residuals.squaredNorm();

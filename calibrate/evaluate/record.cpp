@@ -83,7 +83,7 @@ std::string key_of(const Study& study, std::size_t test, std::span<const double>
 std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation) {
   if (evaluation.failure) return evaluation.failure;
   for (const Measurement& measurement : test.lab.measurements) {
-    const auto value = evaluation.observables.find(measurement.observable);
+    const auto value = evaluation.readings.find(measurement.reading);
     if (value ? std::isfinite(*value) : evaluation.run.ended_early) continue;
     Failure failure;
     failure.reason = FailureReason::non_finite;
@@ -92,7 +92,7 @@ std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation&
     failure.time_s = evaluation.run.simulated_s;
     failure.value = value.value_or(std::numeric_limits<double>::quiet_NaN());
     failure.message =
-        "The run gave no reading of " + reading_name(test, measurement.observable) + "; look at its heap with --vtk.";
+        "The run gave no reading of " + reading_name(test, measurement.reading) + "; look at its heap with --vtk.";
     return failure;
   }
   return std::nullopt;
@@ -101,15 +101,14 @@ std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation&
 StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
                         std::span<const StoredEvaluation> evaluations) {
   StoredEvaluation out = evaluations.front();
-  out.observables = {};
+  out.readings = {};
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     const StudyTest& test = study.tests.at(tests[i]);
     if (!out.failure) out.failure = failure_of(test, evaluations[i]);
     out.run.ended_early = out.run.ended_early || evaluations[i].run.ended_early;
-    for (const auto& [name, value] : evaluations[i].observables.all())
-      out.observables.set(reading_name(test, name), value);
+    for (const auto& [name, value] : evaluations[i].readings.all()) out.readings.set(reading_name(test, name), value);
   }
-  if (out.failure) out.observables = {};
+  if (out.failure) out.readings = {};
   return out;
 }
 
@@ -118,9 +117,9 @@ double rejection_index(const Study& study, std::span<const std::size_t> tests, c
   if (merged.failure) return highest;
   for (const std::size_t index : tests) {
     const StudyTest& test = study.tests[index];
-    Observables run;
+    Readings run;
     for (const ReadingKind& kind : reading_kinds(test.lab.test))
-      if (const auto value = merged.observables.find(reading_name(test, kind.name))) run.set(kind.name, *value);
+      if (const auto value = merged.readings.find(reading_name(test, kind.name))) run.set(kind.name, *value);
     highest = std::fmax(highest, rejection_index(test.lab.test, run).value_or(std::nan("")));
   }
   return highest;
@@ -132,14 +131,14 @@ double rejected_share_of(const Study& study) {
   return std::ranges::any_of(fitted, may_be) ? study.search.rejected_share : 1;
 }
 
-std::vector<Observables> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
-                                    std::span<const std::uint64_t> packings, const Store& store) {
+std::vector<Readings> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
+                                 std::span<const std::uint64_t> packings, const Store& store) {
   const std::vector<double> values = values_at(study, coordinates(point));
-  std::vector<Observables> runs;
+  std::vector<Readings> runs;
   for (const std::uint64_t packing : packings) {
     auto found = store.find(key_of(study, test, values, packing, store.identity().program));
     if (!found || failure_of(study.tests[test], *found)) return {};
-    runs.push_back(std::move(found->observables));
+    runs.push_back(std::move(found->readings));
   }
   return runs;
 }

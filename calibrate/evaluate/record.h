@@ -36,8 +36,8 @@ StoredEvaluation merged(const Study& study, std::span<const std::size_t> tests,
 
 /// What the store has of a candidate in one test on these packings, in their order; nothing if one of them is missing
 /// or failed. Simulates nothing.
-std::vector<Observables> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
-                                    std::span<const std::uint64_t> packings, const Store& store);
+std::vector<Readings> known_runs(const Study& study, std::size_t test, const UnitPoint& point,
+                                 std::span<const std::uint64_t> packings, const Store& store);
 
 /// How many of the store's evaluations are of a test of the study, whatever the candidate.
 std::size_t holding(const Study& study, const Store& store);

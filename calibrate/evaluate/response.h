@@ -19,7 +19,7 @@ namespace pastefit {
 struct Evaluation {
   UnitPoint point;
   std::uint64_t packing = 0;
-  std::vector<double> observables;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
+  std::vector<double> readings;  ///< in the order of the study's measurements; NaN: not taken; empty after a failure
   std::optional<Failure> failure;
   bool censored = false;  ///< see `Objective::try_out`
   int simulations = 1;    ///< that were spent on it; 0: it was known, or cut off by a stop
@@ -35,14 +35,14 @@ struct Response {
   UnitPoint point;
   std::vector<std::uint64_t> packings;
   std::vector<Evaluation> evaluations;  ///< one per packing
-  Eigen::VectorXd observables;          ///< mean over the accepted, one for each reading; NaN: one of them has none
+  Eigen::VectorXd readings;             ///< mean over the accepted, one for each reading; NaN: one of them has none
   /// Of the readings sqrt(weight) (mean - measured)/standard deviation; of the priors the distance from their mean in
   /// their standard deviations. Finite; graded if it failed.
   Eigen::VectorXd residuals;
   double misfit = 0;  ///< half the squared norm of the residuals: what is minimised; always finite
   /// Largest difference of a fitted reading from the laboratory over its tolerance: what is judged; 1 is asked for.
-  double normalised_error = 0;
-  /// What the noise of the packings makes of `normalised_error` by itself: largest standard error of a fitted reading
+  double error = 0;
+  /// What the noise of the packings makes of `error` by itself: largest standard error of a fitted reading
   /// over its tolerance. 0: a single packing, or a failure.
   double noise = 0;
   bool failed = false;  ///< some packing ended in a failure
@@ -65,7 +65,7 @@ inline bool is_whole(const Response& response) {
 
 /// True unless reading k was not taken, because a simulation ended early.
 inline bool has_reading(const Response& response, Eigen::Index k) {
-  return !response.censored || k >= response.observables.size() || !std::isnan(response.observables[k]);
+  return !response.censored || k >= response.readings.size() || !std::isnan(response.readings[k]);
 }
 
 /// Those that a laboratory would accept (`judge/verdict.h`).
@@ -79,7 +79,7 @@ inline std::vector<const Evaluation*> accepted(std::span<const Evaluation> evalu
 
 /// What it says of its candidate.
 inline Evidence evidence_of(const Response& response) {
-  Evidence out{.error = response.normalised_error, .noise = response.noise, .whole = is_whole(response)};
+  Evidence out{.error = response.error, .noise = response.noise, .whole = is_whole(response)};
   for (const Evaluation& one : response.evaluations) out.add_heap(one.rejection_index);
   return out;
 }
@@ -90,7 +90,7 @@ inline double squared_standard_error(const Response& response, std::size_t readi
   const auto judged = accepted(response.evaluations);
   if (judged.size() < 2 || response.failed) return 0;
   std::vector<double> values;
-  for (const Evaluation* one : judged) values.push_back(one->observables[reading]);
+  for (const Evaluation* one : judged) values.push_back(one->readings[reading]);
   const Sample sample = sample_of(values);
   const double square = sample.standard_deviation * sample.standard_deviation / sample.count;
   return std::isfinite(square) ? square : 0;

@@ -19,8 +19,8 @@ namespace pastefit {
 namespace {
 
 std::optional<LikelyRange> strength_by_readings(const StudyTest& test) {
-  Observables measured;
-  for (const Measurement& one : test.lab.measurements) measured.set(one.observable, one.value);
+  Readings measured;
+  for (const Measurement& one : test.lab.measurements) measured.set(one.reading, one.value);
   return likely_strength_pa(test.lab.test, measured);
 }
 
@@ -36,7 +36,7 @@ double StudyScoring::largest_error(const StudyReading& reading) const {
 }
 
 bool StudyScoring::is_bound(const StudyReading& reading, double value) const {
-  return is_upper_bound(study_, reading.test, reading.measurement.observable, value);
+  return is_upper_bound(study_, reading.test, reading.measurement.reading, value);
 }
 
 UnitBox StudyScoring::likely_box() const {
@@ -69,8 +69,8 @@ Evaluation StudyScoring::evaluation_of(const UnitPoint& point, const StoredEvalu
   out.rejection_index = rejection_index(study_, fitted_, stored);
   if (!out.failure)
     for (const auto& reading : scored())
-      out.observables.push_back(out.censored ? stored.observables.find(reading.name).value_or(std::nan(""))
-                                             : stored.observables.find(reading.name).value());
+      out.readings.push_back(out.censored ? stored.readings.find(reading.name).value_or(std::nan(""))
+                                          : stored.readings.find(reading.name).value());
   return out;
 }
 
@@ -88,7 +88,7 @@ bool is_positive(double number) {
 
 double worst_miss(const Study& study, std::size_t test, const Measurement& measurement) {
   const auto kinds = reading_kinds(study.tests.at(test).lab.test);
-  const ReadingKind* kind = find_kind(kinds, measurement.observable);
+  const ReadingKind* kind = find_kind(kinds, measurement.reading);
   const double bound = kind && kind->worst_miss ? *kind->worst_miss : 10 * measurement.standard_deviation;
   return std::max(std::abs(measurement.value), bound);
 }

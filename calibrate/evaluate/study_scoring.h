@@ -23,7 +23,7 @@ class StudyScoring : public ReadingScoring {
 
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   double rejected_share() const override { return rejected_share_of(study_); }
-  MisfitUnit misfit_unit() const override { return misfit_unit_of(study_); }
+  ErrorUnit error_unit() const override { return error_unit_of(study_); }
   /// Strengths with which every fitted test is likely to have its readings (`likely_strength_pa`); all, where tests
   /// contradict each other or the bounds.
   UnitBox likely_box() const override;

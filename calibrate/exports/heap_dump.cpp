@@ -207,8 +207,8 @@ Faults misplaced(const Particles& filled, std::span<const Particles> heaps, cons
 
 }  // namespace
 
-Result<Observables> read_heaps(const Test& test, std::optional<std::uint64_t> packing_seed, const Particles& filled,
-                               std::span<const Particles> heaps) {
+Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing_seed, const Particles& filled,
+                            std::span<const Particles> heaps) {
   const auto* const slump = std::get_if<SlumpTest>(&test);
   if (!slump) return Fault{"the card's test", "is no slump test: there is no heap to read", "a slump test with --test"};
   SlumpTest exported = *slump;
@@ -230,7 +230,7 @@ Result<Observables> read_heaps(const Test& test, std::optional<std::uint64_t> pa
   if (faults.empty()) faults = misplaced(filled, heaps, *packing);
   if (!faults.empty()) return faults;
   const Ruler ruler(exported, packing->roughness_m, filled);
-  Observables readings;
+  Readings readings;
   for (std::size_t step = 0; step < heaps.size(); ++step)
     ruler.read(heaps[step], "step" + std::to_string(step + 1), readings);
   return readings;

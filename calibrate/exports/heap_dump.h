@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "calibrate/laboratory/test.h"
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 #include "core/result.h"
 #include "core/world/particles.h"
 
@@ -30,7 +30,7 @@ Result<Particles> read_dump(const std::filesystem::path& file);
 /// step 2. `filled` are the same grains in the mould before it was lifted, `packing` the seed that was exported;
 /// without it the test's own. Errors: the test is no slump test; the dumps hold other grains than each other, or than
 /// the card's mould (by a tenth of their number).
-Result<Observables> read_heaps(const Test& test, std::optional<std::uint64_t> packing, const Particles& filled,
-                               std::span<const Particles> heaps);
+Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing, const Particles& filled,
+                            std::span<const Particles> heaps);
 
 }  // namespace pastefit

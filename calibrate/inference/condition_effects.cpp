@@ -16,7 +16,7 @@ struct RunsAtEnds {
 };
 
 bool is_usable(const StudyTest& test, const StoredEvaluation& run) {
-  return !failure_of(test, run) && !is_rejected(test.lab.test, run.observables);
+  return !failure_of(test, run) && !is_rejected(test.lab.test, run.readings);
 }
 
 /// Means over the packings on which both heaps are accepted; returns their number.
@@ -27,12 +27,11 @@ int add_means(const StudyTest& test, const RunsAtEnds& ends, std::vector<Conditi
   if (usable.empty()) return 0;
   const auto mean = [&](const std::vector<StoredEvaluation>& runs, const std::string& reading) {
     double sum = 0;
-    for (const std::size_t i : usable) sum += runs[i].observables.find(reading).value_or(0);
+    for (const std::size_t i : usable) sum += runs[i].readings.find(reading).value_or(0);
     return sum / static_cast<double>(usable.size());
   };
   for (const Measurement& one : test.lab.measurements)
-    out.push_back(
-        {reading_name(test, one.observable), mean(ends.lower, one.observable), mean(ends.upper, one.observable)});
+    out.push_back({reading_name(test, one.reading), mean(ends.lower, one.reading), mean(ends.upper, one.reading)});
   return static_cast<int>(usable.size());
 }
 

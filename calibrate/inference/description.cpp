@@ -177,7 +177,7 @@ std::string family(const Inference& inference) {
     row(inference.intervals[k].name, [&](const EquivalentMaterial& member) { return plain(member.values[k], 4); });
   for (std::size_t k = 0; k < inference.fitted.size(); ++k)
     row(inference.fitted[k], [&](const EquivalentMaterial& member) { return plain(member.readings[k], 4); });
-  row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.normalised_error, 2); });
+  row("error [sd]", [](const EquivalentMaterial& member) { return plain(member.distance, 2); });
   row("known from",
       [](const EquivalentMaterial& member) { return std::string(member.simulated ? "simulated" : "predicted"); });
   return out;

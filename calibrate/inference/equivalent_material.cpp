@@ -33,11 +33,11 @@ void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& po
 }
 
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points) {
-  std::vector<std::pair<double, std::size_t>> by_miss;
-  for (std::size_t i = 0; i < points.size(); ++i) by_miss.emplace_back(model.normalised_error(points[i]), i);
-  std::ranges::sort(by_miss);
+  std::vector<std::pair<double, std::size_t>> by_distance;
+  for (std::size_t i = 0; i < points.size(); ++i) by_distance.emplace_back(model.distance(points[i]), i);
+  std::ranges::sort(by_distance);
   std::vector<UnitPoint> half;
-  for (std::size_t i = 0; i < (points.size() + 1) / 2; ++i) half.push_back(points[by_miss[i].second]);
+  for (std::size_t i = 0; i < (points.size() + 1) / 2; ++i) half.push_back(points[by_distance[i].second]);
   return half;
 }
 
@@ -47,10 +47,10 @@ std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<Uni
     const ReadingTrainingData& reading = model.training_data().readings[k];
     return std::abs(model.expected(k, point) - *reading.measured) / reading.deviation;
   };
-  const double as_well = std::max(1.0, model.normalised_error(recommended));  // priors included
+  const double as_well = std::max(1.0, model.distance(recommended));  // priors included
   std::vector<UnitPoint> out;
   std::ranges::copy_if(points, std::back_inserter(out), [&](const UnitPoint& point) {
-    return model.is_known(point) && model.normalised_error(point) <= as_well &&
+    return model.is_known(point) && model.distance(point) <= as_well &&
            std::ranges::all_of(model.fitted(),
                                [&](std::size_t k) { return error(k, point) <= std::max(1.0, error(k, recommended)); });
   });
@@ -84,7 +84,7 @@ std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std:
     for (std::size_t j = 0; j < evidence.parameters.size(); ++j) member.values.push_back(value(point, j));
     for (const std::size_t k : model.fitted()) member.readings.push_back(model.expected(k, point));
     member.simulated = std::ranges::find(evidence.points, point) != evidence.points.end();
-    member.normalised_error = model.normalised_error(point);
+    member.distance = model.distance(point);
     family.push_back(std::move(member));
   }
   return family;

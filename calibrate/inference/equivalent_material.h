@@ -13,7 +13,7 @@ struct EquivalentMaterial {
   std::vector<double> values;    ///< of the free parameters
   std::vector<double> readings;  ///< predicted, in the order of `Inference::fitted`
   bool simulated = false;        ///< else only predicted
-  double normalised_error = 0;   ///< `ResponseModel::normalised_error`
+  double distance = 0;           ///< `ResponseModel::distance`
 };
 
 /// Adds points that are as far from each other, and from those chosen already, as possible; stops at `count` in all, or

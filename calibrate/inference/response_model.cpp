@@ -230,7 +230,7 @@ Eigen::MatrixXd ResponseModel::predictive_variance(const std::vector<ReadingMode
   return out;
 }
 
-double ResponseModel::normalised_error(const UnitPoint& point) const {
+double ResponseModel::distance(const UnitPoint& point) const {
   double squares = 0;
   for (const std::size_t k : fitted_) {
     const ReadingTrainingData& reading = evidence_.readings[k];

@@ -59,7 +59,7 @@ class ResponseModel {
   /// Distance of a candidate from laboratory and priors [1]: root of the sum of squares of the weighted differences of
   /// the mean readings, in standard deviations of one measurement, and of the coordinates from the means of their
   /// priors, in standard deviations of those.
-  double normalised_error(const UnitPoint& point) const;
+  double distance(const UnitPoint& point) const;
   double log_likelihood(const UnitPoint& point) const;
   /// The log-likelihood plus the logarithm of the priors, up to a constant.
   double log_posterior(const UnitPoint& point) const;

@@ -58,14 +58,14 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
   };
   bool some_accepted = false;
   for (std::size_t i = 0; i < good.size(); ++i) some_accepted = some_accepted || !is_rejected(i);
-  const auto readings = [](const StoredEvaluation* one) { return one->observables.all().size(); };
-  for (const Observable& reading : (*std::ranges::max_element(good, {}, readings))->observables.all()) {
+  const auto readings = [](const StoredEvaluation* one) { return one->readings.all().size(); };
+  for (const Reading& reading : (*std::ranges::max_element(good, {}, readings))->readings.all()) {
     ReadingTrainingData one;
     one.name = reading.name;
     one.test = test_of(study, reading.name);
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));
     for (std::size_t i = 0; i < good.size(); ++i)
-      one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables.find(reading.name).value_or(std::nan(""));
+      one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings.find(reading.name).value_or(std::nan(""));
     if ((one.simulated.array().isInf()).any()) continue;
     for (std::size_t i = 0; some_accepted && i < good.size(); ++i)
       if (is_rejected(i)) one.simulated[static_cast<Eigen::Index>(i)] = std::nan("");
@@ -73,7 +73,7 @@ TrainingData training_data_of(const Study& study, std::span<const StoredEvaluati
     if (const auto known = std::ranges::find(fitted, reading.name, &StudyReading::name); known != fitted.end()) {
       for (std::size_t i = 0; i < good.size(); ++i)
         one.is_bound.push_back(good[i]->run.ended_early &&
-                               is_upper_bound(study, known->test, known->measurement.observable,
+                               is_upper_bound(study, known->test, known->measurement.reading,
                                               one.simulated[static_cast<Eigen::Index>(i)]));
       one.measured = known->measurement.value;
       one.deviation = known->measurement.standard_deviation;

@@ -14,8 +14,8 @@
 #include "calibrate/laboratory/measurement.h"
 #include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
-#include "core/observe/observables.h"
 #include "core/observe/outline.h"
+#include "core/observe/readings.h"
 #include "core/step/run.h"
 
 namespace pastefit {
@@ -78,7 +78,7 @@ inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
 inline void ask_for(Specimen&, const ReadingKind&) {}
 
 /// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known.
-inline std::optional<double> grain_density_of(const Specimen&, const Observables&) {
+inline std::optional<double> grain_density_of(const Specimen&, const Readings&) {
   return std::nullopt;
 }
 
@@ -133,7 +133,7 @@ inline ReadingCheck check_readings(const Specimen&, std::span<const Measurement>
 }
 
 /// What the readings of a test say of its material as a fluid with a yield stress.
-inline std::vector<YieldStress> yield_stresses_of(const Specimen&, const Observables&) {
+inline std::vector<YieldStress> yield_stresses_of(const Specimen&, const Readings&) {
   return {};
 }
 
@@ -149,13 +149,13 @@ struct LikelyRange {
 };
 
 /// The strengths [Pa] (`strength_pa`) with which a test is likely to have these readings; nothing if nothing is known.
-inline std::optional<LikelyRange> likely_strength_pa(const Specimen&, const Observables&) {
+inline std::optional<LikelyRange> likely_strength_pa(const Specimen&, const Readings&) {
   return std::nullopt;
 }
 
 /// How near a run is to one that the standards have a laboratory reject and repeat: it is where this is more than 1.
 /// NaN: not read; nothing for a kind of which no run is rejected.
-inline std::optional<double> rejection_index(const Specimen&, const Observables&) {
+inline std::optional<double> rejection_index(const Specimen&, const Readings&) {
   return std::nullopt;
 }
 
@@ -165,7 +165,7 @@ inline std::string_view rejected_runs(const Specimen&) {
 }
 
 /// What a person should know of these runs besides their readings. A line, or nothing.
-inline std::string remarks_on(const Specimen&, std::span<const Observables>) {
+inline std::string remarks_on(const Specimen&, std::span<const Readings>) {
   return {};
 }
 

@@ -15,7 +15,7 @@ std::optional<double> mean_reading(std::span<const SeenRun> runs, std::string_vi
 }
 
 const Measurement* find_measurement(std::span<const Measurement> measured, std::string_view name) {
-  const auto found = std::ranges::find(measured, name, &Measurement::observable);
+  const auto found = std::ranges::find(measured, name, &Measurement::reading);
   return found == measured.end() ? nullptr : &*found;
 }
 

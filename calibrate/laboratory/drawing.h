@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "calibrate/laboratory/measurement.h"
-#include "core/observe/observables.h"
 #include "core/observe/outline.h"
+#include "core/observe/readings.h"
 #include "core/step/run.h"
 
 namespace pastefit {
@@ -19,7 +19,7 @@ namespace pastefit {
 /// What was seen of one simulation besides its readings.
 struct SeenRun {
   std::uint64_t packing = 0;
-  Observables readings;
+  Readings readings;
   std::map<std::string, Outline, std::less<>> outlines;  ///< by their names (`outline_at`)
   std::optional<Curve> curve;
 };

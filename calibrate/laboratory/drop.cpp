@@ -151,7 +151,7 @@ Templates templates_of(const DropTest&) {
   return {drop_lab, drop_study};
 }
 
-std::optional<double> grain_density_of(const DropTest& test, const Observables&) {
+std::optional<double> grain_density_of(const DropTest& test, const Readings&) {
   return test.bulk_density_kg_m3;
 }
 

@@ -38,7 +38,7 @@ void read_test(ObjectReader& reader, DropTest& test);
 void tell_schema(ObjectSchema& schema, DropTest any);
 
 Templates templates_of(const DropTest& test);
-std::optional<double> grain_density_of(const DropTest& test, const Observables& means);
+std::optional<double> grain_density_of(const DropTest& test, const Readings& means);
 std::string_view why_of_that_size(const DropTest& test);
 
 nlohmann::ordered_json conditions_of(const DropTest& test);

@@ -47,7 +47,7 @@ std::size_t series_at(const T&, const Snapshot& snapshot) {
 
 /// What a laboratory file calls the bulk density is that of a granule, not of the bed.
 template <GranuleTest T>
-std::optional<double> grain_density_of(const T& test, const Observables&) {
+std::optional<double> grain_density_of(const T& test, const Readings&) {
   return test.bulk_density_kg_m3;
 }
 

@@ -24,7 +24,7 @@ double error_of(const Measurement& one) {
 const Measurement* first_of(std::span<const Measurement> measurements, std::initializer_list<std::string> names) {
   for (const std::string& name : names)
     for (const Measurement& one : measurements)
-      if (one.observable == name) return &one;
+      if (one.reading == name) return &one;
   return nullptr;
 }
 
@@ -105,7 +105,7 @@ constexpr double widest_skirt = 1.5;
 
 Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
   return {"measurements",
-          heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
+          heap.height.reading + format(" (%.4g) contradicts ", heap.height.value) + heap.width.reading +
               format(" (%.4g): the mould holds too little for it; a cone of this height, the widest heap, is %.4g mm "
                      "wide",
                      heap.width.value, cone_width_mm(test, heap.height.value)) +
@@ -115,7 +115,7 @@ Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
 
 Fault missing_volume(const SlumpTest& test, const Heap& heap) {
   return {"measurements",
-          heap.height.observable + format(" (%.4g) contradicts ", heap.height.value) + heap.width.observable +
+          heap.height.reading + format(" (%.4g) contradicts ", heap.height.value) + heap.width.reading +
               format(" (%.4g): what the mould holds does not fit in; a flat cylinder of this height, the narrowest "
                      "heap, is %.4g mm wide",
                      heap.width.value, narrowest_mm(test, heap.height.value)) +

@@ -9,7 +9,7 @@ namespace pastefit {
 
 /// What a laboratory read off one test: mean and standard deviation of its repeats.
 struct Measurement {
-  std::string observable;         ///< key of the reading, e.g. "step1.height_mm"
+  std::string reading;            ///< key of the reading, e.g. "step1.height_mm"
   double value = 0;               ///< mean, in the unit of the key
   double standard_deviation = 0;  ///< of one reading, in the unit of the key
   int repeats = 1;

@@ -156,9 +156,9 @@ std::string conditions_in_words(const PelletCrush& test) {
          format("  platen                   %g mm/s\n", mm * test.platen_speed_m_s);
 }
 
-std::string remarks_on(const PelletCrush& test, std::span<const Observables> runs) {
+std::string remarks_on(const PelletCrush& test, std::span<const Readings> runs) {
   constexpr double close = 0.95;
-  const auto rising = std::ranges::count_if(runs, [&](const Observables& run) {
+  const auto rising = std::ranges::count_if(runs, [&](const Readings& run) {
     return run.find("pellet.strain_at_peak").value_or(0) > close * test.final_strain;
   });
   if (rising == 0) return {};

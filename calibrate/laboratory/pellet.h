@@ -45,6 +45,6 @@ std::vector<Drawing> drawings_of(const PelletCrush& test, std::span<const SeenRu
                                  std::span<const Measurement> measured);
 
 /// Pellets whose stress still rose when the platen stopped. A line, or nothing.
-std::string remarks_on(const PelletCrush& test, std::span<const Observables> runs);
+std::string remarks_on(const PelletCrush& test, std::span<const Readings> runs);
 
 }  // namespace pastefit

@@ -165,10 +165,10 @@ std::string conditions_in_words(const ShearCell& test) {
                 mm * test.final_displacement_m, mm * test.shear_speed_m_s, test.shear_speedup);
 }
 
-std::string remarks_on(const ShearCell& test, std::span<const Observables> runs) {
+std::string remarks_on(const ShearCell& test, std::span<const Readings> runs) {
   const double half_way = 0.5 * mm * test.final_displacement_m;
   const auto changing = std::ranges::count_if(
-      runs, [&](const Observables& run) { return run.find("shear.steady_from_mm").value_or(0) > half_way; });
+      runs, [&](const Readings& run) { return run.find("shear.steady_from_mm").value_or(0) > half_way; });
   if (changing == 0) return {};
   return format("the stress of %d of %zu beds still changed beyond half of the displacement of %g mm: it is not steady",
                 static_cast<int>(changing), runs.size(), mm * test.final_displacement_m);

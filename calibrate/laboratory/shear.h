@@ -45,6 +45,6 @@ std::vector<Drawing> drawings_of(const ShearCell& test, std::span<const SeenRun>
                                  std::span<const Measurement> measured);
 
 /// Beds whose stress still changed when the base stopped. A line, or nothing.
-std::string remarks_on(const ShearCell& test, std::span<const Observables> runs);
+std::string remarks_on(const ShearCell& test, std::span<const Readings> runs);
 
 }  // namespace pastefit

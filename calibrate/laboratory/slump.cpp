@@ -214,7 +214,7 @@ void tell_schema(ObjectSchema& schema, SlumpTest any) {
   describe_slump(schema, any);
 }
 
-std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means) {
+std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means) {
   const auto solid = means.find("fill.solid_fraction");
   return solid ? std::optional(test.bulk_density_kg_m3 / *solid) : std::nullopt;
 }
@@ -242,8 +242,8 @@ std::optional<NamedOutline> outline_at(const SlumpTest& test, const Snapshot& sn
 }
 
 double default_tolerance(const SlumpTest& test, const Measurement& measured) {
-  if (measured.observable == "step1.lateral_shift_mm") return mm * kShearedShift * wider_radius_m(test.mould);
-  const bool length = measured.observable.ends_with("_mm");
+  if (measured.reading == "step1.lateral_shift_mm") return mm * kShearedShift * wider_radius_m(test.mould);
+  const bool length = measured.reading.ends_with("_mm");
   return length ? std::max(measured.standard_deviation, 0.5 * mm * test.grains.radius_m) : measured.standard_deviation;
 }
 
@@ -290,7 +290,7 @@ std::string conditions_in_words(const SlumpTest& test) {
                 plain(largest_pressure_pa(test)).c_str());
 }
 
-std::optional<double> rejection_index(const SlumpTest& test, const Observables& run) {
+std::optional<double> rejection_index(const SlumpTest& test, const Readings& run) {
   return shear_index(test, run);
 }
 
@@ -298,10 +298,10 @@ std::string_view rejected_runs(const SlumpTest&) {
   return "heaps sheared off";
 }
 
-std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs) {
+std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs) {
   int sheared = 0, whole = 0;
   double all_mm = 0;
-  for (const Observables& run : runs) {
+  for (const Readings& run : runs) {
     const double height_mm = run.find("step1.height_mm").value_or(0);
     const bool broke = has_sheared(test, run);
     ++(broke ? sheared : whole);

@@ -67,7 +67,7 @@ Templates templates_of(const SlumpTest& test);
 std::optional<Templates> templates_of_mould(std::string_view preset);
 
 /// Of the grains, such that the mould holds the bulk density.
-std::optional<double> grain_density_of(const SlumpTest& test, const Observables& means);
+std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means);
 
 /// The mould being filled, the test, and the second drop of its heap, each with a clock of its own.
 std::span<const std::string_view> series_of(const SlumpTest& test);
@@ -99,11 +99,11 @@ nlohmann::ordered_json conditions_of(const SlumpTest& test);
 std::string conditions_in_words(const SlumpTest& test);
 
 /// How far its top shifted (`shear_index`): EN 12350-2 and ASTM C143 have the test of a heap that sheared off repeated.
-std::optional<double> rejection_index(const SlumpTest& test, const Observables& run);
+std::optional<double> rejection_index(const SlumpTest& test, const Readings& run);
 
 std::string_view rejected_runs(const SlumpTest& test);
 
 /// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
-std::string remarks_on(const SlumpTest& test, std::span<const Observables> runs);
+std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs);
 
 }  // namespace pastefit

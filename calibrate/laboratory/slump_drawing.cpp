@@ -23,7 +23,7 @@ class HeapDrawing {
   HeapDrawing(const SlumpTest& test, std::string step, std::span<const SeenRun> runs,
               std::span<const Measurement> measured)
       : test_(test), step_(std::move(step)), measured_(measured) {
-    std::vector<Observables> readings;
+    std::vector<Readings> readings;
     for (const SeenRun& run : runs) readings.push_back(run.readings);
     for (const std::size_t run : accepted(test, readings)) accepted_.push_back(runs[run]);
     for (const SeenRun& run : runs)

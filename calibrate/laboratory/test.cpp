@@ -114,7 +114,7 @@ void ask_for(Test& test, const ReadingKind& kind) {
   std::visit([&](auto& one) { ask_for(one, kind); }, test);
 }
 
-std::optional<double> grain_density_of(const Test& test, const Observables& means) {
+std::optional<double> grain_density_of(const Test& test, const Readings& means) {
   return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
 }
 
@@ -151,7 +151,7 @@ std::string conditions_in_words(const Test& test) {
   return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
 }
 
-std::optional<double> rejection_index(const Test& test, const Observables& run) {
+std::optional<double> rejection_index(const Test& test, const Readings& run) {
   return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
 }
 
@@ -159,17 +159,17 @@ std::string_view rejected_runs(const Test& test) {
   return std::visit([](const auto& one) { return rejected_runs(one); }, test);
 }
 
-bool is_rejected(const Test& test, const Observables& run) {
+bool is_rejected(const Test& test, const Readings& run) {
   return is_rejected(rejection_index(test, run).value_or(0));
 }
 
-std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs) {
+std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs) {
   std::vector<bool> rejected;
-  for (const Observables& run : runs) rejected.push_back(is_rejected(test, run));
+  for (const Readings& run : runs) rejected.push_back(is_rejected(test, run));
   return accepted(rejected);
 }
 
-std::string remarks_on(const Test& test, std::span<const Observables> runs) {
+std::string remarks_on(const Test& test, std::span<const Readings> runs) {
   return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
 }
 
@@ -177,7 +177,7 @@ ReadingCheck check_readings(const Test& test, std::span<const Measurement> measu
   return std::visit([&](const auto& one) { return check_readings(one, measurements); }, test);
 }
 
-std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& means) {
+std::vector<YieldStress> yield_stresses_of(const Test& test, const Readings& means) {
   return std::visit([&](const auto& one) { return yield_stresses_of(one, means); }, test);
 }
 
@@ -185,7 +185,7 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test,
   return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
 }
 
-std::optional<LikelyRange> likely_strength_pa(const Test& test, const Observables& readings) {
+std::optional<LikelyRange> likely_strength_pa(const Test& test, const Readings& readings) {
   return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
 }
 

@@ -28,7 +28,7 @@ using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 template <class T>
 concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
     requires(T test, const T given, const RunOptions& options, ObjectReader& reader, ObjectSchema& schema,
-             const ReadingKind& reading, std::span<const Observables> runs, const Observables& means,
+             const ReadingKind& reading, std::span<const Readings> runs, const Readings& means,
              const Snapshot& snapshot, std::span<const Measurement> measurements, std::span<const SeenRun> seen,
              std::span<const std::string_view> names) {
   { kind_of(given) } -> std::convertible_to<std::string_view>;
@@ -86,7 +86,7 @@ std::vector<ReadingKind> reading_kinds(const Test& test);
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
 void ask_for(Test& test, const ReadingKind& kind);
-std::optional<double> grain_density_of(const Test& test, const Observables& means);
+std::optional<double> grain_density_of(const Test& test, const Readings& means);
 std::string_view why_of_that_size(const Test& test);
 std::span<const std::string_view> series_of(const Test& test);
 std::size_t series_at(const Test& test, const Snapshot& snapshot);
@@ -96,17 +96,17 @@ std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs
                                  std::span<const Measurement> measured);
 nlohmann::ordered_json conditions_of(const Test& test);
 std::string conditions_in_words(const Test& test);
-std::optional<double> rejection_index(const Test& test, const Observables& run);
+std::optional<double> rejection_index(const Test& test, const Readings& run);
 std::string_view rejected_runs(const Test& test);
 /// Whether the standards have a laboratory reject this run and repeat it.
-bool is_rejected(const Test& test, const Observables& run);
+bool is_rejected(const Test& test, const Readings& run);
 /// The runs of a test that a laboratory would accept (`judge/verdict.h`).
-std::vector<std::size_t> accepted(const Test& test, std::span<const Observables> runs);
-std::string remarks_on(const Test& test, std::span<const Observables> runs);
+std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs);
+std::string remarks_on(const Test& test, std::span<const Readings> runs);
 ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);
-std::vector<YieldStress> yield_stresses_of(const Test& test, const Observables& means);
+std::vector<YieldStress> yield_stresses_of(const Test& test, const Readings& means);
 std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test, double yield_stress_pa);
-std::optional<LikelyRange> likely_strength_pa(const Test& test, const Observables& readings);
+std::optional<LikelyRange> likely_strength_pa(const Test& test, const Readings& readings);
 std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
                       std::span<const std::string_view> parameters);
 std::vector<Experience> experience_of(const Test& test);

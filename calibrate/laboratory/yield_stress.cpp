@@ -86,7 +86,7 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& 
   return out;
 }
 
-std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings) {
+std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Readings& readings) {
   std::vector<YieldStress> out;
   const double density = test.bulk_density_kg_m3;
   const auto height_mm = readings.find("step1.height_mm");
@@ -101,7 +101,7 @@ std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observab
   return out;
 }
 
-std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Observables& readings) {
+std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Readings& readings) {
   const auto height_mm = readings.find("step1.height_mm");
   if (!height_mm) return {};
   const auto stress_pa = yield_stress_of_height_pa(test.mould, test.bulk_density_kg_m3, *height_mm / mm);

@@ -5,7 +5,7 @@
 
 #include "calibrate/laboratory/default_answers.h"
 #include "core/apparatus/slump/slump_test.h"
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 
 namespace pastefit {
 
@@ -48,7 +48,7 @@ std::optional<std::vector<PredictedReading>> readings_of_fluid(const SlumpTest& 
 
 /// What height and spread after the lift say, each by its formula, as far as they were read. The formula of the spread
 /// is marked where the heap is known to be higher than a third of its mould: it is for flat cakes.
-std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observables& readings);
+std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Readings& readings);
 
 /// The attraction at touch over R^2 with which grains are likely to keep the height that was read, by the yield stress
 /// of that height: from this to a hundred times as much, or, of a heap no higher than a third of its mould, which
@@ -57,6 +57,6 @@ std::vector<YieldStress> yield_stresses_of(const SlumpTest& test, const Observab
 /// fluid is half of that: seven times. Of 4,504 heaps above a third of an Abrams cone with a tough bridge 95 % had 2.9
 /// to 7.5 times (tests/results/search.md); a weak bridge, which falls straight to 0, needs 7 to 17 times. Nothing
 /// where the formula has no answer.
-std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Observables& readings);
+std::optional<LikelyRange> likely_strength_pa(const SlumpTest& test, const Readings& readings);
 
 }  // namespace pastefit

@@ -14,7 +14,7 @@ namespace pastefit::python {
 /// What somebody else's simulator answered to a candidate.
 struct EngineAnswer {
   std::size_t candidate = 0;
-  Observables readings;              ///< under their names in the study; NaN: none
+  Readings readings;                 ///< under their names in the study; NaN: none
   std::optional<std::string> error;  ///< why there are none
 };
 

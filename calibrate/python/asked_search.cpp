@@ -129,7 +129,7 @@ static ordered_json readings_json(const Scoring& scoring, const Response& shown,
                                   const std::vector<ReadingTrainingData>& evidence) {
   ordered_json out = ordered_json::array();
   for (std::size_t i = 0; i < evidence.size(); ++i) {
-    const double simulated = shown.observables[static_cast<Eigen::Index>(i)];
+    const double simulated = shown.readings[static_cast<Eigen::Index>(i)];
     out.push_back({{"name", evidence[i].name},
                    {"measured", *evidence[i].measured},
                    {"tolerance", scoring.tolerance(i)},

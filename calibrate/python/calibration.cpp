@@ -73,7 +73,7 @@ class CalibrationRun {
     callbacks.evaluated = [this](const EvaluationCounts& counts) {
       const std::lock_guard lock(mutex_);
       progress_.simulations = counts.simulated + counts.answered;
-      progress_.best_miss = counts.best_miss;
+      progress_.best_error = counts.best_error;
     };
     if (options_.page && !elsewhere_) callbacks.run_observer = &looks;
     result_ = value_or_throw(calibrate(*study_, *store_, how_, callbacks));
@@ -95,7 +95,7 @@ class CalibrationRun {
     const Progress before = progress_;
     progress_ = progress;
     progress_.simulations = std::max(progress.simulations, before.simulations);
-    if (progress_.best_miss < 0) progress_.best_miss = before.best_miss;
+    if (progress_.best_error < 0) progress_.best_error = before.best_error;
     phase_ = progress.phase;
     progress_.phase = {};
   }

@@ -39,7 +39,7 @@ std::vector<Parameter> read_parameters(ObjectReader& document) {
 
 StudyReading read_measurement(ObjectReader& reader, const std::string& name) {
   StudyReading reading;
-  reading.name = reading.measurement.observable = name;
+  reading.name = reading.measurement.reading = name;
   reader.number("value", reading.measurement.value, {-kLargest, kLargest}, Need::required);
   reader.number("standard_deviation", reading.measurement.standard_deviation, {1 / kLargest, kLargest}, Need::required);
   reader.integer("repeats", reading.measurement.repeats, 1, 1'000'000, Need::optional);

@@ -44,7 +44,7 @@ ProblemAnswers::ProblemAnswers(CustomProblem problem, Store store)
 /// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
 bool ProblemAnswers::is_answer(const StoredEvaluation& kept) const {
   const auto is_there = [&](const StudyReading& reading) {
-    return std::isfinite(kept.observables.find(reading.name).value_or(std::nan("")));
+    return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
   };
   return kept.point.size() == problem_.parameters.size() &&
          (kept.failure || std::ranges::all_of(problem_.readings, is_there));
@@ -57,7 +57,7 @@ Evaluation ProblemAnswers::evaluation_of(const StoredEvaluation& kept) const {
   evaluation.failure = kept.failure;
   if (!kept.failure)
     for (const StudyReading& reading : problem_.readings)
-      evaluation.observables.push_back(kept.observables.find(reading.name).value());
+      evaluation.readings.push_back(kept.readings.find(reading.name).value());
   return evaluation;
 }
 
@@ -81,7 +81,7 @@ Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const Engine
   const auto names = readings();
   kept.failure = failure_of(answer, names);
   if (!kept.failure)
-    for (const std::string& name : names) kept.observables.set(name, answer.readings.find(name).value());
+    for (const std::string& name : names) kept.readings.set(name, answer.readings.find(name).value());
   if (auto faults = store_.add(kept); !faults.empty()) return faults;
   return evaluation_of(kept);
 }
@@ -108,7 +108,7 @@ TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
     one.widening = widening(one.repeats);
     one.weight = reading.weight;
     one.simulated.resize(static_cast<Eigen::Index>(good.size()));
-    for (std::size_t i = 0; i < good.size(); ++i) one.simulated[static_cast<Eigen::Index>(i)] = good[i]->observables[k];
+    for (std::size_t i = 0; i < good.size(); ++i) one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings[k];
     data.readings.push_back(std::move(one));
   }
   return data;
@@ -121,7 +121,7 @@ nlohmann::ordered_json ProblemAnswers::evaluations() const {
     nlohmann::ordered_json parameters, readings = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
       parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
-    for (const auto& [name, value] : one.observables.all()) readings[name] = value;
+    for (const auto& [name, value] : one.readings.all()) readings[name] = value;
     out.push_back({{"number", out.size()},
                    {"packing", one.packing},
                    {"parameters", std::move(parameters)},

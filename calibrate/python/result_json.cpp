@@ -58,7 +58,7 @@ ordered_json evaluations_json(const Store& store) {
     out.push_back({{"number", out.size()},
                    {"packing", one.packing},
                    {"parameters", std::move(parameters)},
-                   {"readings", to_json(one.observables)},
+                   {"readings", to_json(one.readings)},
                    {"failure", one.failure ? std::string(name_of(one.failure->reason)) : ""},
                    {"message", one.failure ? one.failure->message : ""},
                    {"ended_early", one.run.ended_early},
@@ -71,7 +71,7 @@ ordered_json progress_json(const Progress& progress, const std::string& phase) {
   return {{"phase", phase},
           {"simulations", progress.simulations},
           {"budget", progress.budget},
-          {"best_miss", progress.best_miss < 0 ? ordered_json() : ordered_json(progress.best_miss)},
+          {"best_miss", progress.best_error < 0 ? ordered_json() : ordered_json(progress.best_error)},
           {"note", progress.note}};
 }
 

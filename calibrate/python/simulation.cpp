@@ -85,14 +85,14 @@ class SimulationRun {
   }
 
   std::string outcome_json() const {
-    nlohmann::ordered_json out{{"readings", to_json(outcome.observables)},
+    nlohmann::ordered_json out{{"readings", to_json(outcome.readings)},
                                {"failure", to_json(outcome.failure)},
                                {"run", to_json(outcome.run, 0)}};
     if (outcome.curve) {
       auto& points = out["curve"] = {{"x", outcome.curve->x}, {"y", outcome.curve->y}, {"points", {}}};
       for (const CurvePoint& point : outcome.curve->points) points["points"].push_back({point.x, point.y});
     }
-    if (const auto* test = std::get_if<Test>(&scene_)) out["remarks"] = remarks_on(*test, {&outcome.observables, 1});
+    if (const auto* test = std::get_if<Test>(&scene_)) out["remarks"] = remarks_on(*test, {&outcome.readings, 1});
     return out.dump();
   }
 

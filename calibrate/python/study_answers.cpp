@@ -14,9 +14,9 @@ namespace pastefit::python {
 namespace {
 
 /// Readings of a test, under the names that it has for them.
-Observables readings_of_test(const StudyTest& test, const Observables& of_study) {
+Readings readings_of_test(const StudyTest& test, const Readings& of_study) {
   const std::string before = reading_name(test, "");
-  Observables out;
+  Readings out;
   for (const auto& [name, value] : of_study.all())
     if (name.starts_with(before)) out.set(std::string_view(name).substr(before.size()), value);
   return out;
@@ -87,7 +87,7 @@ StoredEvaluation StudyAnswers::evaluation_of(const Candidate& candidate, const E
   out.point.assign(candidate.point.begin(), candidate.point.end());
   out.packing = candidate.packing;
   out.failure = python::failure_of(answer, readings());
-  if (!out.failure) out.observables = readings_of_test(study_->tests[test], answer.readings);
+  if (!out.failure) out.readings = readings_of_test(study_->tests[test], answer.readings);
   return out;
 }
 

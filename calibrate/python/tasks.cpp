@@ -58,9 +58,8 @@ std::string simulate_task(const std::string& text) {
                       number_from_json(cutoff->at("highest"))};
   options.packing = packings.of(task.at("packing").get<std::string>(), test);
   const Outcome outcome = simulate(test, options);
-  return nlohmann::ordered_json{{"readings", to_json(outcome.observables)},
-                                {"run", to_json(outcome.run, 0)},
-                                {"failure", to_json(outcome.failure)}}
+  return nlohmann::ordered_json{
+      {"readings", to_json(outcome.readings)}, {"run", to_json(outcome.run, 0)}, {"failure", to_json(outcome.failure)}}
       .dump();
 }
 
@@ -118,7 +117,7 @@ Outcome outcome_of(const std::string& answer) {
   }
   const auto given = nlohmann::ordered_json::parse(answer);
   outcome.failure = failure_from_json(given.at("failure"));
-  if (given.contains("readings")) outcome.observables = observables_from_json(given.at("readings"));
+  if (given.contains("readings")) outcome.readings = readings_from_json(given.at("readings"));
   if (given.contains("run")) outcome.run = run_from_json(given.at("run"));
   return outcome;
 }

@@ -75,7 +75,7 @@ std::string baseline_lines(const Card& card) {
   for (const auto& change : card.rebaselined) {
     out += "  changed: " + one_line(change.why) + "\n";
     for (const auto& moved : change.moved)
-      out += format("    %-24s %12.5g -> %.5g\n", moved.observable.c_str(), moved.before, moved.after);
+      out += format("    %-24s %12.5g -> %.5g\n", moved.reading.c_str(), moved.before, moved.after);
   }
   return out;
 }
@@ -87,7 +87,7 @@ std::string rescaling_lines(const Card& card) {
     if (step.bias.empty()) out += "  what that does to the readings was not measured\n";
     for (const auto& bias : step.bias)
       out +=
-          format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.observable.c_str(), bias.before, bias.after,
+          format("  %-24s %12.5g -> %.5g, bias %+.3g", bias.reading.c_str(), bias.before, bias.after,
                  bias.after - bias.before) +
           (bias.standard_error > 0 || card.confirmation.packings.size() > 1 ? format(" +- %.2g\n", bias.standard_error)
                                                                             : " (one packing, error unknown)\n");
@@ -98,7 +98,7 @@ std::string rescaling_lines(const Card& card) {
 /// Why a material whose readings are met does not count as meeting the laboratory; nothing if they are not.
 std::string doubt_about(const FurtherConfirmation& one) {
   const std::size_t heaps = one.packings.size(), rejected = heaps - static_cast<std::size_t>(one.accepted);
-  if (one.meets_laboratory || *one.misfit > 1) return "";
+  if (one.meets_laboratory || *one.error > 1) return "";
   if (rejected > 0) return format("; %zu of %zu heaps are ones that a laboratory would reject", rejected, heaps);
   return format("; %zu packings are too few to be certain of it (--packings)", heaps);
 }
@@ -111,12 +111,12 @@ std::string further_confirmation_text(const FurtherConfirmation& one) {
   out += format("  grains of %g mm, %zu packings (%d heaps accepted), ranks: %d, %.3g core s, %.3g s\n",
                 1e3 * one.radius_m, one.packings.size(), one.accepted, one.ranks, one.core_s, one.wall_s);
   for (const auto& reading : one.readings)
-    out += format("  %-24s %12.5g -> %.5g, bias %+.3g", reading.observable.c_str(), reading.card, reading.simulated,
+    out += format("  %-24s %12.5g -> %.5g, bias %+.3g", reading.name.c_str(), reading.card, reading.simulated,
                   reading.bias()) +
            (reading.standard_error ? format(" +- %.2g\n", *reading.standard_error) : " (error unknown)\n");
-  if (!one.misfit) return out;
+  if (!one.error) return out;
   return out + "  The material " + (one.meets_laboratory ? "meets" : "is not shown to meet") +
-         format(" the laboratory there: largest error %.2f of its tolerance", *one.misfit) + doubt_about(one) + ".\n";
+         format(" the laboratory there: largest error %.2f of its tolerance", *one.error) + doubt_about(one) + ".\n";
 }
 
 std::string text_of(const Card& card) {

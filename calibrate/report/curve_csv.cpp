@@ -25,7 +25,7 @@ std::optional<std::string> curve_csv(const CardTest& test, const TestView& view)
   const Drawing drawing = drawing_of_curves(curve.name, curve.x, curve.y, runs);
   std::string out = curve.x + "," + curve.y + "," + curve.y + "_lowest," + curve.y + "_highest";
   std::string of_laboratory;
-  for (const CardObservable& one : test.observables) {
+  for (const CardReading& one : test.readings) {
     if (!one.measured || suffix_of(one.name) != suffix_of(curve.y)) continue;
     out += "," + one.name + "," + one.name + "_deviation";
     of_laboratory += format(",%.6g,%.6g", *one.measured, one.standard_deviation);

@@ -61,7 +61,7 @@ void take_evaluations(const Store& store, const std::optional<Inference>& infere
 /// Brings readings into the order in which their test gives them; a card that was read has them in the alphabet's.
 void order_readings(CardTest& test) {
   const auto kinds = reading_kinds(test.test);
-  std::ranges::stable_sort(test.observables, {}, [&](const CardObservable& one) {
+  std::ranges::stable_sort(test.readings, {}, [&](const CardReading& one) {
     return std::ranges::find(kinds, one.name, &ReadingKind::name) - kinds.begin();
   });
 }

@@ -55,7 +55,7 @@ Outline outline_of(const json& in) {
 
 SeenRun run_of(const json& in) {
   SeenRun out{static_cast<std::uint64_t>(whole_number_from_json(in.at("packing"))),
-              observables_from_json(in.at("readings")),
+              readings_from_json(in.at("readings")),
               {},
               {}};
   for (const auto& [name, outline] : in.at("outlines").items()) out.outlines[name] = outline_of(outline);

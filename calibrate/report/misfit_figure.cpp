@@ -26,12 +26,12 @@ struct Axes {
   }
 };
 
-Axes axes_of(const std::vector<StrategySummary>& rows, const MisfitUnit& unit) {
+Axes axes_of(const std::vector<StrategySummary>& rows, const ErrorUnit& unit) {
   Axes axes;
   double least = unit.of(1), most = 2 * unit.of(1);
   for (const StrategySummary& row : rows) {
-    axes.simulations = std::max(axes.simulations, static_cast<double>(row.normalised_error.size()));
-    for (const double difference : row.normalised_error) {
+    axes.simulations = std::max(axes.simulations, static_cast<double>(row.errors.size()));
+    for (const double difference : row.errors) {
       if (difference <= 0) continue;
       const double misfit = unit.of(difference);
       least = std::min(least, misfit);
@@ -48,7 +48,7 @@ std::string text(double x, double y, const std::string& words, const char* ancho
          "</text>\n";
 }
 
-std::string frame(const Axes& axes, const MisfitUnit& unit) {
+std::string frame(const Axes& axes, const ErrorUnit& unit) {
   std::string out = format("<rect x='%g' y='%g' width='%g' height='%g' fill='none' stroke='#888'/>\n", left, top,
                            right - left, bottom - top);
   for (int k = 0; k <= 5; ++k) {
@@ -66,12 +66,12 @@ std::string frame(const Axes& axes, const MisfitUnit& unit) {
 }
 
 /// Steps, because an incumbent stands until it is beaten.
-std::string course(const Axes& axes, const MisfitUnit& unit, const StrategySummary& row, const char* colour,
+std::string course(const Axes& axes, const ErrorUnit& unit, const StrategySummary& row, const char* colour,
                    double stroke) {
   std::string points;
   double before = -1;
-  for (std::size_t i = 0; i < row.normalised_error.size(); ++i) {
-    const double misfit = unit.of(row.normalised_error[i]);
+  for (std::size_t i = 0; i < row.errors.size(); ++i) {
+    const double misfit = unit.of(row.errors[i]);
     if (misfit < 0) continue;
     const double x = axes.x(static_cast<double>(i + 1));
     if (before >= 0 && before != misfit) points += format("%.1f,%.1f ", x, axes.y(before));
@@ -83,7 +83,7 @@ std::string course(const Axes& axes, const MisfitUnit& unit, const StrategySumma
 
 }  // namespace
 
-std::string misfit_figure(const std::vector<StrategySummary>& rows, const MisfitUnit& unit, const std::string& title) {
+std::string misfit_figure(const std::vector<StrategySummary>& rows, const ErrorUnit& unit, const std::string& title) {
   const Axes axes = axes_of(rows, unit);
   std::string out = format("<svg xmlns='http://www.w3.org/2000/svg' width='%g' height='%g' ", width, height) +
                     "font-family='sans-serif' font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n";

@@ -67,14 +67,14 @@ ordered_json parameters_of(const Study& study) {
 
 ordered_json page_readings(const CardTest& test) {
   auto out = ordered_json::array();
-  for (const CardObservable& one : test.observables) {
+  for (const CardReading& one : test.readings) {
     ordered_json reading{{"name", one.name},
                          {"simulated", one.simulated},
                          {"simulated_standard_deviation", one.simulated_standard_deviation}};
     if (const auto error = standard_error(one)) reading["standard_error"] = *error;
     reading["packings"] = ordered_json::array();
     for (const Baseline::Run& run : test.baseline.runs)
-      if (const auto value = run.observables.find(one.name)) reading["packings"].push_back(*value);
+      if (const auto value = run.readings.find(one.name)) reading["packings"].push_back(*value);
     if (one.measured) {
       reading["measured"] = *one.measured;
       reading["standard_deviation"] = one.standard_deviation;
@@ -130,7 +130,7 @@ ordered_json json_of_drawing(const Drawing& drawing) {
 
 std::vector<Measurement> measurements_of(const CardTest& test) {
   std::vector<Measurement> out;
-  for (const CardObservable& one : test.observables)
+  for (const CardReading& one : test.readings)
     if (one.measured) out.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
   return out;
 }
@@ -142,9 +142,9 @@ std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
   for (const auto& known : test.baseline.runs) {
     const auto seen = std::ranges::find(runs, known.packing, &SeenRun::packing);
     if (seen == runs.end())
-      runs.push_back({known.packing, known.observables, {}, {}});
+      runs.push_back({known.packing, known.readings, {}, {}});
     else
-      seen->readings = known.observables;
+      seen->readings = known.readings;
   }
   return runs;
 }
@@ -157,7 +157,7 @@ ordered_json run_shown(const CardTest& test, const TestView& view) {
   for (const auto& run : test.baseline.runs) {
     if (run.packing != shown.packing) continue;
     out["same_as_card"] = std::ranges::all_of(
-        run.observables.all(), [&](const Observable& one) { return shown.readings.find(one.name) == one.value; });
+        run.readings.all(), [&](const Reading& one) { return shown.readings.find(one.name) == one.value; });
   }
   return out;
 }
@@ -181,8 +181,8 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
   if (auto compared = yield_stresses_json(test); !compared.empty()) out["yield_stress"] = std::move(compared);
   if (const auto& measured = test.yield_stress)
     out["measured_yield_stress"] = {{"value", measured->value}, {"standard_deviation", measured->standard_deviation}};
-  std::vector<Observables> runs;
-  for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
+  std::vector<Readings> runs;
+  for (const auto& run : test.baseline.runs) runs.push_back(run.readings);
   const std::string remarks = remarks_on(test.test, runs);
   out["remarks"] = remarks.empty() ? "" : remarks + ".";
   out["drawings"] = ordered_json::array();
@@ -226,7 +226,7 @@ ordered_json inference_of(const Inference& inference) {
     out["family"].push_back({{"values", std::move(values)},
                              {"readings", std::move(readings)},
                              {"simulated", one.simulated},
-                             {"miss", rounded(one.normalised_error, 3)}});
+                             {"miss", rounded(one.distance, 3)}});
   }
   return out;
 }
@@ -236,7 +236,7 @@ ordered_json measured_in(const Study& study) {
   auto out = ordered_json::object();
   for (const StudyTest& test : study.tests)
     for (const Measurement& one : test.lab.measurements)
-      out[(test.name.empty() ? "" : test.name + "/") + one.observable] = rounded(one.value);
+      out[(test.name.empty() ? "" : test.name + "/") + one.reading] = rounded(one.value);
   return out;
 }
 
@@ -260,8 +260,8 @@ ordered_json search_of(const Findings& findings) {
   for (const StoredEvaluation& one : findings.evaluations) seconds += one.wall_s;
   out["wall_s"] = seconds;
   if (findings.study) {
-    const MisfitUnit unit = misfit_unit_of(*findings.study);
-    out["misfit_unit"] = unit.name();
+    const ErrorUnit unit = error_unit_of(*findings.study);
+    out["error_unit"] = unit.name();
     out["misfit_asked"] = unit.of(1);
     out["measured"] = measured_in(*findings.study);
     out["laboratory"] = lengths_measured_in(*findings.study);
@@ -297,7 +297,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                       {"only_heaps_refute", only_heaps_refute(card)},
                       {"unconfirmed", cause_unconfirmed(card)},
                       {"status", card.search.status},
-                      {"misfit", card.confirmation.misfit},
+                      {"misfit", card.confirmation.error},
                       {"fresh", card.confirmation.fresh},
                       {"packings", card.confirmation.packings}};
     out["type_in"] = type_in_of(card);

@@ -12,14 +12,14 @@ namespace pastefit {
 
 namespace {
 
-std::vector<Observables> runs_of(const CardTest& test) {
-  std::vector<Observables> runs;
-  for (const auto& run : test.baseline.runs) runs.push_back(run.observables);
+std::vector<Readings> runs_of(const CardTest& test) {
+  std::vector<Readings> runs;
+  for (const auto& run : test.baseline.runs) runs.push_back(run.readings);
   return runs;
 }
 
 void add_marginal_readings(const CardTest& test, std::vector<std::string>& out) {
-  for (const CardObservable& one : test.observables) {
+  for (const CardReading& one : test.readings) {
     const auto error = standard_error(one);
     if (!one.measured || one.weight <= 0 || test.hold_out || !error) continue;
     const double off = std::abs(one.simulated - *one.measured);

@@ -29,7 +29,7 @@ void SeenSimulation::see(const Test& test, const Snapshot& snapshot) {
 
 void SeenSimulation::end(const Outcome& outcome) {
   failure = outcome.failure;
-  seen.readings = outcome.observables;
+  seen.readings = outcome.readings;
   seen.curve = outcome.curve;
   ended = true;
 }

@@ -35,21 +35,21 @@ std::optional<std::size_t> asked_test(const Study& study, const std::string& pro
 }
 
 /// Largest difference of a fitted reading over its tolerance; nothing if none was taken.
-std::optional<double> misfit_of(const Study& study, std::size_t index, const Observables& readings) {
+std::optional<double> error_of(const Study& study, std::size_t index, const Readings& readings) {
   const StudyTest& test = study.tests[index];
   std::optional<double> largest;
   for (std::size_t i = 0; i < test.lab.measurements.size(); ++i) {
     const Measurement& measured = test.lab.measurements[i];
-    const auto value = readings.find(measured.observable);
+    const auto value = readings.find(measured.reading);
     if (test.targets[i].weight <= 0 || !value || !std::isfinite(*value)) continue;
     largest = std::max(largest.value_or(0), std::abs(*value - measured.value) / tolerance_of(study, index, i));
   }
   return largest;
 }
 
-ordered_json numbers_of(const Observables& readings) {
+ordered_json numbers_of(const Readings& readings) {
   auto out = ordered_json::object();
-  for (const Observable& reading : readings.all())
+  for (const Reading& reading : readings.all())
     if (std::isfinite(reading.value)) out[reading.name] = rounded(reading.value);
   return out;
 }
@@ -75,8 +75,8 @@ void judge(const Findings& findings, const StoredEvaluation& evaluation, ordered
     return;
   }
   if (!study.tests[*index].name.empty()) point["test"] = study.tests[*index].name;
-  if (const auto misfit = evaluation.failure ? std::nullopt : misfit_of(study, *index, evaluation.observables))
-    point["misfit"] = rounded(misfit_unit_of(study).of(*misfit));
+  if (const auto error = evaluation.failure ? std::nullopt : error_of(study, *index, evaluation.readings))
+    point["misfit"] = rounded(error_unit_of(study).of(*error));
   if (!findings.card) return;
   const auto& packings = findings.card->confirmation.packings;
   const bool confirming = std::ranges::find(packings, evaluation.packing) != packings.end();
@@ -120,7 +120,7 @@ ordered_json search_history(const Findings& findings) {
   for (const StoredEvaluation& evaluation : findings.evaluations) {
     ordered_json point{{"number", out.size() + 1}, {"packing", evaluation.packing}};
     point["values"] = values_told(findings, evaluation);
-    point["readings"] = numbers_of(evaluation.observables);
+    point["readings"] = numbers_of(evaluation.readings);
     if (evaluation.failure)
       point["failure"] = std::string(name_of(evaluation.failure->reason)) + ": " + evaluation.failure->message;
     if (evaluation.run.ended_early) point["ended_early"] = true;
@@ -147,7 +147,7 @@ ordered_json misfit_map(const Findings& findings) {
     for (const double column : columns) {
       point[static_cast<Eigen::Index>(x)] = column;
       point[static_cast<Eigen::Index>(y)] = row;
-      miss.push_back(rounded(model.normalised_error(point), 3));
+      miss.push_back(rounded(model.distance(point), 3));
     }
   auto& equivalent = out["equivalent"] = ordered_json::array();
   for (const EquivalentMaterial& one : findings.inference->family)

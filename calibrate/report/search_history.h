@@ -10,7 +10,7 @@ namespace pastefit {
 ///     {"number", "test", "packing", "values": {...}, "readings": {...}, "misfit", "failure", "ended_early",
 ///      "sketch", "confirmation", "other_grains"}.
 /// values: of the free parameters, or of all that are not default if the study is not known. misfit: largest difference
-/// of a fitted reading over its tolerance, in the unit of people (`MisfitUnit`); left out if it is not known, as are
+/// of a fitted reading over its tolerance, in the unit of people (`ErrorUnit`); left out if it is not known, as are
 /// all that are false. censored: it was worse than that. other_grains: of coarse grains, or of other tests than
 /// the study's; its misfit is not said.
 nlohmann::ordered_json search_history(const Findings& findings);

@@ -28,18 +28,17 @@ std::string parameter_lines(const Card& card) {
   return out;
 }
 
-std::string observable_lines(const std::vector<CardObservable>& observables) {
+std::string reading_lines(const std::vector<CardReading>& readings) {
   std::string out;
-  for (const auto& observable : observables) {
-    const auto error = standard_error(observable);
-    out += format("  %-24s ", observable.name.c_str());
-    out += observable.measured ? format("%10.4g %10.3g ", *observable.measured, observable.standard_deviation)
-                               : format("%10s %10s ", "-", "-");
-    out += format("%10.5g ", observable.simulated) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
-    if (observable.measured)
-      out += format(" %+9.3g%s", observable.simulated - *observable.measured,
-                    observable.weight > 0 ? "" : "   (not fitted)");
-    if (observable.band) out += format("\n    (noise explains +-%.3g)", *observable.band);
+  for (const auto& reading : readings) {
+    const auto error = standard_error(reading);
+    out += format("  %-24s ", reading.name.c_str());
+    out += reading.measured ? format("%10.4g %10.3g ", *reading.measured, reading.standard_deviation)
+                            : format("%10s %10s ", "-", "-");
+    out += format("%10.5g ", reading.simulated) + (error ? format("+- %-6.2g", *error) : std::string(9, ' '));
+    if (reading.measured)
+      out += format(" %+9.3g%s", reading.simulated - *reading.measured, reading.weight > 0 ? "" : "   (not fitted)");
+    if (reading.band) out += format("\n    (noise explains +-%.3g)", *reading.band);
     out += "\n";
   }
   return out;
@@ -51,7 +50,7 @@ std::string reading_lines(const Card& card) {
       format("%-26s %10s %10s %-20s%10s\n", "Reading", "measured", "+- sd", "simulated +- error", "difference");
   for (const auto& test : card.tests) {
     if (!test.name.empty()) out += "Test " + test.name + (test.hold_out ? ", held out: predicted, not fitted\n" : "\n");
-    out += test.observables.empty() ? "  not simulated\n" : observable_lines(test.observables);
+    out += test.readings.empty() ? "  not simulated\n" : reading_lines(test.readings);
   }
   if (packings == 1) out += "  Simulated: one packing, error unknown.\n";
   return out;
@@ -101,7 +100,7 @@ std::string remark_lines(const Card& card) {
     const auto say = [&](const std::string& remark) { out += heading_of(test) + remark + ".\n"; };
     if (test.lab.twin) say("The laboratory's data were made by a simulation (a twin)");
     std::vector<Measurement> measurements;
-    for (const auto& one : test.observables)
+    for (const auto& one : test.readings)
       if (one.measured) measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
     for (const std::string& note : check_readings(test.test, measurements).notes) say("Laboratory: " + note);
   }
@@ -112,7 +111,7 @@ std::string remark_lines(const Card& card) {
 std::string unfitted_words(const Card& card) {
   std::string out;
   for (const auto& test : card.tests)
-    for (const auto& one : test.observables) {
+    for (const auto& one : test.readings) {
       if (!one.measured || one.weight > 0 || test.hold_out) continue;
       const double off = std::abs(one.simulated - *one.measured);
       out += " " + (test.name.empty() ? "" : test.name + "/") + one.name + " was not fitted and is " +
@@ -128,17 +127,17 @@ std::string unfitted_words(const Card& card) {
 
 std::string verdict_on_fitted(const Card& card) {
   const auto& confirmation = card.confirmation;
-  const MisfitUnit unit = misfit_unit_of(card);
+  const ErrorUnit unit = error_unit_of(card);
   const auto packings = confirmation.packings.size();
   std::size_t accepted = packings;
   for (const CardTest& test : card.tests)
-    for (const CardObservable& one : test.observables)
+    for (const CardReading& one : test.readings)
       if (one.measured && one.weight > 0 && !test.hold_out)
         accepted = std::min(accepted, static_cast<std::size_t>(one.packings));
   const std::string largest =
       "largest error " +
-      (unit.tolerance_mm ? unit.words(confirmation.misfit, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"
-                         : format("%.2f of its tolerance", confirmation.misfit)) +
+      (unit.tolerance_mm ? unit.words(confirmation.error, "%.2f") + " of the " + unit.words(1, "%.3g") + " allowed"
+                         : format("%.2f of its tolerance", confirmation.error)) +
       (packings == 1         ? " (one packing, error unknown)"
        : accepted < packings ? format(" (mean of %zu of %zu packings)", accepted, packings)
                              : format(" (mean of %zu packings)", packings));
@@ -150,7 +149,7 @@ std::string verdict_on_fitted(const Card& card) {
            card.search.reason;
   if (only_heaps_refute(card))
     return "Readings met; " + cause_unconfirmed(card) + ": " + largest + ". " + card.search.reason;
-  if (confirmation.misfit <= 1 && !confirmation.refuted)
+  if (confirmation.error <= 1 && !confirmation.refuted)
     return "It is uncertain whether the material meets the laboratory: " + cause_unconfirmed(card) + ": " + largest +
            ". " + card.search.reason;
   return "The material does not meet the laboratory: " + cause_unconfirmed(card) + ": " + largest + ". " +

@@ -60,7 +60,7 @@ std::optional<UnitPoint> middle_of_jump(const EvaluationHistory& history, std::s
 }
 
 bool is_met(const Response& one) {
-  return is_whole(one) && one.normalised_error <= 1;
+  return is_whole(one) && one.error <= 1;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Progress {
   std::string_view phase;  ///< "screening", "search", "refinement", "confirmation"
   int simulations = 0;     ///< done
   int budget = 0;          ///< allowed in all
-  double best_miss = -1;   ///< of the best candidate so far, in tolerances; negative: none yet
+  double best_error = -1;  ///< of the best candidate so far, in tolerances; negative: none yet
   std::string note;        ///< something to be told once; mostly empty
 };
 

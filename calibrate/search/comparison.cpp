@@ -22,8 +22,8 @@ std::vector<double> course_of(const std::vector<Response>& history) {
       asked.insert({std::vector<double>(response.point.begin(), response.point.end()), one.packing, one.censored});
     course.resize(asked.size(), best);
     if (!is_whole(response) || response.packings.size() < packings) continue;
-    if (best >= 0 && response.packings.size() == packings && response.normalised_error >= best) continue;
-    best = response.normalised_error;
+    if (best >= 0 && response.packings.size() == packings && response.error >= best) continue;
+    best = response.error;
     packings = response.packings.size();
     course.back() = best;
   }
@@ -61,7 +61,7 @@ std::vector<StrategyTrial> compare_strategies(const std::function<std::unique_pt
         const auto judge = objective(static_cast<int>(options.judge_packings.size()));
         const Response judged = judge->evaluate({&calibration.best.point, 1}, options.judge_packings).at(0);
         if (judge->stop_requested()) return trials;
-        if (is_feasible(judged)) trial.judged = judged.normalised_error;
+        if (is_feasible(judged)) trial.judged = judged.error;
       }
       if (finished) finished(trial);
       trials.push_back(std::move(trial));
@@ -85,7 +85,7 @@ std::vector<StrategySummary> summary_of(const std::vector<StrategyTrial>& trials
       row.confirmed += other.status == CalibrationStatus::confirmed ? 1 : 0;
       simulations.push_back(other.simulations);
       if (other.judged >= 0) judged.push_back(other.judged);
-      longest = std::max(longest, other.normalised_error.size());
+      longest = std::max(longest, other.errors.size());
     }
     row.trials = static_cast<int>(own.size());
     row.simulations = median_of(simulations);
@@ -94,9 +94,8 @@ std::vector<StrategySummary> summary_of(const std::vector<StrategyTrial>& trials
     for (std::size_t i = 0; i < longest; ++i) {
       std::vector<double> at;
       for (const StrategyTrial* one : own)
-        if (!one->normalised_error.empty())
-          at.push_back(one->normalised_error[std::min(i, one->normalised_error.size() - 1)]);
-      row.normalised_error.push_back(median_of(at));
+        if (!one->errors.empty()) at.push_back(one->errors[std::min(i, one->errors.size() - 1)]);
+      row.errors.push_back(median_of(at));
     }
     rows.push_back(std::move(row));
   }

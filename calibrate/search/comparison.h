@@ -16,8 +16,8 @@ struct StrategyTrial {
   CalibrationStatus status = CalibrationStatus::failed;
   int simulations = 0;
   int failures = 0;
-  std::vector<double> normalised_error;  ///< of the incumbent after each simulation; negative: no candidate yet
-  double judged = -1;  ///< that of the result on packings no strategy has seen; negative: there is no result
+  std::vector<double> errors;  ///< of the incumbent after each simulation; negative: no candidate yet
+  double judged = -1;          ///< that of the result on packings no strategy has seen; negative: there is no result
 };
 
 /// What is compared, and how.
@@ -41,10 +41,10 @@ struct StrategySummary {
   std::string strategy;
   int trials = 0;
   int confirmed = 0;
-  double simulations = 0;                ///< median
-  double judged = -1;                    ///< median of the trials with a result; negative: none
-  double worst_judged = -1;              ///< the same, worst
-  std::vector<double> normalised_error;  ///< median after each simulation, trials that have ended counting on
+  double simulations = 0;      ///< median
+  double judged = -1;          ///< median of the trials with a result; negative: none
+  double worst_judged = -1;    ///< the same, worst
+  std::vector<double> errors;  ///< median after each simulation, trials that have ended counting on
 };
 
 /// One row for each strategy: those that meet the tolerance in most trials first, then those with fewer simulations.

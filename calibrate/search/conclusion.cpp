@@ -7,12 +7,12 @@ namespace pastefit {
 
 namespace {
 
-std::string tolerance_in_words(const MisfitUnit& unit) {
+std::string tolerance_in_words(const ErrorUnit& unit) {
   return unit.tolerance_mm ? "the tolerance of " + unit.words(1) : "the tolerances of the readings";
 }
 
 /// Why the best candidate does not count as confirmed.
-std::string doubt_about(const Calibration& result, const MisfitUnit& unit, double rejected_share,
+std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double rejected_share,
                         const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;
   const Evidence evidence = evidence_of(told);
@@ -27,8 +27,8 @@ std::string doubt_about(const Calibration& result, const MisfitUnit& unit, doubl
            " Allow more simulations.";
   }
   const std::string tolerance = tolerance_in_words(unit);
-  std::string words = "The best candidate misses the laboratory by " + unit.words(told.normalised_error);
-  if (told.normalised_error > 1) return words + ", more than " + tolerance + spent;
+  std::string words = "The best candidate misses the laboratory by " + unit.words(told.error);
+  if (told.error > 1) return words + ", more than " + tolerance + spent;
   if (result.confirmation.point.size() == 0) return words + ", not on fresh packings" + spent;
   return words + " +- " + unit.words(told.noise) + ": its packings scatter too much to be sure of " + tolerance +
          spent + " Allow more simulations.";
@@ -36,15 +36,15 @@ std::string doubt_about(const Calibration& result, const MisfitUnit& unit, doubl
 
 }  // namespace
 
-void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, std::span<const std::string> readings,
+void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, std::span<const std::string> readings,
              std::span<const std::string> parameters) {
   const std::string coarse =
       ending.with_coarse ? " and " + std::to_string(result.coarse_simulations) + " with coarse grains" : "";
   const std::string spent = " (" + std::to_string(result.simulations) + " simulations" + coarse + ").";
   if (ending.confirmed) {
     result.status = CalibrationStatus::confirmed;
-    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.normalised_error) +
-                    " on " + std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
+    result.reason = "The candidate misses the laboratory by " + unit.words(result.confirmation.error) + " on " +
+                    std::to_string(result.confirmation.packings.size()) + " fresh packings, within " +
                     tolerance_in_words(unit) + spent;
   } else if (ending.stopped) {
     result.status = CalibrationStatus::stopped;

@@ -23,7 +23,7 @@ struct Ending {
 
 /// Gives a calibration its status and the reason for it, in sentences for a person. Requirements: everything else in
 /// `result` is there. `unit`: for people. `readings`, `parameters`: names; may be left empty.
-void explain(Calibration& result, const Ending& ending, const MisfitUnit& unit, std::span<const std::string> readings,
+void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, std::span<const std::string> readings,
              std::span<const std::string> parameters);
 
 }  // namespace pastefit

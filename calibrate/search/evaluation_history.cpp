@@ -124,8 +124,8 @@ void EvaluationHistory::note(std::span<const Response> answered) {
   responses_.insert(responses_.end(), answered.begin(), answered.end());
   for (const Response& response : answered) {
     if (!is_whole(response) || response.packings.size() < best_packings_) continue;
-    if (response.packings.size() > best_packings_ || response.normalised_error < best_miss_) {
-      best_miss_ = response.normalised_error;
+    if (response.packings.size() > best_packings_ || response.error < best_error_) {
+      best_error_ = response.error;
       best_packings_ = response.packings.size();
     }
   }
@@ -201,7 +201,7 @@ void EvaluationHistory::measure_noise() {
 }
 
 void EvaluationHistory::report(const std::string& note) const {
-  if (progress_) progress_({phase_, simulations(), budget_ * scoring().simulations_each(), best_miss_, note});
+  if (progress_) progress_({phase_, simulations(), budget_ * scoring().simulations_each(), best_error_, note});
 }
 
 void EvaluationHistory::keep_single(const Response& response, std::vector<Response>& singles) {
@@ -268,8 +268,8 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
     int freedom = 0;
     for (const Response& single : singles) {
       if (!is_feasible(single) || !has_reading(single, k)) continue;
-      one.lowest = std::min(one.lowest, single.observables[k]);
-      one.highest = std::max(one.highest, single.observables[k]);
+      one.lowest = std::min(one.lowest, single.readings[k]);
+      one.highest = std::max(one.highest, single.readings[k]);
       one.all_above = one.all_above && single.residuals[k] > allowance;
       one.all_below = one.all_below && single.residuals[k] < -allowance;
       // Pooled: deviations from the mean of the same point's packings.
@@ -277,11 +277,11 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
       int count = 0;
       for (const Response& other : singles) {
         if (!is_whole(other) || other.point != single.point) continue;
-        sum += other.observables[k];
+        sum += other.readings[k];
         ++count;
       }
       if (count < 2 || !is_whole(single)) continue;
-      squares += std::pow(single.observables[k] - sum / count, 2) * count / (count - 1.0);
+      squares += std::pow(single.readings[k] - sum / count, 2) * count / (count - 1.0);
       ++freedom;
     }
     if (freedom > 0) one.packing_noise = std::sqrt(squares / freedom);

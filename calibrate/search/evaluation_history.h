@@ -115,7 +115,7 @@ class EvaluationHistory {
   int budget_ = 0;
   int held_back_ = 0;
   std::string_view phase_;
-  double best_miss_ = -1;
+  double best_error_ = -1;
   std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
   double common_packings_ = 1;
   Eigen::VectorXd factors_;  // of the residuals; empty: all 1

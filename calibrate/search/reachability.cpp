@@ -94,7 +94,7 @@ class Nearing {
 
   /// With coarse grains only the residuals are corrected for the grain size, not the reading.
   static bool is_fine(const Response& single) { return single.packings.front() < coarse_packings; }
-  double value_of(const Response& single) const { return single.observables[reading_]; }
+  double value_of(const Response& single) const { return single.readings[reading_]; }
 
   Eigen::Index reading_;
   bool one_side_ = false;
@@ -226,7 +226,7 @@ std::optional<OutOfReach> known_out_of_reach(const EvaluationHistory& history, R
 bool contradicts(const Response& single, const OutOfReach& found) {
   const auto reading = static_cast<Eigen::Index>(found.reading);
   if (!is_whole(single) || !has_reading(single, reading)) return false;
-  const double read = single.observables[reading];
+  const double read = single.readings[reading];
   return found.above ? read <= found.at_best : read >= found.at_best;
 }
 
@@ -253,7 +253,7 @@ std::string describe_withdrawal(const OutOfReach& found, std::span<const std::st
 
 std::string describe_screening(std::span<const Response> singles, std::span<const std::string> readings) {
   std::string out;
-  const auto count = singles.empty() ? 0 : static_cast<std::size_t>(singles.front().observables.size());
+  const auto count = singles.empty() ? 0 : static_cast<std::size_t>(singles.front().readings.size());
   const std::vector<Reach> reach = reach_of(singles, std::vector<double>(count, 0.0));
   for (std::size_t k = 0; k < reach.size(); ++k) {
     const auto fitted = [&](const Response& single) { return single.residuals[static_cast<Eigen::Index>(k)] != 0; };
@@ -261,7 +261,7 @@ std::string describe_screening(std::span<const Response> singles, std::span<cons
     const Reach& one = reach[k];
     const bool or_less = std::ranges::any_of(singles, [&](const Response& single) {
       const auto i = static_cast<Eigen::Index>(k);
-      return single.censored && single.residuals[i] < 0 && single.observables[i] == one.lowest;
+      return single.censored && single.residuals[i] < 0 && single.readings[i] == one.lowest;
     });
     out += (out.empty() ? "" : " ") + name_at(readings, k, "reading ") +
            format(" went from %.3g%s to %.3g, ", one.lowest, or_less ? " or less" : "", one.highest);

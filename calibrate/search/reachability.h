@@ -12,7 +12,7 @@ namespace pastefit {
 
 /// A reading of the laboratory that no material within the bounds comes near.
 struct OutOfReach {
-  std::size_t reading = 0;  ///< in the order of the observables
+  std::size_t reading = 0;  ///< in the order of the readings
   bool above = true;        ///< the model stays above the laboratory; else below
   double measured = 0;      ///< by the laboratory, in the reading's unit
   double likely = 0;        ///< predicted mean reading of the candidate that comes nearest

@@ -40,7 +40,7 @@ std::vector<Answer> SimulatedMinimisation::answers_of(std::span<const Response> 
   std::vector<Answer> answers;
   for (const Response& response : responses)
     answers.push_back({response.point, response.misfit, response.residuals, !is_feasible(response),
-                       goal_ > 0 && response.normalised_error <= goal_});
+                       goal_ > 0 && response.error <= goal_});
   return answers;
 }
 

@@ -35,7 +35,7 @@ struct SearchStart {
   int simulations = 0;                        ///< allowed in all, one for each fitted test of a candidate
   bool with_coarse = false;                   ///< coarse candidates may be suggested (`low_fidelity.h`)
   std::vector<Response> earlier = {};         ///< what is known, each point on one packing; free of charge
-  std::vector<std::string> readings = {};     ///< names for the reason, in the order of the observables; may be empty
+  std::vector<std::string> readings = {};     ///< names for the reason, in the order of the readings; may be empty
   std::vector<std::string> parameters = {};   ///< the same of the free parameters
   std::vector<CandidateResult> answers = {};  ///< of an earlier search that started the same: `Search::results`
 };

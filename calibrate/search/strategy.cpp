@@ -176,7 +176,7 @@ void Strategy::conclude() {
     ending.out_of_reach = searched_ ? known_out_of_reach(state_.history, ReachOf::means) : out_of_reach_;
   ending.some_censored = std::ranges::any_of(state_.history.singles(), &Response::censored);
   ending.rejected_share = state_.scoring().rejected_share();
-  explain(result_, ending, state_.scoring().misfit_unit(), readings_, parameters_);
+  explain(result_, ending, state_.scoring().error_unit(), readings_, parameters_);
   stage_ = Stage::over;
 }
 

@@ -47,9 +47,9 @@ std::vector<double> parameters_from_json(const json& in) {
   return values;
 }
 
-ordered_json to_json(const Observables& observables) {
+ordered_json to_json(const Readings& readings) {
   auto out = ordered_json::object();
-  for (const auto& [name, value] : observables.all()) out[name] = number_to_json(value);
+  for (const auto& [name, value] : readings.all()) out[name] = number_to_json(value);
   return out;
 }
 
@@ -81,8 +81,8 @@ ordered_json to_json(const Sketch& sketch) {
   return {{"heap", sketch.heap}, {"points", sketch.points}};
 }
 
-Observables observables_from_json(const ordered_json& in) {
-  Observables out;
+Readings readings_from_json(const ordered_json& in) {
+  Readings out;
   for (const auto& [name, value] : in.items()) out.set(name, number_from_json(value));
   return out;
 }

@@ -22,7 +22,7 @@ nlohmann::json parameters_to_json(std::span<const double> values);
 std::vector<double> parameters_from_json(const nlohmann::json& in);
 
 /// {"step1.height_mm": 101.5, ...}, in the order in which the readings were taken.
-nlohmann::ordered_json to_json(const Observables& observables);
+nlohmann::ordered_json to_json(const Readings& readings);
 /// {"reason", "phase", "step", "time_s", "grain", "value", "limit", "message"}, or null.
 nlohmann::ordered_json to_json(const std::optional<Failure>& failure);
 /// {"particles", "steps", "particle_steps", "time_step_s", "simulated_s", "wall_s", "settled", "ended_early",
@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Sketch& sketch);
 
 /// The inverses. Errors: throw nlohmann::json::exception or std::invalid_argument when the text is not what the
 /// functions above write; a caller that reads a file turns them into a fault.
-Observables observables_from_json(const nlohmann::ordered_json& in);
+Readings readings_from_json(const nlohmann::ordered_json& in);
 std::int64_t whole_number_from_json(const nlohmann::json& in);
 std::optional<Failure> failure_from_json(const nlohmann::json& in);
 RunSummary run_from_json(const nlohmann::json& in);

@@ -159,7 +159,7 @@ void demand_columns(const Row& row, std::size_t count) {
 /// Throws std::invalid_argument for what no simulation can have stored.
 void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
   const auto outside = [](double value, double bound) { return !std::isnan(value) && std::abs(value) > bound; };
-  for (const Observable& one : evaluation.observables.all())
+  for (const Reading& one : evaluation.readings.all())
     if (outside(one.value, kLargestReading)) throw std::invalid_argument(one.name + " is no reading");
   for (const double coordinate : evaluation.point)
     if (!(coordinate >= 0 && coordinate <= 1)) throw std::invalid_argument("the point is outside of the bounds");
@@ -174,7 +174,7 @@ StoredEvaluation evaluation_of(const Row& row) {
   out.point = numbers_of(row.at(3));
   out.values = parameters_from_json(nlohmann::json::parse(row.at(4)));
   out.packing = whole_number_of<std::uint64_t>(row[5]);
-  out.observables = observables_from_json(nlohmann::ordered_json::parse(row.at(6)));
+  out.readings = readings_from_json(nlohmann::ordered_json::parse(row.at(6)));
   out.failure = failure_from_json(nlohmann::json::parse(row.at(7)));
   const auto run = nlohmann::json::parse(row.at(8));
   out.run = run_from_json(run);
@@ -339,7 +339,7 @@ Faults Store::add(const StoredEvaluation& evaluation) {
         "INSERT INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         with_checksum({std::to_string(state_->sequence + 1), evaluation.key, std::to_string(state_->epoch),
                        numbers_text(evaluation.point), parameters_to_json(evaluation.values).dump(),
-                       std::to_string(evaluation.packing), to_json(evaluation.observables).dump(),
+                       std::to_string(evaluation.packing), to_json(evaluation.readings).dump(),
                        to_json(evaluation.failure).dump(), text_of_run(evaluation)}));
     state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
                          {std::to_string(state_->written + 1)});

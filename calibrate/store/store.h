@@ -31,7 +31,7 @@ struct StoredEvaluation {
   std::vector<double> values;      ///< of every parameter, in the order of `parameter_kinds`
   std::uint64_t packing = 0;       ///< packing seed
   int epoch = 0;                   ///< number of the inputs it was made for; set by the store
-  Observables observables;         ///< all readings, measured in the laboratory or not; empty after a failure
+  Readings readings;               ///< all readings, measured in the laboratory or not; empty after a failure
   std::optional<Failure> failure;  ///< why there are no readings
   RunSummary run;
   Sketch sketch;      ///< without points if there is none
@@ -51,7 +51,7 @@ std::string evaluation_key(std::string_view program, const Test& test);
 /// Each evaluation is one transaction: after `add` has returned, it survives the death of the process and of the
 /// machine. Safe to use from several threads; for one process at a time.
 ///
-/// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, observables,
+/// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, readings,
 /// failure, run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, the
 /// parameters by name, those only that do not have their default value; the checksum is of all before it. Table
 /// `set_aside`: rows that were found not to agree with theirs. Table `identity`: the program, and how many evaluations

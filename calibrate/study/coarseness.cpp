@@ -39,7 +39,7 @@ std::vector<std::string> notes_on_tolerances(const Study& study) {
   for (const StudyReading& reading : readings_of(study)) {
     const Test& test = study.tests[reading.test].lab.test;
     const auto own_kinds = reading_kinds(test);
-    const ReadingKind* kind = find_kind(own_kinds, reading.measurement.observable);
+    const ReadingKind* kind = find_kind(own_kinds, reading.measurement.reading);
     // A shift has the tolerance that the standards' rejection of sheared heaps gives it.
     if (reading.weight == 0 || !kind || kind->key.find("lateral_shift") != kind->key.npos) continue;
     const double published = kind->published_deviation;

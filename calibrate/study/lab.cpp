@@ -62,9 +62,9 @@ std::vector<std::string> notes_on_conditions(const Lab& lab) {
   std::vector<std::string> notes;
   const auto kinds = reading_kinds(lab.test);
   for (const Measurement& one : lab.measurements) {
-    const ReadingKind* kind = find_kind(kinds, one.observable);
+    const ReadingKind* kind = find_kind(kinds, one.reading);
     if (!kind || kind->depends_on.empty() || std::ranges::count(lab.stated, kind->depends_on) > 0) continue;
-    notes.push_back(one.observable + " depends on " + std::string(kind->depends_on) +
+    notes.push_back(one.reading + " depends on " + std::string(kind->depends_on) +
                     ", which the file does not state; the preset's is assumed");
   }
   return notes;
@@ -112,7 +112,7 @@ void read_repeats(ObjectReader& document, const Lab& lab, Lab::Repeats& repeats)
   for (const Measurement& one : lab.measurements)
     if (stood > 0 && one.repeats > stood)
       document.fault(
-          "measurements." + one.observable,
+          "measurements." + one.reading,
           "has " + std::to_string(one.repeats) + " repeats, but only " + std::to_string(stood) + " heaps stood",
           "leave out the readings of heaps that sheared off, or count them in \"repeats\"");
 }

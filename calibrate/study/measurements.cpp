@@ -119,15 +119,15 @@ void check_orders(ObjectReader& document, std::span<const ReadingKind> kinds,
   constexpr double sure = 1;  // standard deviations of the difference of two means
   const auto error = [](const Measurement& one) { return one.standard_deviation / std::sqrt(one.repeats); };
   for (const Measurement& smaller : measurements) {
-    for (const Ceiling& ceiling : find_kind(kinds, smaller.observable)->ceilings) {
-      const auto larger = std::ranges::find(measurements, ceiling.name, &Measurement::observable);
+    for (const Ceiling& ceiling : find_kind(kinds, smaller.reading)->ceilings) {
+      const auto larger = std::ranges::find(measurements, ceiling.name, &Measurement::reading);
       if (larger == measurements.end()) continue;
       if (smaller.value - larger->value <= sure * std::hypot(error(smaller), error(*larger))) continue;
       document.fault("measurements",
-                     smaller.observable + " (" + shown(smaller.value) + ") contradicts " + larger->observable + " (" +
+                     smaller.reading + " (" + shown(smaller.value) + ") contradicts " + larger->reading + " (" +
                          shown(larger->value) + "): " + std::string(ceiling.why),
-                     "look for swapped readings: " + smaller.observable + " " + shown(larger->value) + " and " +
-                         larger->observable + " " + shown(smaller.value) +
+                     "look for swapped readings: " + smaller.reading + " " + shown(larger->value) + " and " +
+                         larger->reading + " " + shown(smaller.value) +
                          "; or give standard deviations that allow for the difference");
     }
   }
@@ -194,7 +194,7 @@ std::optional<Measurement> read_yield_stress(ObjectReader& material, const Test&
     return std::nullopt;
   }
   Measurement measurement;
-  measurement.observable = yield_stress_kind.name;
+  measurement.reading = yield_stress_kind.name;
   const bool there = material.object(
       yield_stress_kind.key, Need::optional,
       [&](ObjectReader& reader) { read_one(reader, yield_stress_kind, measurement, questions); },
@@ -231,7 +231,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
         continue;
       }
       Measurement measurement;
-      measurement.observable = kind.measure;
+      measurement.reading = kind.measure;
       const auto read = [&](ObjectReader& one) {
         if (!kind.from_outline) return read_one(one, kind, measurement, questions);
         read_outline(one, kind, test);
@@ -239,7 +239,7 @@ std::vector<Measurement> read_measurements(ObjectReader& document, Test& test,
       };
       if (!reader.object(kind.key, Need::optional, read, form_of(kind, reader.content(kind.key)))) continue;
       if (kind.on_request) ask_for(test, kind);
-      if (!measurements.empty() && measurements.back().observable == kind.measure)
+      if (!measurements.empty() && measurements.back().reading == kind.measure)
         reader.fault(kind.key, std::string(kind.measure) + " and this are one reading", "give one of them");
       if (kind.less_than) measurement.value = *kind.less_than - measurement.value;
       measurements.push_back(std::move(measurement));

@@ -74,7 +74,7 @@ struct Parameter {
 
 /// What a study asks of one measurement.
 struct Target {
-  std::string observable;
+  std::string reading;
   double weight = 1;                               ///< in the fit; 0: reported, not fitted
   std::optional<double> tolerance = std::nullopt;  ///< in the reading's unit; none: see `calibrate/study/tolerance.h`
 };

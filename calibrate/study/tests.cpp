@@ -28,7 +28,7 @@ void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, Set
   const bool unread = lab.measurements.empty();
   for (const ReadingKind& kind : unread ? all_reading_kinds() : reading_kinds(lab.test)) {
     if (kind.key.empty()) continue;
-    const auto target = std::ranges::find(targets, kind.measure, &Target::observable);
+    const auto target = std::ranges::find(targets, kind.measure, &Target::reading);
     double number = 0;
     if (target == targets.end() && !unread && kind.lack) {
       reader.refuse(kind.key, "the laboratory file has no such measurement: " + std::string(kind.lack->what),
@@ -46,7 +46,7 @@ void read_numbers(ObjectReader& reader, StudyTest& test, const Range& range, Set
 /// "weights" and "tolerances".
 void read_targets(ObjectReader& document, StudyTest& test) {
   std::vector<Target>& targets = test.targets;
-  for (const Measurement& measurement : test.lab.measurements) targets.push_back({measurement.observable, 1});
+  for (const Measurement& measurement : test.lab.measurements) targets.push_back({measurement.reading, 1});
   document.object("weights", Need::optional, [&](ObjectReader& reader) {
     read_numbers(reader, test, weights, [](Target& target, double weight) { target.weight = weight; });
     if (!targets.empty() && std::ranges::all_of(targets, [](const Target& target) { return target.weight == 0; }))
@@ -104,8 +104,8 @@ void read_one_of_many(ObjectReader& reader, const json& content, const LabReadin
 
 }  // namespace
 
-std::string reading_name(const StudyTest& test, std::string_view observable) {
-  return (test.name.empty() ? "" : test.name + "/") + std::string(observable);
+std::string reading_name(const StudyTest& test, std::string_view reading) {
+  return (test.name.empty() ? "" : test.name + "/") + std::string(reading);
 }
 
 std::vector<std::size_t> tests_of(const Study& study, bool hold_out) {
@@ -120,7 +120,7 @@ std::vector<StudyReading> readings_of(const Study& study) {
   for (const std::size_t i : tests_of(study, false)) {
     const StudyTest& test = study.tests[i];
     for (std::size_t k = 0; k < test.lab.measurements.size(); ++k)
-      out.push_back({i, reading_name(test, test.lab.measurements[k].observable), test.lab.measurements[k],
+      out.push_back({i, reading_name(test, test.lab.measurements[k].reading), test.lab.measurements[k],
                      test.targets.at(k).weight, tolerance_of(study, i, k)});
   }
   return out;

@@ -22,7 +22,7 @@ struct StudyReading {
 
 /// The name of a test's reading beside those of other tests: "slow/step1.height_mm"; without the test's name if it has
 /// none.
-std::string reading_name(const StudyTest& test, std::string_view observable);
+std::string reading_name(const StudyTest& test, std::string_view reading);
 
 /// Every measurement of the tests that are fitted, in their order.
 std::vector<StudyReading> readings_of(const Study& study);

@@ -26,7 +26,7 @@ using Expected = std::variant<double, AtMost, ByFormula>;
 
 /// One claim of a case.
 struct Check {
-  std::string reading;                       ///< an observable of the impact apparatus; empty with `unchanged_under`
+  std::string reading;                       ///< a reading of the impact apparatus; empty with `unchanged_under`
   std::optional<Transform> unchanged_under;  ///< the same experiment seen from elsewhere ends the same
   Expected expected = 0.0;
   double tolerance = 0;

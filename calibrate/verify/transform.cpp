@@ -74,7 +74,7 @@ void lengthen(Impact& test) {
 
 Vec3 reading(const Outcome& outcome, std::size_t grain, const std::string& what, const std::string& unit) {
   const auto component = [&](const char* axis) {
-    return outcome.observables.find("grain" + std::to_string(grain) + "." + what + "_" + axis + "_" + unit).value_or(0);
+    return outcome.readings.find("grain" + std::to_string(grain) + "." + what + "_" + axis + "_" + unit).value_or(0);
   };
   return {component("x"), component("y"), component("z")};
 }

@@ -89,7 +89,7 @@ Result<CheckRow> compared(const Check& check, const Point& point, const Impact& 
     return without_answer(std::move(row), check,
                           std::string(name_of(outcome.failure->reason)) + ": " + outcome.failure->message);
   if (check.unchanged_under) return compare_views(check, scene, outcome, std::move(row));
-  const auto got = outcome.observables.find(check.reading);
+  const auto got = outcome.readings.find(check.reading);
   if (!got) return without_answer(std::move(row), check, "the test has no such reading");
   row.got = *got;
   judge(check, row);

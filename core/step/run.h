@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 #include "core/result.h"
 #include "core/step/step_options.h"
 
@@ -92,7 +92,7 @@ struct Curve {
 
 /// Readings of a run, or the reason why there are none.
 struct Outcome {
-  Observables observables;
+  Readings readings;
   std::optional<Curve> curve;  ///< of a test that draws one, and came so far
   RunSummary run;
   std::optional<Failure> failure;

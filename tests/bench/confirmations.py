@@ -31,8 +31,8 @@ def near_heaps(paths):
     found = []
     for path in paths:
         store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-        for observables, run in store.execute("SELECT observables, run FROM evaluations WHERE failure = 'null'"):
-            heap, run = json.loads(observables), json.loads(run)
+        for readings, run in store.execute("SELECT observables, run FROM evaluations WHERE failure = 'null'"):
+            heap, run = json.loads(readings), json.loads(run)
             if run["particles"] < 1000 or run["ended_early"]:
                 continue
             if abs(heap["step1.height_mm"] - HEIGHT_MM) < 15 and abs(heap["step1.spread_mm"] - SPREAD_MM) < 25:

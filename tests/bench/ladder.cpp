@@ -177,7 +177,7 @@ Row measure(const Setting& setting, Fills& fills) {
     } else {
       run.readings.emplace();
       for (std::size_t k = 0; k < kReadings.size(); ++k)
-        (*run.readings)[k] = outcome.observables.find(kReadings[k]).value_or(NAN);
+        (*run.readings)[k] = outcome.readings.find(kReadings[k]).value_or(NAN);
     }
     row.runs.push_back(run);
   }

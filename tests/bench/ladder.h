@@ -17,7 +17,7 @@ namespace pastefit {
 /// Readings whose errors are measured, and their names in tables.
 inline constexpr std::array kReadings{"step1.height_mm", "step2.height_mm", "step2.plateau_sag_mm", "step2.spread_mm"};
 inline constexpr std::array kReadingNames{"h1", "h2", "sag", "spread"};
-using Readings = std::array<double, kReadings.size()>;
+using ReadingRow = std::array<double, kReadings.size()>;
 
 /// What is varied: one row of a ladder.
 struct Setting {
@@ -35,7 +35,7 @@ struct Setting {
 /// One run of a setting.
 struct Run {
   std::uint64_t packing_seed = 0;
-  std::optional<Readings> readings;  ///< empty: it failed
+  std::optional<ReadingRow> readings;  ///< empty: it failed
   std::string failure;
   double time_step_s = 0, cpu_s = 0, energy_error = 0;
 };

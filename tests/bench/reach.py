@@ -24,11 +24,11 @@ def heaps(paths):
     for path in paths:
         store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
         rows = store.execute("SELECT observables, run, parameter_values, packing FROM evaluations WHERE failure = 'null'")
-        for observables, run, values, packing in rows:
-            if (observables, values, packing) in seen:
+        for readings, run, values, packing in rows:
+            if (readings, values, packing) in seen:
                 continue
-            seen.add((observables, values, packing))
-            heap, run, values = map(json.loads, (observables, run, values))
+            seen.add((readings, values, packing))
+            heap, run, values = map(json.loads, (readings, run, values))
             if run["particles"] >= FEWEST_GRAINS and not run["ended_early"] and "step2.height_mm" not in heap:
                 yield heap["step1.height_mm"], heap["step1.spread_mm"], heap["step1.lateral_shift_mm"] > SHEARED_MM, values["friction"]
 

@@ -43,8 +43,8 @@ def yield_stress_pa(height_mm):
 def ratios(paths):
     for path in paths:
         store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-        for values, observables, run in store.execute("SELECT parameter_values, observables, run FROM evaluations WHERE failure = 'null'"):
-            height_mm = json.loads(observables).get("step1.height_mm")
+        for values, readings, run in store.execute("SELECT parameter_values, observables, run FROM evaluations WHERE failure = 'null'"):
+            height_mm = json.loads(readings).get("step1.height_mm")
             if height_mm and not json.loads(run)["ended_early"] and HEIGHTS_MM[0] <= height_mm < HEIGHTS_MM[-1]:
                 yield height_mm, json.loads(values)["strength_pa"] / yield_stress_pa(height_mm)
 

@@ -91,7 +91,7 @@ TEST_CASE("a card says what a condition that nobody states moves, and keeps to t
   Engine standing;  // so few grains shear off as they like
   standing.run = [](const Test& test, const RunOptions& options) {
     Outcome outcome = simulate(test, options);
-    if (outcome.observables.find("step1.lateral_shift_mm")) outcome.observables.set("step1.lateral_shift_mm", 0);
+    if (outcome.readings.find("step1.lateral_shift_mm")) outcome.readings.set("step1.lateral_shift_mm", 0);
     return outcome;
   };
   const auto result = calibrate(study, store, {.threads = 1, .engine = standing}).value();

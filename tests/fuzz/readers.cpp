@@ -114,7 +114,7 @@ void row(const fs::path& file) {
     } catch (const std::invalid_argument&) {
     }
   };
-  try_to([&] { to_json(observables_from_json(nlohmann::ordered_json(part("observables")))); });
+  try_to([&] { to_json(readings_from_json(nlohmann::ordered_json(part("observables")))); });
   try_to([&] { to_json(failure_from_json(part("failure"))); });
   try_to([&] { to_json(run_from_json(part("run")), 0); });
   try_to([&] { to_json(sketch_from_json(part("sketch"))); });

@@ -28,11 +28,11 @@ Outcome toy_slump(const SlumpTest& test, const RunOptions&) {
   const auto digits = static_cast<std::uint64_t>(1e12 * bridge.c_n + 1e15 * bridge.offset_m);
   const double height = 300 / (1 + std::exp(-drive)) + 4 * random.normal(digits);
   Outcome outcome;
-  outcome.observables.set("fill.mass_kg", 12.3);
-  outcome.observables.set("fill.solid_fraction", 0.59);
-  outcome.observables.set("step1.height_mm", std::clamp(height, 0.0, 300.0));
-  outcome.observables.set("step1.spread_mm", 600 - height);
-  outcome.observables.set("step1.lateral_shift_mm", 0);
+  outcome.readings.set("fill.mass_kg", 12.3);
+  outcome.readings.set("fill.solid_fraction", 0.59);
+  outcome.readings.set("step1.height_mm", std::clamp(height, 0.0, 300.0));
+  outcome.readings.set("step1.spread_mm", 600 - height);
+  outcome.readings.set("step1.lateral_shift_mm", 0);
   outcome.run.particles = 1;
   outcome.run.settled = true;
   if (random.uniform(digits) < 0.05)

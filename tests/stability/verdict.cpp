@@ -86,7 +86,7 @@ class Witness {
 
 /// Where readings are not what a laboratory can read, or contradict each other; empty if nowhere. Of a heap that was
 /// struck off, by the same table that laboratory files are held against.
-std::string contradiction_in(const Observables& readings, const SlumpTest& test) {
+std::string contradiction_in(const Readings& readings, const SlumpTest& test) {
   constexpr double kRounding = 1e-9;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto value = kind.name == kind.measure ? readings.find(kind.name) : std::nullopt;
@@ -115,12 +115,12 @@ std::string fault_of(const Outcome& outcome, const StressCase& stress) {
   const SlumpTest& test = stress.test;
   const double tall = 1e3 * test.mould.height_m, radius = 1e3 * test.grains.largest_m;
   const double diagonal = 1e3 * std::numbers::sqrt2 * test.table_length_m;
-  const std::vector<std::string> names = observable_names(test);
+  const std::vector<std::string> names = reading_names(test);
   const double squeezed = filling_of(test).resting_overlap;
   // Where one of two drops has left nothing on the plate there is no heap to read.
-  const bool left_the_table = outcome.observables.find("step2.spilled_share").value_or(0) >= 0.5;
-  if (outcome.observables.all().size() != names.size() && !left_the_table) return "readings are missing";
-  for (const Observable& reading : outcome.observables.all()) {
+  const bool left_the_table = outcome.readings.find("step2.spilled_share").value_or(0) >= 0.5;
+  if (outcome.readings.all().size() != names.size() && !left_the_table) return "readings are missing";
+  for (const Reading& reading : outcome.readings.all()) {
     const auto within = [&](double lower, double upper) { return reading.value >= lower && reading.value <= upper; };
     const auto named = [&](const char* part) { return reading.name.find(part) != std::string::npos; };
     bool right = std::isfinite(reading.value);
@@ -138,7 +138,7 @@ std::string fault_of(const Outcome& outcome, const StressCase& stress) {
     if (!right) return reading.name + " = " + number(reading.value) + " is out of range";
   }
   if (stress.enlarged == 0)
-    if (const std::string contradiction = contradiction_in(outcome.observables, test); !contradiction.empty())
+    if (const std::string contradiction = contradiction_in(outcome.readings, test); !contradiction.empty())
       return contradiction;
   if (!(outcome.run.energy_error.value() < kCreated))
     return "energy created: " + number(outcome.run.energy_error.value());
@@ -196,9 +196,9 @@ void judge_run(const StressCase& stress, const Bounds& bounds, StressVerdict& ve
     defect(fault);
   } else {
     verdict.end = "valid";
-    verdict.height1_mm = *outcome.observables.find("step1.height_mm");
-    verdict.height2_mm = outcome.observables.find("step2.height_mm").value_or(0);
-    verdict.spread_mm = *outcome.observables.find("step1.spread_mm");
+    verdict.height1_mm = *outcome.readings.find("step1.height_mm");
+    verdict.height2_mm = outcome.readings.find("step2.height_mm").value_or(0);
+    verdict.spread_mm = *outcome.readings.find("step1.spread_mm");
   }
   if (!witness.complaint().empty()) defect(verdict.end + ", but " + witness.complaint());
 }

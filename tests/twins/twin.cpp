@@ -37,7 +37,7 @@ double true_lead_of(const Twin& twin, const Store& store, const UnitPoint& recom
     for (std::size_t k = 0; k < readings.size(); ++k) {
       if (!readings[k].fitted()) continue;
       for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m)
-        if (twin.study.tests[0].lab.measurements[m].observable == readings[k].name)
+        if (twin.study.tests[0].lab.measurements[m].reading == readings[k].name)
           squares += std::pow((model.predict(k, point).mean - twin.true_readings[m]) / readings[k].deviation, 2);
     }
     if (squares >= least) continue;
@@ -58,7 +58,7 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
   for (std::size_t i = 0; i < values.size(); ++i)
     if (study.parameters[i].free) twin.values.push_back(values[i]);
 
-  std::vector<Observables> runs;
+  std::vector<Readings> runs;
   for (int k = 0; k < recipe.repeats; ++k) {
     Study made = study;
     GrainSizes& grains = specimen_of(made.tests[0].lab.test).grains;
@@ -66,7 +66,7 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
     const auto packing = first_packing + static_cast<std::uint64_t>(1000 * number + k);
     const Outcome outcome = options.engine.run(test_with(made.tests[0].lab.test, values, packing), {});
     if (outcome.failure) return Fault{"twin " + std::to_string(number), outcome.failure->message, "another truth"};
-    runs.push_back(outcome.observables);
+    runs.push_back(outcome.readings);
   }
   const RandomStream ruler(recipe.seed, "ruler");
   for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
@@ -74,14 +74,14 @@ Result<Twin> make_twin(const Study& study, const TwinRecipe& recipe, int number,
     std::vector<double> read;
     double truth = 0, mean = 0, squares = 0;
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      const double value = runs[k].find(measurement.observable).value_or(std::nan(""));
+      const double value = runs[k].find(measurement.reading).value_or(std::nan(""));
       const auto draw = (static_cast<std::uint64_t>(number) * 100 + m) * 100 + k;
-      read.push_back(value + ruler_of(measurement.observable, recipe) * ruler.normal(draw));
+      read.push_back(value + ruler_of(measurement.reading, recipe) * ruler.normal(draw));
       truth += value / recipe.repeats;
       mean += read.back() / recipe.repeats;
     }
     if (!std::isfinite(mean))
-      return Fault{"twin " + std::to_string(number), "gave no " + measurement.observable, "another truth"};
+      return Fault{"twin " + std::to_string(number), "gave no " + measurement.reading, "another truth"};
     for (const double value : read) squares += (value - mean) * (value - mean) / std::max(1, recipe.repeats - 1);
     measurement.value = mean;
     measurement.standard_deviation = std::max(std::sqrt(squares), least_deviation_mm);
@@ -119,7 +119,7 @@ TwinResult calibrate_twin(const Twin& twin, const std::filesystem::path& store_f
   for (std::size_t m = 0; m < twin.study.tests[0].lab.measurements.size(); ++m) {
     if (twin.study.tests[0].targets[m].weight == 0) continue;
     const Measurement& measurement = twin.study.tests[0].lab.measurements[m];
-    const double mean = shown.observables[static_cast<Eigen::Index>(m)];
+    const double mean = shown.readings[static_cast<Eigen::Index>(m)];
     const double error =
         std::sqrt(std::pow(measurement.standard_deviation, 2) / measurement.repeats + squared_standard_error(shown, m));
     result.misses.push_back(std::abs(mean - measurement.value) / error);

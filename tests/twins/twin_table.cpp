@@ -32,7 +32,7 @@ double median_of(Values values) {
 void write_head(std::ostream& csv, const Study& study) {
   csv << "twin,status,simulations,wall_s,determined,lead,lead_error,lead_held";
   for (std::size_t m = 0; m < study.tests[0].lab.measurements.size(); ++m)
-    if (study.tests[0].targets[m].weight > 0) csv << ',' << study.tests[0].lab.measurements[m].observable << ".miss";
+    if (study.tests[0].targets[m].weight > 0) csv << ',' << study.tests[0].lab.measurements[m].reading << ".miss";
   for (const Parameter& parameter : study.parameters)
     if (parameter.free)
       for (const char* what : {"truth", "recommended", "lower", "upper", "lower_known", "upper_known"})

@@ -74,14 +74,14 @@ Outcome drop(const DropTest& test, double tilt_rad, const std::string& stage, co
     outcome.failure->phase = stage;
     return outcome;
   }
-  const Observables& seen = outcome.observables;
+  const Readings& seen = outcome.readings;
   const double touch = height_at_touch(test, tilt_rad), upwards = *seen.find("grain0.velocity_z_m_s");
   double top = seen.find("rebound_top_m").value_or(touch);
   if (upwards > 0) top = std::max(top, *seen.find("grain0.position_z_m") + upwards * upwards / (2 * kGravity));
-  Observables readings;
+  Readings readings;
   readings.set(stage + ".rebound_height_mm", 1e3 * std::max(0.0, top - touch));
   if (tilt_rad > 0) readings.set(stage + ".spin_rad_s", *seen.find("grain0.spin_y_rad_s"));
-  outcome.observables = readings;
+  outcome.readings = readings;
   return outcome;
 }
 
@@ -117,7 +117,7 @@ Outcome simulate(const DropTest& test, const RunOptions& options) {
   const Outcome tilted = drop(test, test.plate_tilt_rad, "tilted", options);
   outcome.run = together(outcome.run, tilted.run);
   outcome.failure = tilted.failure;
-  for (const Observable& reading : tilted.observables.all()) outcome.observables.set(reading.name, reading.value);
+  for (const Reading& reading : tilted.readings.all()) outcome.readings.set(reading.name, reading.value);
   return outcome;
 }
 

@@ -110,10 +110,10 @@ class ImpactRun {
     if (!outcome.failure) outcome.failure = runner_.run(phase, 0.5 * dt_);
     outcome.run = runner_.summary();
     if (outcome.failure) return outcome;
-    record_.read(outcome.observables);
+    record_.read(outcome.readings);
     if (!rotor_time_) return outcome;
-    outcome.observables.set("rotor_time_s", *rotor_time_);
-    outcome.observables.set("rotor_rad_s", rotor_speed_);
+    outcome.readings.set("rotor_time_s", *rotor_time_);
+    outcome.readings.set("rotor_rad_s", rotor_speed_);
     return outcome;
   }
 

@@ -68,7 +68,7 @@ Faults validate(const Impact& test);
 
 /// Runs the impact. Velocities are read at the same moment as positions (the mean of the half steps before and after).
 ///
-/// Observables, i the index of a grain: `grain{i}.{position,velocity,spin}_{x,y,z}_{m,m_s,rad_s}`,
+/// Readings, i the index of a grain: `grain{i}.{position,velocity,spin}_{x,y,z}_{m,m_s,rad_s}`,
 /// `grain{i}.speed_m_s`; of the first grain: `overlap_m` (at the end), `max_overlap_m`, `max_force_n` (all but its
 /// weight), `contact_time_s` (in all), `pull{k}_n` (attraction at the k-th of `pull_gaps_m`, the last time the gap had
 /// this value; absent if it never had), `decay_rate_1_s` (of its swing about where it started, along its first

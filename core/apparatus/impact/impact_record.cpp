@@ -146,7 +146,7 @@ double ImpactRecord::kinetic_energy() const {
   return sum;
 }
 
-void ImpactRecord::read_grains(Observables& readings) const {
+void ImpactRecord::read_grains(Readings& readings) const {
   const auto set = [&](const std::string& grain, const char* what, const char* unit, const Vec3& v) {
     const std::string name = grain + "." + what;
     readings.set(name + "_x_" + unit, v.x);
@@ -163,7 +163,7 @@ void ImpactRecord::read_grains(Observables& readings) const {
   if (n_ > 1) readings.set("relative_speed_m_s", norm(now_[0].velocity - now_[1].velocity));
 }
 
-void ImpactRecord::read(Observables& readings) const {
+void ImpactRecord::read(Readings& readings) const {
   read_grains(readings);
   readings.set("overlap_m", overlap_);
   readings.set("max_overlap_m", max_overlap_);

@@ -6,7 +6,7 @@
 
 #include "core/apparatus/impact/impact.h"
 #include "core/apparatus/impact/swing.h"
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 #include "core/world/world.h"
 
 namespace pastefit {
@@ -30,7 +30,7 @@ class ImpactRecord {
   bool rebound_is_over() const;
 
   /// The readings of `simulate(Impact)` but for those of a rotor.
-  void read(Observables& readings) const;
+  void read(Readings& readings) const;
 
  private:
   /// A grain at the moment to which the last forces belong.
@@ -49,7 +49,7 @@ class ImpactRecord {
   void watch_pulls(double pull);
   void watch_rebound();
   double kinetic_energy() const;
-  void read_grains(Observables& readings) const;
+  void read_grains(Readings& readings) const;
 
   const Impact& test_;
   const World& world_;

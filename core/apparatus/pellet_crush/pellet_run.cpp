@@ -159,8 +159,8 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   outcome.run = filled.run;
   outcome.failure = filled.failure;
   if (outcome.failure) return outcome;
-  outcome.observables.set("die.mass_g", 1e3 * test.bulk_density_kg_m3 * filled.grains.solid_volume_m3);
-  outcome.observables.set("die.solid_fraction", filled.grains.solid_volume_m3 / filled_volume_m3(test));
+  outcome.readings.set("die.mass_g", 1e3 * test.bulk_density_kg_m3 * filled.grains.solid_volume_m3);
+  outcome.readings.set("die.solid_fraction", filled.grains.solid_volume_m3 / filled_volume_m3(test));
 
   const RunOptions options = with_bounds_of(test, asked);
   Pressing pressing(test, filled, options);
@@ -173,9 +173,9 @@ Outcome simulate(const PelletCrush& test, const RunOptions& asked) {
   if (outcome.failure || curve.empty()) return outcome;
 
   const auto peak = std::ranges::max_element(curve, {}, &CurvePoint::y);
-  outcome.observables.set("pellet.height_mm", 1e3 * pressing.pellet_height_m());
-  outcome.observables.set("pellet.dynamic_yield_strength_pa", peak->y);
-  outcome.observables.set("pellet.strain_at_peak", peak->x);
+  outcome.readings.set("pellet.height_mm", 1e3 * pressing.pellet_height_m());
+  outcome.readings.set("pellet.dynamic_yield_strength_pa", peak->y);
+  outcome.readings.set("pellet.strain_at_peak", peak->x);
   outcome.curve = Curve{"stress_strain", "strain", "stress_pa", curve};
   return outcome;
 }

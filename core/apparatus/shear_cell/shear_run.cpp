@@ -172,11 +172,11 @@ void read(const Shearing& shearing, Outcome& outcome) {
   double height = 0;
   for (std::size_t k = steady.first; k < stresses.size(); ++k)
     height += shearing.heights_m()[k] / static_cast<double>(stresses.size() - steady.first);
-  outcome.observables.set("shear.stress_pa", steady.mean);
-  outcome.observables.set("shear.peak_stress_pa", highest_mean(stresses));
-  outcome.observables.set("shear.height_mm", 1e3 * height);
-  outcome.observables.set("shear.stress_error_pa", steady.standard_error);
-  outcome.observables.set("shear.steady_from_mm", steady.first == 0 ? 0 : curve[steady.first].x);
+  outcome.readings.set("shear.stress_pa", steady.mean);
+  outcome.readings.set("shear.peak_stress_pa", highest_mean(stresses));
+  outcome.readings.set("shear.height_mm", 1e3 * height);
+  outcome.readings.set("shear.stress_error_pa", steady.standard_error);
+  outcome.readings.set("shear.steady_from_mm", steady.first == 0 ? 0 : curve[steady.first].x);
   outcome.run.settled = outcome.run.settled && steady.reached;
   outcome.curve = Curve{"shear_stress", "displacement_mm", "stress_pa", curve};
 }
@@ -190,7 +190,7 @@ Outcome simulate(const ShearCell& test, const RunOptions& asked) {
   outcome.failure = filled.failure;
   if (outcome.failure) return outcome;
   const double solid = filled.grains.solid_volume_m3;
-  outcome.observables.set("bed.mass_g", 1e3 * test.bulk_density_kg_m3 * solid);
+  outcome.readings.set("bed.mass_g", 1e3 * test.bulk_density_kg_m3 * solid);
 
   const RunOptions options = with_bounds_of(test, asked);
   Shearing shearing(test, filled, options);
@@ -200,8 +200,8 @@ Outcome simulate(const ShearCell& test, const RunOptions& asked) {
   outcome.run.particle_steps += filled.run.particle_steps;
   if (asked.fixed_wait_s) outcome.run.settled = false;  // nobody looked
   if (outcome.failure || shearing.stress_over_displacement().size() < kIntervals / 2) return outcome;
-  outcome.observables.set("bed.solid_fraction", solid / (area_m2(test) * shearing.pressed_height_m()));
-  outcome.observables.set("bed.height_mm", 1e3 * shearing.pressed_height_m());
+  outcome.readings.set("bed.solid_fraction", solid / (area_m2(test) * shearing.pressed_height_m()));
+  outcome.readings.set("bed.height_mm", 1e3 * shearing.pressed_height_m());
   read(shearing, outcome);
   return outcome;
 }

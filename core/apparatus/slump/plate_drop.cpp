@@ -192,8 +192,8 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
   Outcome outcome;
   outcome.run.settled = true;
   World world = rested;
-  std::vector<Observables> of_sides;
-  Observables after_drops;
+  std::vector<Readings> of_sides;
+  Readings after_drops;
   const int sides = test.drop->motion == TableMotion::hinged ? 2 : 1;  // opposite ones, the hinge is on in turn
   for (int side = 0; side < sides; ++side) {
     RunOptions of_side = options;
@@ -213,8 +213,8 @@ Outcome drop_plate(const SlumpTest& test, const World& rested, const Ruler& rule
     if (outcome.failure) return outcome;
     turn_half_round(world);
   }
-  outcome.observables = mean_of(of_sides);
-  for (const Observable& reading : after_drops.all()) outcome.observables.set(reading.name, reading.value);
+  outcome.readings = mean_of(of_sides);
+  for (const Reading& reading : after_drops.all()) outcome.readings.set(reading.name, reading.value);
   return outcome;
 }
 

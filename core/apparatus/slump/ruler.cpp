@@ -50,7 +50,7 @@ double Ruler::spread_m(const Particles& all) const {
   return std::min(widths(on_table(all), test_.grains.radius_m).mean, widest_m());
 }
 
-void Ruler::read_after_drops(const Particles& all, Observables& readings) const {
+void Ruler::read_after_drops(const Particles& all, Readings& readings) const {
   const Particles grains = on_table(all);
   readings.set("after_drops.spilled_share", 1 - static_cast<double>(grains.count()) / all.count());
   if (grains.count() == 0) return;
@@ -58,7 +58,7 @@ void Ruler::read_after_drops(const Particles& all, Observables& readings) const 
   readings.set("after_drops.spread_mm", 1e3 * spread_m(all));
 }
 
-void Ruler::read(const Particles& all, std::string_view step, Observables& readings) const {
+void Ruler::read(const Particles& all, std::string_view step, Readings& readings) const {
   const Particles grains = on_table(all);
   const double radius = test_.grains.radius_m, rim = test_.mould.height_m;
   const auto set = [&](const char* name, double value) { readings.set(std::string(step) + name, value); };
@@ -90,12 +90,12 @@ void Ruler::read(const Particles& all, std::string_view step, Observables& readi
   set(".plateau_width_mm", 1e3 * plateau_width(side));
 }
 
-double shear_index(const SlumpTest& test, const Observables& readings) {
+double shear_index(const SlumpTest& test, const Readings& readings) {
   const auto shift_mm = readings.find("step1.lateral_shift_mm");
   return shift_mm ? 1e-3 * *shift_mm / (kShearedShift * wider_radius_m(test.mould)) : std::nan("");
 }
 
-bool has_sheared(const SlumpTest& test, const Observables& readings) {
+bool has_sheared(const SlumpTest& test, const Readings& readings) {
   return shear_index(test, readings) > 1;
 }
 

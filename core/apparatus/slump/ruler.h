@@ -5,8 +5,8 @@
 
 #include "core/apparatus/slump/slump_test.h"
 #include "core/observe/heap.h"
-#include "core/observe/observables.h"
 #include "core/observe/outline.h"
+#include "core/observe/readings.h"
 
 namespace pastefit {
 
@@ -21,10 +21,10 @@ class Ruler {
   Ruler(const SlumpTest& test, double roughness_m, const Particles& in_mould);
 
   /// Sets the readings of this step, "step1" or "step2". What a heap does not have is absent: no width of nothing.
-  void read(const Particles& grains, std::string_view step, Observables& readings) const;
+  void read(const Particles& grains, std::string_view step, Readings& readings) const;
 
   /// Sets "after_drops.height_mm", "after_drops.spread_mm" and the share that was spilled.
-  void read_after_drops(const Particles& grains, Observables& readings) const;
+  void read_after_drops(const Particles& grains, Readings& readings) const;
 
   /// Width of the heap, the mean over all directions [m]; at most that of the table.
   double spread_m(const Particles& grains) const;
@@ -54,10 +54,10 @@ class Ruler {
 inline constexpr double kShearedShift = 0.4;
 
 /// Whether the heap sheared off when the mould was lifted; not if its shift is unknown.
-bool has_sheared(const SlumpTest& test, const Observables& readings);
+bool has_sheared(const SlumpTest& test, const Readings& readings);
 
 /// How far the top shifted, over the shift beyond which a heap counts as sheared off; NaN: not read.
-double shear_index(const SlumpTest& test, const Observables& readings);
+double shear_index(const SlumpTest& test, const Readings& readings);
 
 /// The grains that have not left the table.
 Particles on_table(const Particles& grains);

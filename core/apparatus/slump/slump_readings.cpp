@@ -181,7 +181,7 @@ std::vector<ReadingKind> reading_kinds(const SlumpTest& test) {
   return kinds;
 }
 
-std::vector<std::string> observable_names(const SlumpTest& test) {
+std::vector<std::string> reading_names(const SlumpTest& test) {
   std::vector<std::string> names;
   for (const ReadingKind& kind : reading_kinds(test)) {
     const bool curve = kind.name == "step1.spread_curve_mm";

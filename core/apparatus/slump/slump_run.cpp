@@ -45,7 +45,7 @@ class MouldLift {
   bool lost() const { return lost_below_ > 0 && highest_point(world_.particles) < lost_below_; }
 
   /// Step 1 reads beyond what is asked for.
-  bool is_unwanted(const Observables& readings) const {
+  bool is_unwanted(const Readings& readings) const {
     if (!options_.cutoff) return false;
     const double height_mm = readings.find(options_.cutoff->reading).value_or(0);
     return height_mm < options_.cutoff->lowest || height_mm > options_.cutoff->highest;
@@ -124,11 +124,11 @@ void read_times(const SlumpTest& test, const MouldLift& lift, Outcome& outcome) 
   outcome.curve = spreads.curve();
   if (const auto& flow = test.reading.flow) {
     // Without a time the heap has not got so far: its reading is absent.
-    if (const auto time = spreads.time_to(flow->diameter_m)) outcome.observables.set("step1.t500_s", *time);
-    outcome.observables.set("step1.flow_time_s", spreads.time_of_flow());
+    if (const auto time = spreads.time_to(flow->diameter_m)) outcome.readings.set("step1.t500_s", *time);
+    outcome.readings.set("step1.flow_time_s", spreads.time_of_flow());
   }
   if (!test.reading.spread_curve.empty())
-    outcome.observables.set("step1.spread_curve_mm", 1e3 * spreads.rms_difference(test.reading.spread_curve));
+    outcome.readings.set("step1.spread_curve_mm", 1e3 * spreads.rms_difference(test.reading.spread_curve));
 }
 
 void add_up(RunSummary& sum, const RunSummary& part) {
@@ -160,25 +160,25 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options) {
   outcome.failure = filled.failure;
   if (outcome.failure) return outcome;
 
-  outcome.observables.set("fill.mass_kg", test.bulk_density_kg_m3 * volume_m3(test.mould));
-  outcome.observables.set("fill.solid_fraction", filled.solid_volume_m3 / volume_m3(test.mould));
+  outcome.readings.set("fill.mass_kg", test.bulk_density_kg_m3 * volume_m3(test.mould));
+  outcome.readings.set("fill.solid_fraction", filled.solid_volume_m3 / volume_m3(test.mould));
   MouldLift lift(test, filled, options);
   outcome.failure = lift.run();
   outcome.run = lift.summary();
   bool ended_early = lift.lost();
   if (!outcome.failure && !ended_early) {
-    lift.ruler().read(lift.world().particles, "step1", outcome.observables);
+    lift.ruler().read(lift.world().particles, "step1", outcome.readings);
     if (is_timed(test)) read_times(test, lift, outcome);
-    ended_early = lift.is_unwanted(outcome.observables);
+    ended_early = lift.is_unwanted(outcome.readings);
   }
   if (test.drop && !outcome.failure && !ended_early) {
     Outcome drops = drop_plate(test, lift.world(), lift.ruler(), lift.energy_balance(), options);
     outcome.failure = drops.failure;
     outcome.run = together(outcome.run, drops.run);
-    for (const Observable& reading : drops.observables.all()) outcome.observables.set(reading.name, reading.value);
+    for (const Reading& reading : drops.readings.all()) outcome.readings.set(reading.name, reading.value);
     if (drops.curve) {
       drops.curve->points.insert(drops.curve->points.begin(),
-                                 {0, outcome.observables.find("step1.spread_mm").value_or(0)});
+                                 {0, outcome.readings.find("step1.spread_mm").value_or(0)});
       outcome.curve = std::move(drops.curve);
     }
   }

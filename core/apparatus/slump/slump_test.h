@@ -68,7 +68,7 @@ struct FlowTiming {
 using SpreadPoint = std::array<double, 2>;
 
 /// How heights are read from the heap.
-struct Reading {
+struct ReadingMethod {
   HeightReading height = HeightReading::axis;
   double probe_diameter_m = 0.040;
   double sag_window_m = 0.100;  ///< of the top about the axis, over which its sag after step 2 is read
@@ -89,7 +89,7 @@ struct SlumpTest : Specimen {
   double lift_velocity_m_s = 0.1;
   double table_length_m = 0.700;  ///< side of the square table (and of the plate)
   std::optional<DropPlate> drop;
-  Reading reading;
+  ReadingMethod reading;
 
   WallContact mould_wall{1e9, 0.3, 0.3, 0.1, 0.0, 0.0};
   WallContact table_wall{1e9, 0.3, 0.3, 0.5, 0.1, 0.0};
@@ -123,10 +123,10 @@ inline constexpr std::array<Dimension<DropPlate>, 4> plate_dimensions{{
 inline constexpr std::array<Dimension<DropPlate>, 1> rhythm_dimensions{{
     {"period_s", &DropPlate::period_s, 0.02, 60, "from one drop to the next, of several; default 2", true},
 }};
-inline constexpr std::array<Dimension<Reading>, 2> reading_dimensions{{
-    {"probe_diameter_m", &Reading::probe_diameter_m, 1e-6, 4, "of the disc over which a height at the axis is taken",
-     true},
-    {"sag_window_m", &Reading::sag_window_m, 1e-6, 10,
+inline constexpr std::array<Dimension<ReadingMethod>, 2> reading_dimensions{{
+    {"probe_diameter_m", &ReadingMethod::probe_diameter_m, 1e-6, 4,
+     "of the disc over which a height at the axis is taken", true},
+    {"sag_window_m", &ReadingMethod::sag_window_m, 1e-6, 10,
      "width about the axis over which the sag of the plateau is taken", true},
 }};
 inline constexpr std::array<Dimension<FlowTiming>, 1> flow_dimensions{{
@@ -150,6 +150,6 @@ Faults validate(const SlumpTest& test);
 Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
 
 /// The names of all readings the test will have, in order (with or without step 2).
-std::vector<std::string> observable_names(const SlumpTest& test);
+std::vector<std::string> reading_names(const SlumpTest& test);
 
 }  // namespace pastefit

@@ -35,7 +35,7 @@ class WatchedEngine {
  public:
   explicit WatchedEngine(const Study& study) {
     for (const Measurement& measurement : study.tests.at(0).lab.measurements)
-      if (measurement.observable == "step1.height_mm") target_m_ = 1e-3 * measurement.value;
+      if (measurement.reading == "step1.height_mm") target_m_ = 1e-3 * measurement.value;
   }
 
   Outcome run(const SlumpTest& test, const RunOptions& asked) {
@@ -102,7 +102,7 @@ CalibrationCost calibrate(const Study& study, const SearchOptions& options, cons
   cost.simulation_s = cost.core_s / std::max(1, calibration.simulations);
   cost.status = calibration.status;
   if (calibration.confirmation.point.size() > 0)
-    cost.confirmed_mm = calibration.confirmation.normalised_error * study.search.tolerance_mm.value_or(1);
+    cost.confirmed_mm = calibration.confirmation.error * study.search.tolerance_mm.value_or(1);
   engine.tell(cost);
   return cost;
 }

@@ -65,8 +65,8 @@ TestAnswer answer_ours(const Bed& fill) {
   TestAnswer answer;
   answer.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   if (outcome.failure) throw std::runtime_error("our test failed: " + outcome.failure->message);
-  answer.step1_height_mm = outcome.observables.find("step1.height_max_mm").value();
-  answer.step2_height_mm = outcome.observables.find("step2.height_max_mm").value();
+  answer.step1_height_mm = outcome.readings.find("step1.height_max_mm").value();
+  answer.step2_height_mm = outcome.readings.find("step2.height_max_mm").value();
   return answer;
 }
 

@@ -34,9 +34,9 @@ Card card() {
   out.material.grain_density_kg_m3 = 2238 / 0.6;
   out.material.grains = specimen_of(test.test).grains;
   out.material.contact = specimen_of(test.test).contact;
-  test.observables = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
+  test.readings = {{"step1.height_mm", 151.3, 2.5, 150.0, 7.5, 3, 1, 5}, {"step1.spread_mm", 400, 4, {}, 0, 0, 0}};
   out.confirmation = {{18446744073709551615u, 9007199254740993u, 3, 4}, true, 0.26, true};
-  for (CardObservable& one : test.observables) one.packings = 4;
+  for (CardReading& one : test.readings) one.packings = 4;
   out.search = {"default", "confirmed", "It fits.", 42, {1, 2}, 60, 38, {{"never_settled", 2}}};
   out.provenance = {"study.json", "0123456789abcdef", "pastefit 0.1.0 engine 00"};
   test.lab_file = "lab.json";
@@ -46,7 +46,7 @@ Card card() {
   test.baseline.program = out.provenance.program;
   test.baseline.machine = "x86_64 glibc 2.36";
   for (const std::uint64_t packing : {3, 4}) {
-    Observables readings;
+    Readings readings;
     readings.set("step1.height_mm", 150 + 1.0 / static_cast<double>(packing));
     test.baseline.runs.push_back({packing, readings});
   }
@@ -103,7 +103,7 @@ TEST_CASE("a card states differences and standard errors") {
 
 TEST_CASE("a card keeps of how many packings a reading is where a laboratory would reject the others") {
   Card material = card();
-  material.tests[0].observables[0].packings = 3;
+  material.tests[0].readings[0].packings = 3;
   const auto document = to_json(material);
   const auto& readings = document["tests"][0]["readings"];
   CHECK(readings["step1.height_mm"]["packings"] == 3);
@@ -111,8 +111,8 @@ TEST_CASE("a card keeps of how many packings a reading is where a laboratory wou
   CHECK_FALSE(readings["step1.spread_mm"].contains("packings"));
   const auto read = card_from_json(document);
   REQUIRE(read.ok());
-  CHECK(read.value().tests[0].observables[0].packings == 3);
-  CHECK(read.value().tests[0].observables[1].packings == 4);
+  CHECK(read.value().tests[0].readings[0].packings == 3);
+  CHECK(read.value().tests[0].readings[1].packings == 4);
   CHECK_THAT(verdict_of(material), Catch::Contains("(mean of 3 of 4 packings)"));
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
   CHECK_THAT(verdict_of(material), Catch::Contains("Readings met; "));
   CHECK(card_from_json(text_and_back(to_json(material))).value().confirmation.refuted);
   material.confirmation.refuted = false;
-  material.confirmation.misfit = 1.04;
+  material.confirmation.error = 1.04;
   CHECK_THAT(verdict_of(material), Catch::Contains("does not meet"));
   material.confirmation.fresh = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));
@@ -189,14 +189,14 @@ TEST_CASE(
     "people are told the misfit in mm where all that is fitted are lengths of one tolerance, else in tolerances") {
   auto material = card();
   CHECK_THAT(verdict_of(material), Catch::Contains("largest error 1.30 mm of the 5 mm allowed (mean of 4 packings)"));
-  material.tests[0].observables.push_back({"fill.mass_kg", 9.1, 0.1, 9.0, 0.1, 1, 0, 0.1});
+  material.tests[0].readings.push_back({"fill.mass_kg", 9.1, 0.1, 9.0, 0.1, 1, 0, 0.1});
   CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));  // the mass is not fitted
-  material.tests[0].observables.back().weight = 1;
-  material.tests[0].observables.back().packings = 4;
+  material.tests[0].readings.back().weight = 1;
+  material.tests[0].readings.back().packings = 4;
   CHECK_THAT(verdict_of(material), Catch::Contains("largest error 0.26 of its tolerance (mean of 4 packings)"));
-  material.tests[0].observables.back() = {"step2.height_mm", 90, 2, 91, 7, 1, 1, 5};
+  material.tests[0].readings.back() = {"step2.height_mm", 90, 2, 91, 7, 1, 1, 5};
   CHECK_THAT(verdict_of(material), Catch::Contains("1.30 mm"));
-  material.tests[0].observables.back().tolerance = 2;
+  material.tests[0].readings.back().tolerance = 2;
   CHECK_THAT(verdict_of(material), Catch::Contains("of its tolerance"));
 }
 
@@ -208,8 +208,8 @@ TEST_CASE("the summary counts the packings that sheared off, with the mean with 
   for (const auto& [height, shift] : {std::pair{90.0, 12.0}, {94.0, 18.0}, {110.0, 55.0}}) {
     Baseline::Run run;
     run.packing = runs.size() + 1;
-    run.observables.set("step1.height_mm", height);
-    run.observables.set("step1.lateral_shift_mm", shift);
+    run.readings.set("step1.height_mm", height);
+    run.readings.set("step1.lateral_shift_mm", shift);
     runs.push_back(run);
   }
   CHECK_THAT(summary_of(material),
@@ -344,11 +344,11 @@ TEST_CASE("the other tests of a study, its hold-outs and what was known beforeha
   fitted.lab_hash = "00000000000000aa";
   fitted.test = written.tests[0].test;
   std::get<SlumpTest>(fitted.test).mould.height_m = 0.2;
-  fitted.observables = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1, 5}};
+  fitted.readings = {{"step1.height_mm", 80, 2, 83.0, 4, 3, 1, 5}};
   CardTest held = fitted;
   held.name = "fast";
   held.hold_out = true;
-  held.observables[0].band = 1.5;
+  held.readings[0].band = 1.5;
   held.within_noise = false;
   written.tests.push_back(fitted);
   written.tests.push_back(held);
@@ -408,7 +408,7 @@ TEST_CASE("a card carried to another grain size is the same law in scale-free nu
   CHECK(after.material.contact.bridge.d_c_m == Approx(expected.bridge.d_c_m));
   CHECK(after.material.contact.bridge.offset_m == Approx(expected.bridge.offset_m));
   CHECK(*after.material.contact.cohesion_n == Approx(*expected.cohesion_n));
-  CHECK(after.tests[0].observables.empty());
+  CHECK(after.tests[0].readings.empty());
   CHECK_FALSE(after.confirmation.meets_laboratory);
   CHECK_FALSE(rescaled(before, 0.1).ok());
 }

@@ -70,7 +70,7 @@ Card quick_card(std::vector<double> heights) {
   card.tests[0].baseline.program = "here";
   std::uint64_t packing = 10;
   for (const double height : heights) {
-    Observables readings;
+    Readings readings;
     readings.set("step1.height_axis_mm", height);
     card.tests[0].baseline.runs.push_back({packing++, readings});
   }
@@ -83,7 +83,7 @@ CheckEngine quick_engine(const std::string& program, std::vector<double> heights
   engine.prepare = [](const Test&, const RunOptions&) { return nullptr; };
   engine.run = of_slump([heights](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
-    outcome.observables.set("step1.height_axis_mm", heights.at(test.packing_seed - 10));
+    outcome.readings.set("step1.height_axis_mm", heights.at(test.packing_seed - 10));
     return outcome;
   });
   return engine;
@@ -98,12 +98,12 @@ TEST_CASE("every test of a card is checked, and a reading carries the name of it
   lower.name = "low";
   lower.test = card.tests[0].test;
   std::get<SlumpTest>(lower.test).mould.height_m *= 0.9;
-  CardObservable low;
+  CardReading low;
   low.name = "step1.height_axis_mm";
   low.simulated = 50;
   low.simulated_standard_deviation = 1;
   low.packings = 2;
-  lower.observables.push_back(low);
+  lower.readings.push_back(low);
   card.confirmation.packings = {10, 11};
   card.tests.push_back(lower);
   const double height = std::get<SlumpTest>(card.tests[0].test).mould.height_m;
@@ -113,7 +113,7 @@ TEST_CASE("every test of a card is checked, and a reading carries the name of it
     engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
       const double own = test.mould.height_m < height ? read : 100;
       Outcome outcome;
-      outcome.observables.set("step1.height_axis_mm", own + static_cast<double>(test.packing_seed - 10));
+      outcome.readings.set("step1.height_axis_mm", own + static_cast<double>(test.packing_seed - 10));
       return outcome;
     });
     return engine;
@@ -125,7 +125,7 @@ TEST_CASE("every test of a card is checked, and a reading carries the name of it
   const auto again = rebaselined(card, "as it should be", 2, {}, engine_with(250));
   REQUIRE(again.ok());
   CHECK(again.value().tests[1].baseline.runs.size() == 2);
-  CHECK(again.value().rebaselined.back().moved.back().observable == "low/step1.height_axis_mm");
+  CHECK(again.value().rebaselined.back().moved.back().reading == "low/step1.height_axis_mm");
   CHECK(check(again.value(), {}, engine_with(250)).bits == SameBits::same);
   CHECK(check(again.value(), {}, engine_with(251)).bits == SameBits::other);
   const auto read = card_from_json(to_json(again.value()));
@@ -139,16 +139,16 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   CardTest lower;
   lower.name = "low";
   lower.test = card.tests[0].test;
-  CardObservable low;
+  CardReading low;
   low.name = "step1.height_axis_mm";
   low.measured = 48;
   low.weight = 1;
   low.tolerance = 5;
-  lower.observables.push_back(low);
-  CardObservable met = low;  // the misfit is that of the worst reading, not a mean
+  lower.readings.push_back(low);
+  CardReading met = low;  // the error is that of the worst reading, not a mean
   met.name = "step1.height_max_mm";
   met.measured = 60;
-  lower.observables.push_back(met);
+  lower.readings.push_back(met);
   card.tests.push_back(lower);
   const double radius = 1.25 * card.material.grains.radius_m;
   const auto carried = rescaled(card, radius);
@@ -156,21 +156,21 @@ TEST_CASE("a card of several tests is carried to other grains in all of them") {
   CHECK(specimen_of(carried.value().tests[1].test).grains.radius_m == Approx(radius));
   CHECK(specimen_of(carried.value().tests[1].test).contact.bridge.c_n ==
         Approx(1.25 * 1.25 * card.material.contact.bridge.c_n));
-  CHECK(carried.value().tests[1].observables.empty());
+  CHECK(carried.value().tests[1].readings.empty());
 
   CheckEngine engine = quick_engine("here", {});
   engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
-    outcome.observables.set("step1.height_max_mm", 60);
-    outcome.observables.set("step1.height_axis_mm", 50 + 1000 * (test.grains.radius_m - 0.012));
+    outcome.readings.set("step1.height_max_mm", 60);
+    outcome.readings.set("step1.height_axis_mm", 50 + 1000 * (test.grains.radius_m - 0.012));
     return outcome;
   });
   const auto measured = with_measured_bias(card, carried.value(), 2, {}, engine);
   REQUIRE(measured.ok());
   const Rescaling::Bias bias = measured.value().rescaled.back().bias.back();
-  CHECK(bias.observable == "low/step1.height_axis_mm");
+  CHECK(bias.reading == "low/step1.height_axis_mm");
   CHECK(bias.after - bias.before == Approx(3));
-  CHECK(measured.value().confirmation.misfit == Approx(1));
+  CHECK(measured.value().confirmation.error == Approx(1));
 }
 
 TEST_CASE("the noise of 24 packings shows bridges 20 % stronger, friction dropped, and a plate dropped twice",
@@ -229,7 +229,7 @@ TEST_CASE("another program may give other bits within the noise, unless bits are
 TEST_CASE("a card without single runs is checked by mean and deviation, one without noise not at all") {
   Card card = quick_card({});
   card.confirmation.packings = {10, 11, 12, 13};
-  card.tests[0].observables = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
+  card.tests[0].readings = {{"step1.height_axis_mm", 101, 2.6, {}, 0, 0, 0}};
   const auto engine = quick_engine("elsewhere", {100, 104, 98, 102});
   const auto checked = check(card, {}, engine);
   CHECK(checked.verdict == CheckVerdict::agrees);
@@ -247,7 +247,7 @@ TEST_CASE("a simulation that fails is a disagreement that names packing and reas
       outcome.failure = Failure{};
       outcome.failure->message = "It burst.";
     }
-    outcome.observables.set("step1.height_axis_mm", 100);
+    outcome.readings.set("step1.height_axis_mm", 100);
     return outcome;
   });
   const auto checked = check(card, {}, engine);
@@ -261,7 +261,7 @@ TEST_CASE("a new baseline keeps the packings, adds fresh ones, and records why a
   CheckEngine engine = quick_engine("there", {});
   engine.run = of_slump([](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
-    outcome.observables.set("step1.height_axis_mm", 110 + 0.1 * static_cast<double>(test.packing_seed));
+    outcome.readings.set("step1.height_axis_mm", 110 + 0.1 * static_cast<double>(test.packing_seed));
     return outcome;
   });
   const auto made = rebaselined(card, "the plate was mended", 4, {}, engine);
@@ -300,8 +300,8 @@ TEST_CASE("the bias of another grain size is measured, with its error") {
   CheckEngine engine = quick_engine("here", {});
   engine.run = of_slump([](const SlumpTest& test, const RunOptions&) {
     Outcome outcome;
-    outcome.observables.set("step1.height_axis_mm",
-                            1e4 * test.grains.radius_m + static_cast<double>(test.packing_seed % 2));
+    outcome.readings.set("step1.height_axis_mm",
+                         1e4 * test.grains.radius_m + static_cast<double>(test.packing_seed % 2));
     return outcome;
   });
   const auto measured = with_measured_bias(before, after.value(), 4, {}, engine);
@@ -314,12 +314,12 @@ TEST_CASE("the bias of another grain size is measured, with its error") {
 
 TEST_CASE("a card for other grains is judged as in a search: by its readings, and by the heaps that sheared off") {
   Card before = quick_card({100, 104});
-  CardObservable height;
+  CardReading height;
   height.name = "step1.height_axis_mm";
   height.measured = 60;
   height.weight = 1;
   height.tolerance = 5;
-  before.tests[0].observables = {height};
+  before.tests[0].readings = {height};
   const auto after = rescaled(before, 0.006);
   REQUIRE(after.ok());
   const auto judged = [&](double height_mm, std::uint64_t sheared) {
@@ -327,8 +327,8 @@ TEST_CASE("a card for other grains is judged as in a search: by its readings, an
     engine.run = of_slump([=](const SlumpTest& test, const RunOptions&) {
       Outcome outcome;
       const std::uint64_t packing = test.packing_seed - 70'001;
-      outcome.observables.set("step1.height_axis_mm", height_mm + static_cast<double>(packing % 2));
-      outcome.observables.set("step1.lateral_shift_mm", packing < sheared ? 300 : 5 + static_cast<double>(packing % 3));
+      outcome.readings.set("step1.height_axis_mm", height_mm + static_cast<double>(packing % 2));
+      outcome.readings.set("step1.lateral_shift_mm", packing < sheared ? 300 : 5 + static_cast<double>(packing % 3));
       return outcome;
     });
     const auto card = with_measured_bias(before, after.value(), 8, {}, engine);
@@ -338,7 +338,7 @@ TEST_CASE("a card for other grains is judged as in a search: by its readings, an
   CHECK(judged(60, 0).meets_laboratory);
   CHECK_FALSE(judged(60, 4).meets_laboratory);
   CHECK(judged(60, 4).refuted);
-  CHECK(judged(60, 4).misfit < 1);
+  CHECK(judged(60, 4).error < 1);
   CHECK_FALSE(judged(60, 7).meets_laboratory);
   CHECK(judged(80, 0).refuted);
   CHECK_FALSE(judged(62, 0).refuted);

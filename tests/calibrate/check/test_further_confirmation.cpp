@@ -11,7 +11,7 @@ namespace {
 Card card_of_height() {
   Card card;
   card.tests.emplace_back().test = SlumpTest{};
-  CardObservable height;
+  CardReading height;
   height.name = "step1.height_axis_mm";
   height.simulated = 100;
   height.simulated_standard_deviation = 3;
@@ -19,7 +19,7 @@ Card card_of_height() {
   height.measured = 101;
   height.weight = 1;
   height.tolerance = 5;
-  card.tests[0].observables = {height};
+  card.tests[0].readings = {height};
   return card;
 }
 
@@ -27,7 +27,7 @@ Card card_of_height() {
 EngineRuns runs_of_heights(const std::vector<double>& heights, std::size_t sheared = 0) {
   EngineRuns runs{"lammps", "LAMMPS (1)", {}, 2, 10, 20};
   for (const double height : heights) {
-    Observables readings;
+    Readings readings;
     readings.set("step1.height_axis_mm", height);
     readings.set("step1.lateral_shift_mm",
                  runs.runs.size() < sheared ? 90 : 5 + static_cast<double>(runs.runs.size() % 3));
@@ -47,7 +47,7 @@ TEST_CASE("the bias of another engine is the difference of the means, with the n
   CHECK(there.readings[0].bias() == 5);
   const double variance = 20.0 / 3;  // of 102, 104, 106, 108
   CHECK(*there.readings[0].standard_error == Approx(std::sqrt(variance / 4 + 9.0 / 9)));
-  CHECK(*there.misfit == Approx(4.0 / 5));
+  CHECK(*there.error == Approx(4.0 / 5));
   CHECK(there.packings == std::vector<std::uint64_t>{1, 2, 3, 4});
   CHECK(there.core_s == 20);
   CHECK(there.meets_laboratory);
@@ -70,7 +70,7 @@ TEST_CASE("a material half of whose heaps shear off in another engine does not m
   const auto meets = [&](std::size_t sheared) {
     const auto runs = runs_of_heights({101, 101.5, 101, 101.5, 101, 101.5, 101, 101.5}, sheared);
     const auto there = further_confirmation(card, card.tests[0], card.tests[0].test, runs);
-    CHECK(*there.misfit < 1);
+    CHECK(*there.error < 1);
     return there.meets_laboratory;
   };
   CHECK(meets(0));
@@ -80,10 +80,10 @@ TEST_CASE("a material half of whose heaps shear off in another engine does not m
 
 TEST_CASE("the bias against one packing has no standard error, and a test that is held out has no verdict") {
   Card card = card_of_height();
-  card.tests[0].observables[0].packings = 1;
+  card.tests[0].readings[0].packings = 1;
   card.tests[0].hold_out = true;
   const auto there = further_confirmation(card, card.tests[0], card.tests[0].test, runs_of_heights({101, 102}));
   CHECK_FALSE(there.readings[0].standard_error.has_value());
-  CHECK_FALSE(there.misfit.has_value());
+  CHECK_FALSE(there.error.has_value());
   CHECK_FALSE(there.meets_laboratory);
 }

@@ -27,9 +27,9 @@ TEST_CASE("the sketch of a slump test is its heap as it came to rest") {
   double top_mm = 0;
   for (const auto& [x, z] : sketch.points) top_mm = std::max(top_mm, z);
   // A sketch is taken every 0.1 s, and the raw surface lies below the reading by the roughness of the packing.
-  CHECK(top_mm == Approx(*outcome.observables.find("step1.height_max_mm")).margin(8));
+  CHECK(top_mm == Approx(*outcome.readings.find("step1.height_max_mm")).margin(8));
   const double width_mm = sketch.points.back()[0] - sketch.points.front()[0];
-  CHECK(width_mm == Approx(*outcome.observables.find("step1.spread_mm")).epsilon(0.25));
+  CHECK(width_mm == Approx(*outcome.readings.find("step1.spread_mm")).epsilon(0.25));
 }
 
 TEST_CASE("the sketch of a test that draws a curve is that curve, thinned") {

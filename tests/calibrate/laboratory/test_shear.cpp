@@ -66,7 +66,7 @@ TEST_CASE("faults of a shear cell are named in the words of its file, all in one
 }
 
 TEST_CASE("beds whose stress is not steady are told of") {
-  Observables steady, changing;
+  Readings steady, changing;
   steady.set("shear.steady_from_mm", 1);
   changing.set("shear.steady_from_mm", 7);
   const ShearCell test;

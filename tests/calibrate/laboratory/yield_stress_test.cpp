@@ -98,7 +98,7 @@ TEST_CASE("a yield stress predicts a height, a spread only where the cake is fla
 TEST_CASE("what a yield stress predicts says that yield stress when it is read") {
   const SlumpTest cone = abrams_cone();
   for (const double stress_pa : {50.0, 100.0, 300.0, 1200.0}) {
-    Observables readings;
+    Readings readings;
     const std::vector<PredictedReading> predicted = readings_of_fluid(cone, stress_pa).value();
     for (const PredictedReading& one : predicted) {
       CHECK(one.standard_deviation > 0);
@@ -151,7 +151,7 @@ TEST_CASE("the heights that concretes keep are within two deviations of what the
 
 TEST_CASE("the formula of the spread is marked where the heap is no flat cake") {
   const auto formula_at = [](double height_mm) {
-    Observables readings;
+    Readings readings;
     readings.set("step1.height_mm", height_mm);
     readings.set("step1.spread_mm", 350);
     return std::string(yield_stresses_of(abrams_cone(), readings).back().formula);

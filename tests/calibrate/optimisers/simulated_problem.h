@@ -24,7 +24,7 @@ inline Problem simulated_problem(Objective& simulations, std::span<const std::ui
     std::vector<Answer> answers;
     for (const Response& response : simulations.evaluate(points, packings))
       answers.push_back({response.point, response.misfit, response.residuals, !is_feasible(response),
-                         goal > 0 && response.normalised_error <= goal});
+                         goal > 0 && response.error <= goal});
     return answers;
   };
   problem.refuses = [&simulations, packings](int points) -> std::optional<Problem::Refusal> {

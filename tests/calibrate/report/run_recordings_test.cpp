@@ -42,7 +42,7 @@ TEST_CASE("what was seen during a search is shown without simulating it again") 
   REQUIRE(view.runs.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(view.runs[i].packing == packings[i]);
-    CHECK(view.runs[i].readings.find("step1.height_mm") == outcomes[i].observables.find("step1.height_mm"));
+    CHECK(view.runs[i].readings.find("step1.height_mm") == outcomes[i].readings.find("step1.height_mm"));
     CHECK(view.runs[i].outlines.contains("step1"));
   }
 

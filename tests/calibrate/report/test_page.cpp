@@ -35,7 +35,7 @@ TEST_CASE("a page is made of a card alone, and says what it lacks") {
   CHECK_THAT(findings.missing[0], Catch::Contains("The simulations of the search are not shown"));
   const auto content = page_content(findings, "pastefit report somewhere");
   CHECK(content.at("verdict").at("meets_laboratory") == true);
-  CHECK(content.at("tests")[0].at("readings").size() == findings.card->tests[0].observables.size());
+  CHECK(content.at("tests")[0].at("readings").size() == findings.card->tests[0].readings.size());
   CHECK(content.at("search").at("history").empty());
 }
 
@@ -51,9 +51,9 @@ TEST_CASE("a page tells what each packing read, and the error of a mean over sev
   };
   const CardTest& test = findings.card->tests[0];
   CHECK(reading().at("packings").size() == findings.card->confirmation.packings.size());
-  CHECK(reading().at("packings")[1] == *test.baseline.runs[1].observables.find(height));
+  CHECK(reading().at("packings")[1] == *test.baseline.runs[1].readings.find(height));
   CHECK(reading().at("standard_error") > 0);
-  for (CardObservable& one : findings.card->tests[0].observables) one.packings = 1;
+  for (CardReading& one : findings.card->tests[0].readings) one.packings = 1;
   CHECK_FALSE(reading().contains("standard_error"));
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("a look at a test has its film, and the readings and outlines of every
   const TestView view = view_of(of_card, packings, 2, [] { return true; });
   REQUIRE(view.runs.size() == 2);
   test.packing_seed = 6;
-  CHECK(view.runs[1].readings.find("step1.height_mm") == simulate(test).observables.find("step1.height_mm"));
+  CHECK(view.runs[1].readings.find("step1.height_mm") == simulate(test).readings.find("step1.height_mm"));
   CHECK(view.runs[0].outlines.contains("step1"));
   CHECK(view.lacking == 0);
   CHECK(view.program == program_identity());

@@ -35,8 +35,8 @@ const TypeInRow& row_of(const std::vector<TypeInGroup>& groups, const std::strin
 Card without_reservations() {
   Card card = shipped("concrete-mix-79");
   for (auto& parameter : card.material.parameters) parameter.free = false;
-  for (auto& run : card.tests[0].baseline.runs) run.observables.set("step1.lateral_shift_mm", 5);
-  for (auto& one : card.tests[0].observables)
+  for (auto& run : card.tests[0].baseline.runs) run.readings.set("step1.lateral_shift_mm", 5);
+  for (auto& one : card.tests[0].readings)
     if (one.measured) one.simulated = *one.measured;
   return card;
 }
@@ -98,12 +98,12 @@ TEST_CASE("a verdict has no reservation where nothing speaks against the card") 
 
 TEST_CASE("heaps that sheared off, a parameter at its bound and a marginal reading are reservations of the verdict") {
   Card card = without_reservations();
-  card.tests[0].baseline.runs[0].observables.set("step1.lateral_shift_mm", 55);
+  card.tests[0].baseline.runs[0].readings.set("step1.lateral_shift_mm", 55);
   auto& strength = card.material.parameters[0];
   strength.free = true;
   strength.lower = strength.value;
   strength.upper = 10 * strength.value;
-  for (auto& one : card.tests[0].observables)
+  for (auto& one : card.tests[0].readings)
     if (one.name == "step1.height_mm") one.simulated = *one.measured + 0.95 * one.tolerance;
   const auto reservations = reservations_on(card);
   REQUIRE(reservations.size() == 3);
@@ -139,7 +139,7 @@ TEST_CASE("a fitted friction that no grains have is a reservation that says what
 TEST_CASE("the readings of a single packing have no error") {
   Card card = without_reservations();
   card.confirmation.packings = {1};
-  for (auto& one : card.tests[0].observables) {
+  for (auto& one : card.tests[0].readings) {
     one.simulated_standard_deviation = 0;
     one.packings = 1;
   }

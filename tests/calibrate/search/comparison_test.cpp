@@ -35,18 +35,18 @@ TEST_CASE("strategies are compared with the same budget and judged on the same p
   for (const StrategyTrial& trial : trials) {
     CAPTURE(trial.strategy, trial.seed);
     CHECK(trial.simulations <= 60);
-    CHECK(trial.normalised_error.size() == static_cast<std::size_t>(trial.simulations));
+    CHECK(trial.errors.size() == static_cast<std::size_t>(trial.simulations));
     CHECK(trial.judged >= 0);
     CHECK(trial.judged < 10);  // two tolerances
   }
-  CHECK(trials[0].normalised_error[7] == trials[1].normalised_error[7]);  // the screening is the same
+  CHECK(trials[0].errors[7] == trials[1].errors[7]);  // the screening is the same
 }
 
 TEST_CASE("a comparison is repeated exactly") {
   const auto once = compare_strategies(fake, options_for({"default"}));
   const auto again = compare_strategies(fake, options_for({"default"}));
   for (std::size_t i = 0; i < once.size(); ++i) {
-    CHECK(once[i].normalised_error == again[i].normalised_error);
+    CHECK(once[i].errors == again[i].errors);
     CHECK(once[i].judged == again[i].judged);
   }
 }
@@ -71,7 +71,7 @@ TEST_CASE("rows are ordered by what was confirmed, then by what it cost, and dra
   CHECK(rows[0].strategy == "cheap");
   CHECK(rows[1].strategy == "good");
   CHECK(rows[2].judged == -1);
-  const std::string figure = misfit_figure(rows, MisfitUnit{5.0}, "title");
+  const std::string figure = misfit_figure(rows, ErrorUnit{5.0}, "title");
   CHECK(figure.find("<svg") == 0);
   CHECK(figure.find("cheap") != std::string::npos);
   CHECK(figure.find("nan") == std::string::npos);
@@ -92,7 +92,7 @@ TEST_CASE("no strategy hangs, loses its best or confirms what fails, whatever fa
       CHECK(calibration.simulations == objective.simulations);
       if (calibration.best.point.size() == 0) continue;
       CHECK(is_feasible(calibration.best));
-      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.normalised_error <= 1);
+      if (calibration.status == CalibrationStatus::confirmed) CHECK(calibration.confirmation.error <= 1);
     }
   }
 }

@@ -123,7 +123,7 @@ TEST_CASE("a mean within the tolerance that may be luck is told so when the budg
     const Calibration calibration = search(objective, options);
     CHECK(calibration.status != CalibrationStatus::confirmed);
     const Response& told = calibration.confirmation;
-    if (told.point.size() == 0 || told.normalised_error > 1 || told.noise <= 1) continue;
+    if (told.point.size() == 0 || told.error > 1 || told.noise <= 1) continue;
     ++luck;
     CHECK(calibration.reason.find("scatter too much") != std::string::npos);
     CHECK(calibration.reason.find("more than the tolerance") == std::string::npos);
@@ -136,7 +136,7 @@ TEST_CASE("a fit of a mass is confirmed only if its scatter allows it, as a fit 
   laboratory.study.tests[0].targets[0].weight = 0;  // the mass alone is fitted
   double scatter_kg = 4;
   laboratory.twist = [&](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
-    outcome.observables.set("fill.mass_kg", 9 + (test.packing_seed % 2 == 0 ? scatter_kg : -scatter_kg));
+    outcome.readings.set("fill.mass_kg", 9 + (test.packing_seed % 2 == 0 ? scatter_kg : -scatter_kg));
   };
   laboratory.study.search.screening = 4;
   for (const bool calm : {false, true}) {

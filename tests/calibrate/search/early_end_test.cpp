@@ -37,21 +37,21 @@ struct TwoSteps : Laboratory {
           std::log(test.contact.bridge.c_n / std::pow(test.grains.radius_m, 2) / 100) / std::log(100);
       const double noise = 3 * synthetic::normal(test.packing_seed, static_cast<std::uint64_t>(1e6 * strength));
       const double height = 20 + 250 * strength + 10 * test.contact.friction + noise;
-      outcome.observables = {};
-      outcome.observables.set("fill.mass_kg", 9);
+      outcome.readings = {};
+      outcome.readings.set("fill.mass_kg", 9);
       const double lowest = run.cutoff ? run.cutoff->lowest : 0;
       const double highest = run.cutoff ? run.cutoff->highest : 1e9;
       outcome.run.ended_early = heeds_cutoff && height < lowest - 10;
       if (!outcome.run.ended_early) {
-        outcome.observables.set("step1.height_mm", height);
-        outcome.observables.set("step1.spread_mm", 600 - height);
+        outcome.readings.set("step1.height_mm", height);
+        outcome.readings.set("step1.spread_mm", 600 - height);
         outcome.run.ended_early = heeds_cutoff && (height < lowest || height > highest);
       }
       if (outcome.run.ended_early) {
         ++ended;
         return;
       }
-      outcome.observables.set("step2.height_mm", 0.85 * height - 20 * (test.contact.friction - 0.5));
+      outcome.readings.set("step2.height_mm", 0.85 * height - 20 * (test.contact.friction - 0.5));
     };
   }
 };
@@ -66,9 +66,8 @@ std::vector<UnitPoint> ladder() {
 /// The same numbers, missing ones included.
 bool same(const Response& a, const Response& b) {
   if (a.censored != b.censored || a.misfit != b.misfit || a.residuals != b.residuals) return false;
-  for (Eigen::Index k = 0; k < a.observables.size(); ++k)
-    if (a.observables[k] != b.observables[k] && !(std::isnan(a.observables[k]) && std::isnan(b.observables[k])))
-      return false;
+  for (Eigen::Index k = 0; k < a.readings.size(); ++k)
+    if (a.readings[k] != b.readings[k] && !(std::isnan(a.readings[k]) && std::isnan(b.readings[k]))) return false;
   return true;
 }
 
@@ -105,15 +104,15 @@ TEST_CASE("a simulation that was ended and one that was not answer the same") {
     const Response full = run_through.evaluate({&point, 1}, kPackings).at(0);
     CHECK_FALSE(full.censored);
     CHECK(a.misfit <= full.misfit);
-    if (full.observables[0] < 55) {
+    if (full.readings[0] < 55) {
       ++below;
-      CHECK(a.observables[0] == Approx(60));
-      CHECK(std::isnan(a.observables[2]));
-    } else if (full.observables[0] > 145) {
+      CHECK(a.readings[0] == Approx(60));
+      CHECK(std::isnan(a.readings[2]));
+    } else if (full.readings[0] > 145) {
       ++above;
-      CHECK(a.observables[0] == full.observables[0]);
-      CHECK(std::isnan(a.observables[2]));
-    } else if (full.observables[0] > 65 && full.observables[0] < 135) {
+      CHECK(a.readings[0] == full.readings[0]);
+      CHECK(std::isnan(a.readings[2]));
+    } else if (full.readings[0] > 65 && full.readings[0] < 135) {
       ++within;
       CHECK(same(a, full));
     }
@@ -129,7 +128,7 @@ TEST_CASE("a candidate that meets the laboratory is not ended") {
   auto store = laboratory.store();
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const Response response = objective.try_out(std::vector<UnitPoint>{at(0.30, 0.5)}, kPackings).at(0);
-  CHECK(response.observables[0] == Approx(100).margin(6));
+  CHECK(response.readings[0] == Approx(100).margin(6));
   CHECK_FALSE(response.censored);
   CHECK(laboratory.ended == 0);
 }
@@ -141,11 +140,11 @@ TEST_CASE("an evaluation that ended early never stands in for a whole one, and a
   const std::vector<UnitPoint> low{at(0.05, 0.5)}, lower{at(0.02, 0.5)};
   CHECK(objective.try_out(low, kPackings).at(0).censored);
   CHECK(laboratory.runs == 2);
-  CHECK(objective.counts().best_miss < 0);
+  CHECK(objective.counts().best_error < 0);
   const Response whole = objective.evaluate(low, kPackings).at(0);
   CHECK(laboratory.runs == 4);
   CHECK_FALSE(whole.censored);
-  CHECK(whole.observables.allFinite());
+  CHECK(whole.readings.allFinite());
   CHECK(store.size() == 4);
 
   (void)objective.evaluate(lower, kPackings);
@@ -173,7 +172,7 @@ TEST_CASE("the surrogate learns a reading from the simulations that took it") {
     one.point = at(0.1 * k, 0.5);
     one.packings = {1};
     one.censored = k < 5;
-    one.observables = Eigen::Vector2d(k, k < 5 ? std::nan("") : 5.0);
+    one.readings = Eigen::Vector2d(k, k < 5 ? std::nan("") : 5.0);
     one.residuals = Eigen::Vector2d(k - 5, k < 5 ? 0.0 : 3.0);
     one.misfit = 0.5 * one.residuals.squaredNorm();
     seen.push_back(one);
@@ -183,7 +182,7 @@ TEST_CASE("the surrogate learns a reading from the simulations that took it") {
   for (const UnitPoint& point : points) CHECK(surrogate.expected_residuals(point)[1] == Approx(3));
   for (Response& one : seen) {
     one.censored = true;
-    one.observables[1] = std::nan("");
+    one.readings[1] = std::nan("");
   }
   CHECK(Surrogate(seen).expected_residuals(points.at(1))[1] == 0);
 }

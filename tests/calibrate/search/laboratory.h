@@ -47,10 +47,10 @@ struct Laboratory {
     options.engine.run = of_slump([this](const SlumpTest& test, const RunOptions& run) {
       ++runs;
       Outcome outcome;
-      outcome.observables.set("step1.height_mm",
-                              100.0 + static_cast<double>(test.packing_seed) + 50 * (test.contact.friction - 0.5));
-      outcome.observables.set("step1.spread_mm", 350);
-      outcome.observables.set("fill.mass_kg", 9.1);
+      outcome.readings.set("step1.height_mm",
+                           100.0 + static_cast<double>(test.packing_seed) + 50 * (test.contact.friction - 0.5));
+      outcome.readings.set("step1.spread_mm", 350);
+      outcome.readings.set("fill.mass_kg", 9.1);
       outcome.run.simulated_s = 2;
       twist(test, run, outcome);
       return outcome;
@@ -69,7 +69,7 @@ inline UnitPoint at(double strength, double friction) {
 }
 
 inline Outcome& fail(Outcome& outcome, FailureReason reason, double time_s) {
-  outcome.observables = {};
+  outcome.readings = {};
   outcome.failure = Failure{reason, "step1.lift", 1, time_s, -1, 0, 0, "no good"};
   return outcome;
 }

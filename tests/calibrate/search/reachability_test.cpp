@@ -142,7 +142,7 @@ TEST_CASE("a search that would be in vain ends after the screening, and says so"
     ++ended;
     CHECK(objective.simulations <= 30);
     CHECK(calibration.confirmation.packings.size() == 4);
-    CHECK(calibration.best.normalised_error < 14);
+    CHECK(calibration.best.error < 14);
   }
   CHECK(ended >= 15);
 }

@@ -22,7 +22,7 @@ Study concrete_79() {
 
 void measure(StudyTest& test, double height_mm) {
   for (Measurement& one : test.lab.measurements)
-    if (one.observable == "step1.height_mm") one.value = height_mm;
+    if (one.reading == "step1.height_mm") one.value = height_mm;
 }
 
 /// The strengths [Pa] that a screening of a study goes through; the strength is its first free parameter.
@@ -72,8 +72,8 @@ TEST_CASE("the strengths of the shipped cards lie where their heights say") {
   for (const char* name : {"concrete-mix-20", "concrete-mix-79"}) {
     CAPTURE(name);
     const Card card = read_card(std::string(PASTEFIT_SOURCE_DIR) + "/data/cards/" + name + ".json").value();
-    Observables measured;
-    for (const CardObservable& one : card.tests[0].observables)
+    Readings measured;
+    for (const CardReading& one : card.tests[0].readings)
       if (one.measured) measured.set(one.name, *one.measured);
     const auto likely = likely_strength_pa(card.tests[0].test, measured);
     REQUIRE(likely);

@@ -33,7 +33,7 @@ TEST_CASE("the default strategy meets a height within 5 mm and 60 simulations fr
     simulations.push_back(calibration.simulations);
     if (calibration.status != CalibrationStatus::confirmed) continue;
     ++confirmed;
-    CHECK(calibration.confirmation.normalised_error <= 1);
+    CHECK(calibration.confirmation.error <= 1);
     if (std::abs(mean_height(calibration.best.point) - target_of(seed)) <= 5) ++true_within_tolerance;
   }
   std::sort(simulations.begin(), simulations.end());
@@ -101,7 +101,7 @@ TEST_CASE("the default strategy meets two heights and a noisy sag at once", "[ca
       still.fails = [](const UnitPoint&, std::uint64_t) { return false; };
       return still.evaluate({&truth, 1}, many).at(0);
     }();
-    const Eigen::VectorXd& lab = at_truth.observables;
+    const Eigen::VectorXd& lab = at_truth.readings;
     Synthetic objective = fake_two_step(lab[0], lab[1], lab[2], seed);
     if (search(objective, options_with(seed)).status == CalibrationStatus::confirmed) ++confirmed;
     CHECK(objective.simulations <= 60);
@@ -236,7 +236,7 @@ TEST_CASE("readings that contradict each other end unconfirmed, not out of reach
   };
   const Calibration calibration = search(objective, options_with(2));
   CHECK(calibration.status == CalibrationStatus::unconfirmed);
-  CHECK(calibration.best.normalised_error < 4);
+  CHECK(calibration.best.error < 4);
 }
 
 TEST_CASE("of the materials that meet the laboratory the search finds one that agrees with what is known",

@@ -43,7 +43,7 @@ enum class FailureKind { graded, huge, infinite, not_a_number };
 class Synthetic : public Objective {
  public:
   int dimension = 2;
-  std::vector<double> measured;             ///< target of each observable
+  std::vector<double> measured;             ///< target of each reading
   std::vector<double> standard_deviations;  ///< of each measurement
   std::function<std::vector<double>(const UnitPoint&, std::uint64_t packing)> observe;
   std::function<bool(const UnitPoint&, std::uint64_t packing)> fails = [](const UnitPoint&, std::uint64_t) {
@@ -79,7 +79,7 @@ class Synthetic : public Objective {
     return tolerances.empty() ? tolerance_mm : tolerances.at(reading);
   }
   double allowance(std::size_t reading) const override { return tolerance(reading) / standard_deviations.at(reading); }
-  MisfitUnit misfit_unit() const override { return {tolerance_mm}; }
+  ErrorUnit error_unit() const override { return {tolerance_mm}; }
   double rejected_share() const override { return allowed_share; }
   bool stop_requested() const override { return stop(); }
 
@@ -100,11 +100,11 @@ class Synthetic : public Objective {
   }
 
   void end_early(Evaluation& evaluation) const {
-    const double difference = evaluation.observables[0] - measured[0];
-    evaluation.censored = difference < -level || (difference > level && evaluation.observables.size() > 1);
+    const double difference = evaluation.readings[0] - measured[0];
+    evaluation.censored = difference < -level || (difference > level && evaluation.readings.size() > 1);
     if (!evaluation.censored) return;
-    std::fill(evaluation.observables.begin() + 1, evaluation.observables.end(), std::nan(""));
-    evaluation.observables[0] = std::max(evaluation.observables[0], measured[0] - level);
+    std::fill(evaluation.readings.begin() + 1, evaluation.readings.end(), std::nan(""));
+    evaluation.readings[0] = std::max(evaluation.readings[0], measured[0] - level);
   }
 
   Response answer(const UnitPoint& point, std::span<const std::uint64_t> packings, bool tried) {
@@ -118,7 +118,7 @@ class Synthetic : public Objective {
         evaluation.failure = Failure{};
         if (cut_off) evaluation.failure->reason = FailureReason::stopped;
       } else {
-        evaluation.observables = observe(point, packing);
+        evaluation.readings = observe(point, packing);
         evaluation.rejection_index = rejection_index(point, packing);
         if (tried) end_early(evaluation);
       }
@@ -134,7 +134,7 @@ class Synthetic : public Objective {
     const int count = readings();
     Response response;
     response.point = evaluations.front().point;
-    response.observables = Eigen::VectorXd::Zero(count);
+    response.readings = Eigen::VectorXd::Zero(count);
     for (const Evaluation& evaluation : evaluations) {
       response.packings.push_back(evaluation.packing);
       response.failed = response.failed || evaluation.failure;
@@ -144,26 +144,24 @@ class Synthetic : public Objective {
     const auto judged = accepted(evaluations);
     for (const Evaluation* one : judged)
       for (int k = 0; k < count && !one->failure; ++k)
-        response.observables[k] += one->observables[k] / static_cast<double>(judged.size());
+        response.readings[k] += one->readings[k] / static_cast<double>(judged.size());
     response.evaluations = std::move(evaluations);
     response.residuals.resize(residuals());
     const auto priors = known(response.point);
     for (std::size_t k = 0; k < priors.size(); ++k) response.residuals[count + static_cast<int>(k)] = priors[k];
     for (int k = 0; k < count; ++k) {
-      double difference = response.observables[k] - measured[k];
-      const auto bound = [&](const Evaluation& one) {
-        return one.censored && one.observables[0] <= measured[0] - level;
-      };
+      double difference = response.readings[k] - measured[k];
+      const auto bound = [&](const Evaluation& one) { return one.censored && one.readings[0] <= measured[0] - level; };
       if (std::isnan(difference)) difference = 0;
       if (k == 0 && std::ranges::any_of(response.evaluations, bound)) difference = std::min(difference, 0.0);
       response.residuals[k] = difference / standard_deviations[k];
       const double allowed = tolerance(static_cast<std::size_t>(k));
-      response.normalised_error = std::max(response.normalised_error, std::abs(difference) / allowed);
+      response.error = std::max(response.error, std::abs(difference) / allowed);
       response.noise = std::max(response.noise, std::sqrt(squared_standard_error(response, k)) / allowed);
     }
     if (response.failed) response.residuals.setConstant(failure_value(response.point));
     response.misfit = 0.5 * response.residuals.squaredNorm();
-    if (response.failed) response.normalised_error = std::abs(response.residuals[0]) / tolerance_mm;
+    if (response.failed) response.error = std::abs(response.residuals[0]) / tolerance_mm;
     return response;
   }
 

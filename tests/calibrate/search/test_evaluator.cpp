@@ -22,18 +22,18 @@ TEST_CASE("a candidate answers with the mean over its packings against the labor
   const std::vector<UnitPoint> points{at(0.5, 0.5), at(0.5, 0.7)};
   const auto responses = objective.evaluate(points, kPackings);
   REQUIRE(responses.size() == 2);
-  CHECK(responses[0].observables[0] == Approx(102));
-  CHECK(responses[1].observables[0] == Approx(112));
+  CHECK(responses[0].readings[0] == Approx(102));
+  CHECK(responses[1].readings[0] == Approx(112));
   CHECK(responses[1].residuals[0] == Approx(std::sqrt(4.0) * 12 / 2));
   CHECK(responses[1].residuals[1] == 0);
   CHECK(responses[1].residuals[2] == Approx(1));
   CHECK(responses[1].misfit == Approx(0.5 * (144 + 1)));
-  CHECK(responses[1].normalised_error == Approx(12.0 / 5));
+  CHECK(responses[1].error == Approx(12.0 / 5));
   CHECK_FALSE(responses[1].failed);
   CHECK(responses[1].evaluations[1].packing == 3);
-  CHECK(responses[1].evaluations[1].observables[0] == Approx(113));
+  CHECK(responses[1].evaluations[1].readings[0] == Approx(113));
   CHECK(objective.counts().simulated == 4);
-  CHECK(objective.counts().best_miss == Approx(1));
+  CHECK(objective.counts().best_error == Approx(1));
   CHECK(objective.budget_left() == 16);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("a reading is the mean over the heaps that a laboratory would not reje
   const auto answer = [&](const std::set<std::uint64_t>& sheared) {
     Laboratory laboratory;
     laboratory.twist = [&](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
-      outcome.observables.set("step1.lateral_shift_mm", sheared.contains(test.packing_seed) ? 500 : 0);
+      outcome.readings.set("step1.lateral_shift_mm", sheared.contains(test.packing_seed) ? 500 : 0);
     };
     auto store = laboratory.store();
     SimulationObjective objective(laboratory.study, store, laboratory.options);
@@ -50,12 +50,12 @@ TEST_CASE("a reading is the mean over the heaps that a laboratory would not reje
   };
   const Response one = answer({6});
   CHECK(one.rejected == 1);
-  CHECK(one.observables[0] == Approx(101.5));
-  CHECK(one.normalised_error == Approx(1));  // of the mass
+  CHECK(one.readings[0] == Approx(101.5));
+  CHECK(one.error == Approx(1));  // of the mass
   CHECK(one.noise == Approx(0.5 / 5));
   const Response all = answer({1, 2, 6});
   CHECK(all.rejected == 3);
-  CHECK(all.observables[0] == Approx(103));
+  CHECK(all.readings[0] == Approx(103));
 }
 
 TEST_CASE("the mould is filled once for each packing and way to fill it, however many candidates and threads ask") {
@@ -170,7 +170,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
     else if (friction < 0.25 && test.packing_seed == 1)
       fail(outcome, FailureReason::grain_lost, 0.1);
     else if (friction > 0.95)
-      outcome.observables.set("step1.height_mm", 300);  // the worst a heap can do
+      outcome.readings.set("step1.height_mm", 300);  // the worst a heap can do
   };
   std::get<SlumpTest>(laboratory.study.tests[0].lab.test).mould.height_m = 0.3;
   SimulationObjective objective(laboratory.study, store, laboratory.options);
@@ -179,9 +179,9 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
   for (int i = 0; i < 3; ++i) {
     CHECK(responses[i].failed);
     CHECK(std::isfinite(responses[i].misfit));
-    CHECK(std::isfinite(responses[i].normalised_error));
+    CHECK(std::isfinite(responses[i].error));
     CHECK(responses[i].residuals.allFinite());
-    CHECK(responses[i].observables.allFinite());
+    CHECK(responses[i].readings.allFinite());
     CHECK(responses[i].misfit > 2 * responses[3].misfit);
   }
   CHECK(responses[0].misfit > responses[1].misfit);
@@ -189,7 +189,7 @@ TEST_CASE("a failure answers with a finite misfit beyond every candidate that ra
   CHECK(objective.counts().failures[FailureReason::excessive_overlap] == 2);
   CHECK(objective.counts().failures[FailureReason::never_settled] == 2);
   CHECK(objective.counts().failures[FailureReason::grain_lost] == 1);
-  CHECK(objective.counts().best_miss == Approx(200.0 / 5));
+  CHECK(objective.counts().best_error == Approx(200.0 / 5));
   CHECK(store.size() == 8);
 }
 
@@ -197,8 +197,8 @@ TEST_CASE("a reading that is missing or not a number is a classified failure") {
   Laboratory laboratory;
   auto store = laboratory.store();
   laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
-    if (test.packing_seed == 1) outcome.observables.set("fill.mass_kg", std::numeric_limits<double>::quiet_NaN());
-    if (test.packing_seed == 3) outcome.observables = {};
+    if (test.packing_seed == 1) outcome.readings.set("fill.mass_kg", std::numeric_limits<double>::quiet_NaN());
+    if (test.packing_seed == 3) outcome.readings = {};
   };
   SimulationObjective objective(laboratory.study, store, laboratory.options);
   const std::vector<UnitPoint> points{at(0.5, 0.5)};
@@ -278,10 +278,10 @@ TEST_CASE("what is known of a parameter beforehand is a residual of its own, in 
   CHECK(objective.residuals() == 5);
   CHECK(objective.readings() == 3);
   const auto response = objective.evaluate(std::vector<UnitPoint>{at(0.6, 0.5)}, kPackings)[0];
-  CHECK(response.observables.size() == 3);
+  CHECK(response.readings.size() == 3);
   CHECK(response.residuals[3] == Approx(2));
   CHECK(response.residuals[4] == Approx(1));
-  CHECK(response.normalised_error == Approx(1));
+  CHECK(response.error == Approx(1));
   CHECK(response.misfit == Approx(0.5 * response.residuals.squaredNorm()));
 }
 

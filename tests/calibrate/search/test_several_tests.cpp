@@ -21,7 +21,7 @@ void add_low_mould(Laboratory& laboratory, bool hold_out) {
   tests[1].targets = {{"step1.height_mm", 1}};
   laboratory.twist = [](const SlumpTest& test, const RunOptions&, Outcome& outcome) {
     if (test.mould.height_m != 0.06) return;
-    outcome.observables.set("step1.height_mm", 20 + static_cast<double>(test.packing_seed));
+    outcome.readings.set("step1.height_mm", 20 + static_cast<double>(test.packing_seed));
   };
 }
 
@@ -37,18 +37,18 @@ TEST_CASE("two tests of one material are one residual vector, each reading under
   CHECK(objective.budget_left() == 10);
   const std::vector<UnitPoint> points{at(0.5, 0.5)};
   const auto response = objective.evaluate(points, kPackings)[0];
-  CHECK(response.observables[0] == Approx(102));
-  CHECK(response.observables[3] == Approx(22));
+  CHECK(response.readings[0] == Approx(102));
+  CHECK(response.readings[3] == Approx(22));
   CHECK(response.residuals[3] == Approx(2));
-  CHECK(response.normalised_error == Approx(1));
+  CHECK(response.error == Approx(1));
   CHECK(laboratory.runs == 4);
   CHECK(laboratory.fills == 4);
   CHECK(objective.counts().simulated == 4);
   CHECK(objective.budget_left() == 8);
   const auto record = record_of(laboratory.study, store, std::vector<Response>{response});
   REQUIRE(record.size() == 2);
-  CHECK(record[0].observables.find("high/step1.height_mm") == 101.0);
-  CHECK(record[0].observables.find("low/step1.height_mm") == 21.0);
+  CHECK(record[0].readings.find("high/step1.height_mm") == 101.0);
+  CHECK(record[0].readings.find("low/step1.height_mm") == 21.0);
 }
 
 TEST_CASE("a candidate that fails in one of two tests has failed") {
@@ -75,7 +75,7 @@ TEST_CASE("a test that is held out is never simulated by a search, and predicted
   CHECK(laboratory.runs == 2);
   const auto predicted = objective.predict(at(0.5, 0.5), kPackings, 1);
   REQUIRE(predicted.size() == 2);
-  CHECK(predicted[1].observables.find("step1.height_mm") == 23.0);
+  CHECK(predicted[1].readings.find("step1.height_mm") == 23.0);
   CHECK(objective.budget_left() == 16);
 }
 
@@ -97,17 +97,17 @@ TEST_CASE("a hold-out is judged by the noise of both sides, and only what counts
                      baselines_of(laboratory.study, shown_of(calibration), store), objective.counts(), "study.json");
     };
     REQUIRE(card().tests.size() == 2);
-    CHECK(card().tests[1].observables.empty());  // not predicted yet
+    CHECK(card().tests[1].readings.empty());  // not predicted yet
     CHECK_FALSE(card().tests[1].within_noise);
     predict_hold_outs(laboratory.study, calibration, objective);
     const CardTest test = card().tests[1];
     CHECK(test.name == "low");
     REQUIRE(test.within_noise);
     CHECK(*test.within_noise == within);
-    CHECK(test.observables[0].simulated == Approx(22.5));
-    CHECK(test.observables[0].band);
-    CHECK_FALSE(test.observables[1].band);
-    CHECK(card().tests[0].observables[0].measured == 100.0);
+    CHECK(test.readings[0].simulated == Approx(22.5));
+    CHECK(test.readings[0].band);
+    CHECK_FALSE(test.readings[1].band);
+    CHECK(card().tests[0].readings[0].measured == 100.0);
     CHECK(card().tests[0].baseline.runs.size() == 4);
   }
 }

@@ -92,8 +92,8 @@ TEST_CASE(
         const RandomStream random(test.packing_seed, "luck"), delay(static_cast<std::uint64_t>(threads), "delay");
         const double friction = test.contact.friction, c_n = test.contact.bridge.c_n;
         const auto digits = static_cast<std::uint64_t>(1e12 * (friction + c_n));
-        outcome.observables.set("step1.height_mm",
-                                100 + 50 * (friction - 0.5) + 15 * std::sin(3 * std::log(c_n)) + random.normal(digits));
+        outcome.readings.set("step1.height_mm",
+                             100 + 50 * (friction - 0.5) + 15 * std::sin(3 * std::log(c_n)) + random.normal(digits));
         std::this_thread::sleep_for(
             std::chrono::microseconds(static_cast<int>(4000 * delay.uniform(static_cast<std::uint64_t>(delays++)))));
       };

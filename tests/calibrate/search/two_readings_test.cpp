@@ -60,8 +60,8 @@ TEST_CASE("height and spread of real mixes are met together, each within its tol
   for (const auto& [mix, found] : campaign.searches) {
     simulations += found.simulations;
     if (found.status != CalibrationStatus::confirmed) continue;
-    CHECK(std::abs(found.confirmation.observables[0] - mix.height_mm) <= height_tolerance_mm);
-    CHECK(std::abs(found.confirmation.observables[1] - mix.spread_mm) <= spread_tolerance_mm);
+    CHECK(std::abs(found.confirmation.readings[0] - mix.height_mm) <= height_tolerance_mm);
+    CHECK(std::abs(found.confirmation.readings[1] - mix.spread_mm) <= spread_tolerance_mm);
     const auto [height, spread] = mean_heap(found.best.point);
     if (std::abs(height - mix.height_mm) <= height_tolerance_mm &&
         std::abs(spread - mix.spread_mm) <= spread_tolerance_mm)
@@ -92,7 +92,7 @@ TEST_CASE("a reading that is off by more than its tolerance is not made up for b
   objective.observe = [](const UnitPoint&, std::uint64_t) { return std::vector<double>{110, 430 + 1.2 * 25}; };
   const Calibration calibration = search(objective, options_with(1));
   CHECK(calibration.status != CalibrationStatus::confirmed);
-  CHECK(calibration.best.normalised_error == Approx(1.2));
+  CHECK(calibration.best.error == Approx(1.2));
 }
 
 TEST_CASE("a reading within its tolerance is in reach, though every simulation reads more than the laboratory") {

@@ -22,7 +22,7 @@ class VirtualCores : public Objective {
   int budget_left() const override { return objective_.budget_left(); }
   bool stop_requested() const override { return objective_.stop_requested(); }
   double tolerance(std::size_t reading) const override { return objective_.tolerance(reading); }
-  MisfitUnit misfit_unit() const override { return objective_.misfit_unit(); }
+  ErrorUnit error_unit() const override { return objective_.error_unit(); }
   Response response_of(std::vector<Evaluation> evaluations) const override {
     return objective_.response_of(std::move(evaluations));
   }

@@ -30,8 +30,8 @@ inline StoredEvaluation evaluation(double value, std::uint64_t packing = 7) {
   test.contact.friction = value;
   test.packing_seed = packing;
   out.key = evaluation_key(kIdentity.program, test);
-  out.observables.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
-  out.observables.set("fill.mass_kg", 9.9999999999999982);
+  out.readings.set("step1.height_mm", 100 * std::nextafter(value, 2.0));
+  out.readings.set("fill.mass_kg", 9.9999999999999982);
   out.run = {.particles = 1250,
              .steps = 60000,
              .particle_steps = 75000000,

@@ -143,7 +143,7 @@ TEST_CASE("whichever bit of a store is flipped, no evaluation is another one in 
   }
   const auto text_of = [](const StoredEvaluation& one) {
     return one.key + nlohmann::json(one.point).dump() + nlohmann::json(one.values).dump() +
-           std::to_string(one.packing) + to_json(one.observables).dump() + to_json(one.run, one.wall_s).dump() +
+           std::to_string(one.packing) + to_json(one.readings).dump() + to_json(one.run, one.wall_s).dump() +
            std::to_string(one.epoch);
   };
   const std::string whole = test::content(file);

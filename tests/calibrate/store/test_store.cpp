@@ -41,10 +41,10 @@ TEST_CASE("the store returns every bit of an evaluation after it was opened agai
   for (std::size_t i = 0; i < kept.point.size(); ++i) CHECK(same_bits(found->point[i], kept.point[i]));
   for (std::size_t i = 0; i < kept.values.size(); ++i) CHECK(same_bits(found->values[i], kept.values[i]));
   CHECK(found->packing == kept.packing);
-  REQUIRE(found->observables.all().size() == 2);
-  CHECK(found->observables.all()[0].name == "step1.height_mm");
-  CHECK(same_bits(found->observables.all()[0].value, kept.observables.all()[0].value));
-  CHECK(same_bits(found->observables.all()[1].value, kept.observables.all()[1].value));
+  REQUIRE(found->readings.all().size() == 2);
+  CHECK(found->readings.all()[0].name == "step1.height_mm");
+  CHECK(same_bits(found->readings.all()[0].value, kept.readings.all()[0].value));
+  CHECK(same_bits(found->readings.all()[1].value, kept.readings.all()[1].value));
   CHECK_FALSE(found->failure);
   CHECK(found->run.particle_steps == kept.run.particle_steps);
   CHECK(same_bits(found->run.time_step_s, kept.run.time_step_s));
@@ -97,7 +97,7 @@ TEST_CASE("a failure keeps its reason and its values, finite or not") {
   const Folder folder;
   const auto file = folder.path() / "evaluations.sqlite";
   auto kept = evaluation(0.3);
-  kept.observables = {};
+  kept.readings = {};
   kept.failure = Failure{FailureReason::excessive_overlap,
                          "step1.lift",
                          1234,
@@ -116,7 +116,7 @@ TEST_CASE("a failure keeps its reason and its values, finite or not") {
   CHECK(found->failure->grain == 17);
   CHECK(std::isinf(found->failure->value));
   CHECK(found->failure->message == kept.failure->message);
-  CHECK(found->observables.all().empty());
+  CHECK(found->readings.all().empty());
 }
 
 TEST_CASE("an evaluation that was added survives kill -9") {

@@ -43,7 +43,7 @@ TEST_CASE("repeats give mean and sample deviation, and a stated deviation is the
 
 TEST_CASE("a slump is kept as the height that is left") {
   const Measurement reading = measured("step1.slump_mm", R"({"value": 130, "standard_deviation": 5})");
-  CHECK(reading.observable == "step1.height_mm");
+  CHECK(reading.reading == "step1.height_mm");
   CHECK(reading.value == 70);
   CHECK(measured("step2.slump_mm", R"({"repeats": [129, 131]})").value == 70);
 }
@@ -124,7 +124,7 @@ TEST_CASE("a profile becomes the outline that the heap is compared with, and its
   CHECK(outline[1][0] == Approx(-0.08));
   CHECK(outline[1][1] == Approx(0.04));
   const Measurement& profile = read.value().measurements.back();
-  CHECK(profile.observable == "step1.profile_mm");
+  CHECK(profile.reading == "step1.profile_mm");
   CHECK(profile.value == 0);
   CHECK(profile.standard_deviation == 6);
 }
@@ -150,7 +150,7 @@ TEST_CASE("every measurement has its counterpart among the readings of the simul
   test.reading.flow.emplace();
   test.reading.spread_curve = {{0, 0.2}, {1, 0.3}};
   test.reading.outline_step1 = test.reading.outline_step2 = {{-0.1, 0}, {0.1, 0}};
-  const std::vector<std::string> names = observable_names(test);
+  const std::vector<std::string> names = reading_names(test);
   const auto kinds = reading_kinds(test);
   CHECK(names.size() == kinds.size());
   for (const ReadingKind& kind : kinds) {

@@ -45,7 +45,7 @@ TEST_CASE("a laboratory file with an apparatus of its own is read into SI") {
   CHECK(read.value().measurements[0].repeats == 1);
 }
 
-TEST_CASE("every shipped apparatus is read, and gives the observables of its steps") {
+TEST_CASE("every shipped apparatus is read, and gives the readings of its steps") {
   int read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PASTEFIT_SOURCE_DIR "/data/apparatus")) {
     if (entry.path().extension() != ".json") continue;

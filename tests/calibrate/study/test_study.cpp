@@ -86,9 +86,9 @@ TEST_CASE("the shipped studies are read: height and spread to fit where a heap c
     const bool both = name != "concrete-mix-02" && name != "concrete-mix-20" && name != "concrete-mix-103";
     const auto& targets = study.value().tests[0].targets;
     REQUIRE(targets.size() == (both ? 2 : 3));  // heaps that shear off are counted; of the others the shift is shown
-    CHECK(targets[0].observable == "step1.height_mm");
+    CHECK(targets[0].reading == "step1.height_mm");
     CHECK(targets[0].weight == 1);
-    CHECK(targets.back().observable == "step1.spread_mm");
+    CHECK(targets.back().reading == "step1.spread_mm");
     CHECK(targets.back().weight == (both ? 1 : 0));
     if (!both) CHECK(targets[1].weight == 0);
     CHECK(free_count(study.value()) == 5);
@@ -149,7 +149,7 @@ TEST_CASE("a weight of what was not measured is a fault, and a slump's weight is
   document["weights"] = {{"step1.slump_mm", 0.25}};
   const Result<Study> study = Desk().read(document);
   REQUIRE(study.ok());
-  CHECK(study.value().tests[0].targets[0].observable == "step1.height_mm");
+  CHECK(study.value().tests[0].targets[0].reading == "step1.height_mm");
   CHECK(study.value().tests[0].targets[0].weight == 0.25);
 }
 

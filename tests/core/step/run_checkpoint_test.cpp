@@ -61,11 +61,11 @@ int sessions(const Test& test, RunOptions options, int pulses, int early, Outcom
 void check_same(const Outcome& one, const Outcome& other) {
   REQUIRE_FALSE(one.failure);
   REQUIRE_FALSE(other.failure);
-  REQUIRE_FALSE(one.observables.all().empty());
-  REQUIRE(one.observables.all().size() == other.observables.all().size());
-  for (const auto& [name, value] : one.observables.all()) {
+  REQUIRE_FALSE(one.readings.all().empty());
+  REQUIRE(one.readings.all().size() == other.readings.all().size());
+  for (const auto& [name, value] : one.readings.all()) {
     INFO(name);
-    CHECK(other.observables.find(name) == value);
+    CHECK(other.readings.find(name) == value);
   }
   CHECK(one.run.steps == other.run.steps);
   CHECK(one.run.particle_steps == other.run.particle_steps);

@@ -22,7 +22,7 @@ double read(const DropTest& test, const char* name) {
   REQUIRE(validate(test).empty());
   const Outcome outcome = simulate(test);
   REQUIRE_FALSE(outcome.failure);
-  return outcome.observables.find(name).value();
+  return outcome.readings.find(name).value();
 }
 
 double level_rise_mm(const DropTest& test) {
@@ -105,9 +105,8 @@ TEST_CASE("nothing in a drop test is random: another seed gives the same bits") 
   const Outcome one = simulate(test);
   test.packing_seed = 77;
   const Outcome other = simulate(test);
-  REQUIRE(one.observables.all().size() == reading_kinds(test).size());
-  for (const Observable& reading : one.observables.all())
-    CHECK(other.observables.find(reading.name).value() == reading.value);
+  REQUIRE(one.readings.all().size() == reading_kinds(test).size());
+  for (const Reading& reading : one.readings.all()) CHECK(other.readings.find(reading.name).value() == reading.value);
 }
 
 TEST_CASE("a drop costs some thousand steps, not the whole fall, and says which step it asks for") {
@@ -119,7 +118,7 @@ TEST_CASE("a drop costs some thousand steps, not the whole fall, and says which 
 
 TEST_CASE("a level plate alone has no tilted readings, and their rows say so") {
   const DropTest test = dry(0.7);
-  CHECK(simulate(test).observables.all().size() == 1);
+  CHECK(simulate(test).readings.all().size() == 1);
   for (const ReadingKind& kind : reading_kinds(test)) CHECK(kind.lack.has_value() == kind.name.starts_with("tilted."));
 }
 

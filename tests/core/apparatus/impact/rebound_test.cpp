@@ -31,7 +31,7 @@ Impact falling(double speed_m_s) {
 }
 
 double read(const Outcome& outcome, const char* name) {
-  return outcome.observables.find(name).value();
+  return outcome.readings.find(name).value();
 }
 
 TEST_CASE("a run that watches a rebound ends beyond the gap, on the way up") {
@@ -61,7 +61,7 @@ TEST_CASE("a grain that touches nothing has no rebound, and the run lasts as lon
   const Outcome outcome = simulate(test);
   REQUIRE_FALSE(outcome.failure);
   CHECK(read(outcome, "time_s") == Approx(0.01));
-  CHECK_FALSE(outcome.observables.find("rebound_top_m"));
+  CHECK_FALSE(outcome.readings.find("rebound_top_m"));
 }
 
 }  // namespace

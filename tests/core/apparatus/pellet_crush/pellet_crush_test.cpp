@@ -13,7 +13,7 @@ namespace pastefit {
 namespace {
 
 double reading_of(const Outcome& outcome, const char* name) {
-  return outcome.observables.find(name).value();
+  return outcome.readings.find(name).value();
 }
 
 Outcome done(const PelletCrush& test, const RunOptions& options = {}) {
@@ -81,7 +81,7 @@ TEST_CASE("granules that do not stick make no pellet, and that is what the failu
   CHECK(outcome.failure->reason == FailureReason::fell_apart);
   CHECK(outcome.failure->phase == "release");
   CHECK(outcome.failure->value > outcome.failure->limit);
-  CHECK_FALSE(outcome.observables.find("pellet.dynamic_yield_strength_pa"));
+  CHECK_FALSE(outcome.readings.find("pellet.dynamic_yield_strength_pa"));
 }
 
 TEST_CASE("a pellet that the punch takes along is no pellet") {
@@ -116,8 +116,7 @@ TEST_CASE("the bits of a pellet crush do not depend on the number of threads, bu
     RunOptions options;
     options.steps.threads = threads;
     const Outcome shared = done(test, options);
-    for (const Observable& reading : one.observables.all())
-      CHECK(shared.observables.find(reading.name) == reading.value);
+    for (const Reading& reading : one.readings.all()) CHECK(shared.readings.find(reading.name) == reading.value);
   }
   test.packing_seed = 2;
   CHECK(reading_of(done(test), "pellet.dynamic_yield_strength_pa") !=

@@ -11,7 +11,7 @@ namespace pastefit {
 namespace {
 
 double value_of(const Outcome& outcome, const char* name) {
-  return outcome.observables.find(name).value();
+  return outcome.readings.find(name).value();
 }
 
 Outcome sheared(const ShearCell& test, const RunOptions& options = {}) {
@@ -112,8 +112,7 @@ TEST_CASE("the bits of a shear cell do not depend on the number of threads, but 
   RunOptions options;
   options.steps.threads = 2;
   const Outcome shared = sheared(test, options);
-  for (const Observable& reading : alone.observables.all())
-    CHECK(shared.observables.find(reading.name) == reading.value);
+  for (const Reading& reading : alone.readings.all()) CHECK(shared.readings.find(reading.name) == reading.value);
   test.packing_seed = 2;
   CHECK(value_of(sheared(test), "shear.stress_pa") != value_of(alone, "shear.stress_pa"));
 }

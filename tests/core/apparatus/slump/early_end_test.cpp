@@ -52,7 +52,7 @@ TEST_CASE("a heap that has sunk below its cutoff ends early, and only such a one
   const SlumpTest test = slumping(false);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);
-  const double height = whole.observables.find("step1.height_mm").value();
+  const double height = whole.readings.find("step1.height_mm").value();
   REQUIRE(height > 60);
   REQUIRE(height < 170);
 
@@ -61,15 +61,15 @@ TEST_CASE("a heap that has sunk below its cutoff ends early, and only such a one
   CHECK_FALSE(lost.failure);
   CHECK(lost.run.ended_early);
   CHECK(lost.run.steps < whole.run.steps);
-  CHECK_FALSE(lost.observables.find("step1.height_mm"));
-  CHECK(lost.observables.find("fill.mass_kg") == whole.observables.find("fill.mass_kg"));
+  CHECK_FALSE(lost.readings.find("step1.height_mm"));
+  CHECK(lost.readings.find("fill.mass_kg") == whole.readings.find("fill.mass_kg"));
 
   // Within the cutoff by a hair: the same bits as without a cutoff.
   const Outcome kept = run(test, packing, height - 0.001);
   CHECK_FALSE(kept.run.ended_early);
   CHECK(kept.run.steps == whole.run.steps);
-  CHECK(kept.observables.find("step1.height_mm") == height);
-  CHECK(kept.observables.find("step1.spread_mm") == whole.observables.find("step1.spread_mm"));
+  CHECK(kept.readings.find("step1.height_mm") == height);
+  CHECK(kept.readings.find("step1.spread_mm") == whole.readings.find("step1.spread_mm"));
 }
 
 TEST_CASE("no heap that ends early would have read more than the lower end of its cutoff", "[campaign]") {
@@ -81,7 +81,7 @@ TEST_CASE("no heap that ends early would have read more than the lower end of it
     bridge.b_n_m *= factor;
     bridge.c_n *= factor;
     const auto packing = fill_mould(test);
-    const double height = whole_run(test, packing).observables.find("step1.height_mm").value();
+    const double height = whole_run(test, packing).readings.find("step1.height_mm").value();
     for (double lowest = 20; lowest < 200; lowest += 20) {
       CAPTURE(strength, height, lowest);
       if (run(test, packing, lowest).run.ended_early) CHECK(height < lowest);
@@ -93,16 +93,16 @@ TEST_CASE("step 2 is not run where step 1 reads beyond the cutoff on either side
   const SlumpTest test = slumping(true);
   const auto packing = fill_mould(test);
   const Outcome whole = whole_run(test, packing);
-  const double height = whole.observables.find("step1.height_mm").value();
+  const double height = whole.readings.find("step1.height_mm").value();
   const Outcome above = run(test, packing, 0, height - 0.001), below = run(test, packing, height + 0.001);
   for (const Outcome& ended : {above, below}) {
     CHECK(ended.run.ended_early);
     CHECK(ended.run.steps < whole.run.steps);
-    CHECK(ended.observables.find("step1.height_mm") == height);
-    CHECK(ended.observables.find("step1.spread_mm") == whole.observables.find("step1.spread_mm"));
-    CHECK_FALSE(ended.observables.find("step2.height_mm"));
+    CHECK(ended.readings.find("step1.height_mm") == height);
+    CHECK(ended.readings.find("step1.spread_mm") == whole.readings.find("step1.spread_mm"));
+    CHECK_FALSE(ended.readings.find("step2.height_mm"));
   }
   const Outcome within = run(test, packing, height - 0.001, height + 0.001);
   CHECK_FALSE(within.run.ended_early);
-  CHECK(within.observables.find("step2.height_mm") == whole.observables.find("step2.height_mm"));
+  CHECK(within.readings.find("step2.height_mm") == whole.readings.find("step2.height_mm"));
 }

@@ -128,7 +128,7 @@ TEST_CASE(
       };
       const Outcome outcome = simulate(test, options);
       REQUIRE_FALSE(outcome.failure);
-      const auto reading = [&](const char* name) { return outcome.observables.find(name).value(); };
+      const auto reading = [&](const char* name) { return outcome.readings.find(name).value(); };
       CHECK(reading("step1.height_axis_mm") <= reading("step1.height_max_mm"));
       CHECK(reading("step1.height_max_mm") <= 200);
       // Somewhere on the circle of the top's displacement lies the place that was read.

@@ -38,7 +38,7 @@ Outcome outcome_of(const SlumpTest& test, RunOptions options = {}) {
 }
 
 double reading(const Outcome& outcome, const char* name) {
-  return outcome.observables.find(name).value();
+  return outcome.readings.find(name).value();
 }
 
 constexpr TableMotion kMotions[] = {TableMotion::hinged, TableMotion::vertical};
@@ -49,14 +49,14 @@ TEST_CASE("several drops leave the readings of the first as one drop leaves them
   for (const TableMotion motion : kMotions) {
     const Outcome once = outcome_of(dropped(motion, 1)), often = outcome_of(dropped(motion, 4));
     CHECK_FALSE(once.curve);
-    CHECK(once.observables.all().size() + 3 == often.observables.all().size());
-    for (const Observable& one : once.observables.all()) {
+    CHECK(once.readings.all().size() + 3 == often.readings.all().size());
+    for (const Reading& one : once.readings.all()) {
       INFO(one.name);
-      CHECK(often.observables.find(one.name) == one.value);
+      CHECK(often.readings.find(one.name) == one.value);
     }
-    const auto names = observable_names(dropped(motion, 4));
-    REQUIRE(names.size() == often.observables.all().size());
-    for (std::size_t k = 0; k < names.size(); ++k) CHECK(names[k] == often.observables.all()[k].name);
+    const auto names = reading_names(dropped(motion, 4));
+    REQUIRE(names.size() == often.readings.all().size());
+    for (std::size_t k = 0; k < names.size(); ++k) CHECK(names[k] == often.readings.all()[k].name);
   }
 }
 

@@ -15,7 +15,7 @@ TEST_CASE("a table covered to its corners is read as long as it is, one not cove
     for (double x = -half; x <= half + 1e-9; x += 0.01)
       for (double y = -half; y <= half + 1e-9; y += 0.01) centres.push_back({x, y, 0.005});
     const Particles grains = make_particles(centres, std::vector<double>(centres.size(), 0.005), 2000);
-    Observables readings;
+    Readings readings;
     Ruler(test, 0, grains).read(grains, "step1", readings);
     return *readings.find("step1.spread_mm");
   };
@@ -32,7 +32,7 @@ TEST_CASE("the angle of repose is read after step 1, and only where it is asked 
   test.grains.radius_m = test.grains.smallest_m = test.grains.largest_m = 0.0025;
   const Particles heap = make_particles(centres, std::vector<double>(centres.size(), 0.0025), 2000);
   const auto angle = [&](const char* step) {
-    Observables readings;
+    Readings readings;
     Ruler(test, 0, heap).read(heap, step, readings);
     return readings.find(std::string(step) + ".angle_of_repose_deg");
   };
@@ -54,7 +54,7 @@ TEST_CASE("the shift of a top is read, also where soft grains carry it below the
     const std::vector<double> radii(centres.size(), 0.005);
     const Particles in_mould = make_particles(centres, radii, 2000);
     for (Vec3& centre : centres) centre.x += 0.02;
-    Observables readings;
+    Readings readings;
     Ruler(test, 0, in_mould).read(make_particles(centres, radii, 2000), "step1", readings);
     INFO("sunk by " << sunk << " m");
     CHECK(*readings.find("step1.lateral_shift_mm") == Approx(20));

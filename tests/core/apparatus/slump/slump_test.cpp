@@ -109,27 +109,27 @@ TEST_CASE("dry grains slump, sticky ones stand, and in step 2 the heap gets lowe
   REQUIRE_FALSE(flat.failure);
   REQUIRE_FALSE(upright.failure);
   CHECK(flat.run.settled);
-  CHECK(*flat.observables.find("step1.height_mm") < 90);
-  CHECK(*upright.observables.find("step1.height_mm") > 180);
-  CHECK(*flat.observables.find("step2.height_mm") < *flat.observables.find("step1.height_mm"));
-  CHECK(*flat.observables.find("step1.spread_mm") > 300);
-  const std::vector<std::string> names = observable_names(dry);
-  REQUIRE(names.size() == flat.observables.all().size());
-  for (std::size_t k = 0; k < names.size(); ++k) CHECK(names[k] == flat.observables.all()[k].name);
+  CHECK(*flat.readings.find("step1.height_mm") < 90);
+  CHECK(*upright.readings.find("step1.height_mm") > 180);
+  CHECK(*flat.readings.find("step2.height_mm") < *flat.readings.find("step1.height_mm"));
+  CHECK(*flat.readings.find("step1.spread_mm") > 300);
+  const std::vector<std::string> names = reading_names(dry);
+  REQUIRE(names.size() == flat.readings.all().size());
+  for (std::size_t k = 0; k < names.size(); ++k) CHECK(names[k] == flat.readings.all()[k].name);
 }
 
 TEST_CASE("the mould holds the laboratory's mass whatever the packing") {
   const SlumpTest test = small_test(1);
   const Outcome outcome = simulate(test);
-  CHECK(*outcome.observables.find("fill.mass_kg") == Approx(test.bulk_density_kg_m3 * volume_m3(test.mould)));
+  CHECK(*outcome.readings.find("fill.mass_kg") == Approx(test.bulk_density_kg_m3 * volume_m3(test.mould)));
 }
 
 TEST_CASE("the same test gives the same bits, another packing others") {
   SlumpTest test = small_test(1);
-  const double first = *simulate(test).observables.find("step1.height_mm");
-  const double again = *simulate(test).observables.find("step1.height_mm");
+  const double first = *simulate(test).readings.find("step1.height_mm");
+  const double again = *simulate(test).readings.find("step1.height_mm");
   test.packing_seed = 2;
-  const double other = *simulate(test).observables.find("step1.height_mm");
+  const double other = *simulate(test).readings.find("step1.height_mm");
   CHECK(std::memcmp(&first, &again, sizeof first) == 0);
   CHECK(first != other);
 }
@@ -215,9 +215,9 @@ TEST_CASE("a heap that has flowed off its table has no height below zero, and no
     const Outcome outcome = simulate(test, options);
     INFO("packing " << seed);
     REQUIRE_FALSE(outcome.failure);
-    CHECK(outcome.observables.find("step1.spilled_share").value() > 0.5);
+    CHECK(outcome.readings.find("step1.spilled_share").value() > 0.5);
     for (const char* reading : {"step1.height_mm", "step1.height_axis_mm", "step1.height_max_mm"})
-      CHECK(outcome.observables.find(reading).value_or(0) >= 0);
+      CHECK(outcome.readings.find(reading).value_or(0) >= 0);
   }
 }
 
@@ -231,7 +231,7 @@ TEST_CASE("a heap does not differ from its own outline, and another one does by 
   };
   REQUIRE_FALSE(simulate(test, options).failure);
   for (double x = -0.12; x <= 0.1201; x += 0.02) test.reading.outline_step1.push_back({x, side.at(x)});
-  const auto difference = [&] { return simulate(test).observables.find("step1.profile_mm").value(); };
+  const auto difference = [&] { return simulate(test).readings.find("step1.profile_mm").value(); };
   const double own = difference();
   test.packing_seed = 2;
   const double other = difference();

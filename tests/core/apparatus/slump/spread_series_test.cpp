@@ -62,25 +62,24 @@ TEST_CASE("a slump is timed without a change of its heap, and not without being 
   const Outcome plain = simulate(test);
   REQUIRE_FALSE(plain.failure);
   CHECK_FALSE(plain.curve);
-  CHECK_FALSE(plain.observables.find("step1.flow_time_s"));
+  CHECK_FALSE(plain.readings.find("step1.flow_time_s"));
 
   test.reading.flow = FlowTiming{0.12};
   const Outcome timed = simulate(test);
   REQUIRE_FALSE(timed.failure);
-  for (const Observable& one : plain.observables.all()) {
+  for (const Reading& one : plain.readings.all()) {
     INFO(one.name);
-    CHECK(timed.observables.find(one.name) == one.value);
+    CHECK(timed.readings.find(one.name) == one.value);
   }
-  const double t = timed.observables.find("step1.t500_s").value(),
-               end = timed.observables.find("step1.flow_time_s").value();
+  const double t = timed.readings.find("step1.t500_s").value(), end = timed.readings.find("step1.flow_time_s").value();
   CHECK(t > 0);
   CHECK(end >= t);
   REQUIRE(timed.curve);
   CHECK(timed.curve->points.front().y == Approx(100).margin(12));
-  CHECK(timed.curve->points.back().y == Approx(*plain.observables.find("step1.spread_mm")).margin(2));
+  CHECK(timed.curve->points.back().y == Approx(*plain.readings.find("step1.spread_mm")).margin(2));
 
   test.reading.flow = FlowTiming{0.29};  // the heap does not get so far
   const Outcome narrow = simulate(test);
-  CHECK_FALSE(narrow.observables.find("step1.t500_s"));
-  CHECK(narrow.observables.find("step1.flow_time_s") == end);
+  CHECK_FALSE(narrow.readings.find("step1.t500_s"));
+  CHECK(narrow.readings.find("step1.flow_time_s") == end);
 }

@@ -50,7 +50,7 @@ TEST_CASE("JKR in a crowd: the stronger grains stick, the higher the heap stands
       INFO("pull-off of " << pull_offs[k] << " weights, packing " << seed);
       REQUIRE_FALSE(outcome.failure);
       CHECK(outcome.run.settled);
-      heights[k] += *outcome.observables.find("step1.height_mm") / 3;
+      heights[k] += *outcome.readings.find("step1.height_mm") / 3;
     }
   INFO(heights[0] << ", " << heights[1] << ", " << heights[2] << " mm");
   CHECK(heights[1] > heights[0] + 10);
@@ -90,7 +90,7 @@ TEST_CASE(
     const Outcome outcome = simulate(test);
     REQUIRE_FALSE(dry.failure);
     REQUIRE_FALSE(outcome.failure);
-    CHECK(outcome.observables.find("step1.height_mm").value() > dry.observables.find("step1.height_mm").value() + 5);
+    CHECK(outcome.readings.find("step1.height_mm").value() > dry.readings.find("step1.height_mm").value() + 5);
     CHECK(std::fabs(outcome.run.energy_error.value()) < 4e-3);
   }
 }
@@ -124,9 +124,9 @@ TEST_CASE("elasto-plastic grains that adhere: a stiff heap stands, and where the
       INFO("packing " << seed << (smooth ? ", smooth" : ""));
       REQUIRE_FALSE(outcome.failure);
       CHECK(outcome.run.settled);
-      height[smooth] += *outcome.observables.find("step1.height_mm") / kPackings;
-      spread[smooth] += *outcome.observables.find("step1.spread_mm") / kPackings;
-      shift = std::max(shift, *outcome.observables.find("step1.lateral_shift_mm"));
+      height[smooth] += *outcome.readings.find("step1.height_mm") / kPackings;
+      spread[smooth] += *outcome.readings.find("step1.spread_mm") / kPackings;
+      shift = std::max(shift, *outcome.readings.find("step1.lateral_shift_mm"));
     }
   INFO("heights " << height[0] << ", " << height[1] << ", spreads " << spread[0] << ", " << spread[1] << " mm");
   CHECK(height[0] > 110);

@@ -9,23 +9,23 @@ namespace pastefit {
 
 /// One reading of a test. The name carries test step and unit, e.g. "step1.height_mm";
 /// it is the key in laboratory files, results and residuals alike, so the value is in the unit the name says.
-struct Observable {
+struct Reading {
   std::string name;
   double value = 0;
 };
 
 /// Readings in the order in which they were taken.
-class Observables {
+class Readings {
  public:
   void set(std::string_view name, double value);
   std::optional<double> find(std::string_view name) const;
-  const std::vector<Observable>& all() const { return readings_; }
+  const std::vector<Reading>& all() const { return readings_; }
 
  private:
-  std::vector<Observable> readings_;
+  std::vector<Reading> readings_;
 };
 
 /// The mean of each reading over several runs. One that some run lacks has none.
-Observables mean_of(const std::vector<Observables>& runs);
+Readings mean_of(const std::vector<Readings>& runs);
 
 }  // namespace pastefit

@@ -1,29 +1,29 @@
-#include "core/observe/observables.h"
+#include "core/observe/readings.h"
 
 #include <algorithm>
 
 namespace pastefit {
 
-void Observables::set(std::string_view name, double value) {
-  const auto same = [&](const Observable& o) { return o.name == name; };
+void Readings::set(std::string_view name, double value) {
+  const auto same = [&](const Reading& o) { return o.name == name; };
   if (const auto it = std::find_if(readings_.begin(), readings_.end(), same); it != readings_.end())
     it->value = value;
   else
     readings_.push_back({std::string(name), value});
 }
 
-std::optional<double> Observables::find(std::string_view name) const {
-  for (const Observable& o : readings_)
+std::optional<double> Readings::find(std::string_view name) const {
+  for (const Reading& o : readings_)
     if (o.name == name) return o.value;
   return {};
 }
 
-Observables mean_of(const std::vector<Observables>& runs) {
-  Observables mean;
+Readings mean_of(const std::vector<Readings>& runs) {
+  Readings mean;
   if (runs.empty()) return mean;
-  for (const Observable& reading : runs.front().all()) {
+  for (const Reading& reading : runs.front().all()) {
     double sum = 0;
-    const bool everywhere = std::all_of(runs.begin(), runs.end(), [&](const Observables& run) {
+    const bool everywhere = std::all_of(runs.begin(), runs.end(), [&](const Readings& run) {
       const auto value = run.find(reading.name);
       sum += value.value_or(0);
       return value.has_value();
