@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts what a reader has to walk through, and fails where there is more of it than before: see `MOST`.
+"""Counts what a reader has to walk through, and fails where there is more of it than before: see `MOST`; and fails where a
+word that was given up for another returns: see `RETIRED`.
 
 usage: check_structure.py SOURCE_DIR
 """
@@ -17,6 +18,34 @@ MOST = {
     "files that decide whether a material meets the laboratory": 1,
     "lines of schemas written by hand": 282,
 }
+
+# Words that were given up: a reading is no observable, and an error is the largest difference over its tolerance (tests/style.md).
+RETIRED = re.compile(r"\w*(?:observable|normalised_error|misfit_?unit_of|MisfitUnit|best_miss)\w*", re.I)
+
+# Where an older word stays, since it stands on users' disks or in their scripts, or is a name of somebody else's.
+KEPT = {
+    "calibrate/card/card_json.cpp": {"observables"},  # key of cards of versions 4 and 5
+    "calibrate/cli/simulation_text.cpp": {"observables"},  # key of `simulate --json`
+    "core/laws/figures.py": {"observables"},  # which reads that key
+    "calibrate/store/store.cpp": {"observables"},  # column of stores
+    "calibrate/python/pastefit/search.py": {"observables"},  # gest-api's word in a VOCS
+    "calibrate/manual/python.md": {"observables"},
+    "calibrate/python/result_json.cpp": {"best_miss"},  # key of what `progress` is told
+    "calibrate/python/pastefit/calibration.py": {"best_miss"},
+    "calibrate/python/pastefit/progress.py": {"best_miss"},
+    "calibrate/report/README.md": {"Observable"},  # Observable Plot
+    "calibrate/report/page/source/plots.js": {"observablehq"},
+}
+
+
+def retired_words(source):
+    """Those of core and calibrate, with their places."""
+    written = re.compile(r"\.(?:h|cpp|md|py|pyi|js)$")
+    files = [file for part in ("core", "calibrate") for file in sorted((source / part).glob("**/*"))
+             if written.search(file.name) and not {"node_modules", "built"} & set(file.parts)]
+    return [f"{place}:{number}: {word}" for file in files for place in [file.relative_to(source).as_posix()]
+            for number, line in enumerate(file.read_text().split("\n"), 1) for word in RETIRED.findall(line)
+            if word not in KEPT.get(place, ())]
 
 
 def counts(source):
@@ -38,8 +67,11 @@ def counts(source):
 
 
 if __name__ == "__main__":
-    found = counts(pathlib.Path(sys.argv[1]).resolve())
+    source = pathlib.Path(sys.argv[1]).resolve()
+    found = counts(source)
     grown = {what: count for what, count in found.items() if count > MOST[what]}
     for what, count in found.items():
         print(f"{count:7} (at most {MOST[what]}) {what}")
-    sys.exit(f"more than before: {', '.join(grown)}" if grown else 0)
+    errors = [f"more than before: {', '.join(grown)}"] if grown else []
+    errors += [f"{place}, a word that was given up: see RETIRED" for place in retired_words(source)]
+    sys.exit("\n".join(errors) or 0)
