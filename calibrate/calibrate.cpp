@@ -8,7 +8,6 @@
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/evaluate/cost.h"
 #include "calibrate/evaluate/study_scoring.h"
-#include "calibrate/inference/condition_effects.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/study/parameters.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/step/kernel_choice.h"
+#include "core/step/kernels.h"
 
 int main(int argc, char** argv) {
   const char* kernels = std::getenv("PASTEFIT_KERNELS");

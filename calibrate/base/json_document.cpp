@@ -1,5 +1,3 @@
-#include "calibrate/base/json_document.h"
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -9,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 
 namespace pastefit {

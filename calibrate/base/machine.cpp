@@ -1,5 +1,6 @@
 #include "calibrate/base/machine.h"
 
+#include <dlfcn.h>
 #include <gnu/libc-version.h>
 #include <malloc.h>
 #include <sched.h>
@@ -7,9 +8,13 @@
 
 #include <algorithm>
 #include <cstdlib>  // says whether it is the GNU C library
+#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <string_view>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #ifdef __GLIBC__
 #endif
@@ -45,6 +50,38 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes]; blocks below it are not mapped one by one
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// `share/pastefit` beside one of the folders that the file of this code lies in: where that is a shared library, as
+/// for Python, its program is somebody else's.
+std::vector<fs::path> beside_this_code() {
+  std::vector<fs::path> found;
+  Dl_info code;
+  if (dladdr(reinterpret_cast<const void*>(&data_folders), &code) == 0 || !code.dli_fname) return found;
+  const fs::path file = code.dli_fname;
+  std::error_code error;
+  if (file.is_absolute())
+    for (fs::path above = file.parent_path(); above.has_relative_path(); above = above.parent_path())
+      if (fs::is_directory(above / "share" / "pastefit", error)) found.push_back(above / "share" / "pastefit");
+  return found;
+}
+
+}  // namespace
+
+std::vector<fs::path> data_folders() {
+  std::vector<fs::path> folders;
+  if (const char* data = std::getenv("PASTEFIT_DATA_DIR"); data && *data) folders.emplace_back(data);
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back((program.parent_path() / ".." / "share" / "pastefit").lexically_normal());
+  for (fs::path& folder : beside_this_code()) folders.push_back(std::move(folder));
+  for (const std::string_view folder : {PASTEFIT_SOURCE_DATA_DIR, PASTEFIT_INSTALL_DATA_DIR})
+    if (!folder.empty()) folders.emplace_back(folder);
+  return folders;
 }
 
 }  // namespace pastefit

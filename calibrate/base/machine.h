@@ -1,7 +1,9 @@
 #pragma once
 
 #include <ctime>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pastefit {
 
@@ -33,5 +35,11 @@ inline double process_seconds() {
 /// system for it, page by page: 5 to 10 % of a flowing slump. To be called once, at the beginning of a program.
 /// Limits: with the GNU C library; elsewhere nothing happens.
 void keep_freed_memory();
+
+/// Where the program's data may be (apparatus, cases, the style for LAMMPS), the first that counts first: the folder
+/// that the environment variable PASTEFIT_DATA_DIR names; `share/pastefit` beside the program's own folder, so that an
+/// installed tree may be moved, or beside a folder above that of the shared library this is in; the sources' (not in
+/// packages); the folder that was configured. None of them need be there.
+std::vector<std::filesystem::path> data_folders();
 
 }  // namespace pastefit

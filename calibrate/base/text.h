@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -117,6 +118,23 @@ inline std::string shell_word_if_needed(std::string_view text) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@-";
   const bool as_it_is = !text.empty() && text[0] != '-' && text.find_first_not_of(plain) == std::string_view::npos;
   return as_it_is ? std::string(text) : shell_word(text);
+}
+
+/// Bytes as text of 64 letters, four for each three bytes, the last ones filled up with "=" (RFC 4648).
+std::string base64(std::string_view bytes);
+
+/// FNV-1a, 64 bits, as 16 hexadecimal digits. Tells contents apart; no protection against intent.
+/// Source: Fowler, Noll & Vo; offset basis 0xcbf29ce484222325, prime 0x100000001b3.
+inline std::string content_hash(std::string_view content) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : content) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3u;
+  }
+  std::string digits(16, '0');
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4)
+    *digit = "0123456789abcdef"[hash & 15];
+  return digits;
 }
 
 }  // namespace pastefit

@@ -1,5 +1,6 @@
 #include "calibrate/batch/batch.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -7,11 +8,12 @@
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/json_document.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 #include "calibrate/report/findings.h"
-#include "calibrate/report/report_page.h"
+#include "calibrate/report/page.h"
 #include "calibrate/search/calibration.h"
+#include "calibrate/store/program.h"
 
 namespace pastefit {
 
@@ -86,6 +88,87 @@ std::optional<BatchFailure> read_failure(const BatchStudy& one) {
     return found != document->end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   return BatchFailure{text("status"), text("reason")};
+}
+
+namespace {
+
+/// What both scripts begin with.
+std::string heading_of_job(const ArrayJob& job, const std::string& meaning, const std::string& name) {
+  return "#!/bin/bash\n# " + meaning + " Written by pastefit " + program_version() +
+         ".\n# Time limit, partition, account and memory: options of sbatch, or further #SBATCH lines.\n#SBATCH "
+         "--job-name=" +
+         name + "\n#SBATCH --chdir=" + shell_word(job.directory.string()) + "\n#SBATCH --nodes=1 --ntasks=1\n";
+}
+
+std::string studies_of(const ArrayJob& job) {
+  std::string out = "studies=(\n";
+  for (const std::string& study : job.studies) out += "  " + shell_word(study) + "\n";
+  return out + ")\n";
+}
+
+/// A file that Slurm writes the output to, in whose name it replaces %a by the element's number. A % of the folder's
+/// own name is doubled.
+std::string output_line(const ArrayJob& job, const std::string& name) {
+  std::string folder;
+  for (const char letter : job.out.string()) folder += letter == '%' ? std::string("%%") : std::string(1, letter);
+  return "#SBATCH --output=" + shell_word((std::filesystem::path(folder) / name).string()) + " --open-mode=append\n";
+}
+
+std::string output_of_part(int part) {
+  return part == 1 ? "slurm-%a.txt" : "slurm-" + std::to_string(part) + "-%a.txt";
+}
+
+constexpr const char* kElement = R"sh(
+driver=
+requeue() { echo "$1: the element is queued again and goes on where it was"; scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"; }
+# Before the time limit, and where Slurm or a person ends the job, the calibration ends with all that it has simulated.
+trap 'time_is_up=yes; kill -TERM $driver' USR1
+trap 'kill -TERM $driver' TERM
+)sh";
+
+constexpr const char* kWait = R"sh(driver=$!
+wait $driver; status=$?
+while kill -0 $driver 2>/dev/null; do wait $driver; status=$?; done
+if [ -n "$time_is_up" ]; then
+  requeue "the time is up"
+elif [ $status -gt 128 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 3 ]; then
+  requeue "pastefit was killed (status $status)"
+fi
+exit $status
+)sh";
+
+}  // namespace
+
+Faults unusable_in_job(const ArrayJob& job) {
+  Faults faults;
+  const auto check = [&](const std::string& where, const std::string& path, bool pattern) {
+    const auto bad = [&](unsigned char letter) {
+      return letter < 0x20 || letter == 0x7f || (pattern && letter == '\\');
+    };
+    if (std::ranges::any_of(path, bad))
+      faults.push_back({where,
+                        in_quotes(path) + " has a line break, a control character or a backslash, which no option "
+                                          "of Slurm can have",
+                        "a folder with another name"});
+  };
+  check("--out", job.out.string(), true);
+  check("the working folder", job.directory.string(), false);
+  return faults;
+}
+
+std::string array_job_script(const ArrayJob& job) {
+  const std::string last = std::to_string(job.studies.size() - 1);
+  return heading_of_job(job, "Calibrates one study per element.", "pastefit") + "#SBATCH --array=0-" + last +
+         "\n#SBATCH --cpus-per-task=" + std::to_string(job.workers) + "\n#SBATCH --requeue --signal=B:USR1@120\n" +
+         output_line(job, output_of_part(job.part)) + studies_of(job) + kElement + shell_word(job.program.string()) +
+         " batch \"${studies[SLURM_ARRAY_TASK_ID]}\" --out " + shell_word(job.out.string()) +
+         " --workers \"$SLURM_CPUS_PER_TASK\" --no-table &\n" + kWait;
+}
+
+std::string table_job_script(const ArrayJob& job) {
+  return heading_of_job(job, "Makes the table of the studies.", "pastefit-table") + "#SBATCH --requeue\n" +
+         output_line(job, "slurm-table.txt") + studies_of(job) + "exec " + shell_word(job.program.string()) +
+         " batch \"${studies[@]}\" --out " + shell_word(job.out.string()) + " --table\n";
 }
 
 }  // namespace pastefit

@@ -73,4 +73,8 @@ const Entry* find_named(const std::vector<Entry>& list, const std::string& name)
   return found == list.end() ? nullptr : &*found;
 }
 
+/// The table as one page of HTML that asks nothing of a network and runs no script, the worst verdicts on top. A study
+/// is a link to the page in its own folder, relative to where this page lies.
+std::string batch_page(const std::vector<BatchRow>& rows);
+
 }  // namespace pastefit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -249,5 +250,23 @@ Result<std::string> readable_text(const Card& card);
 /// Replaces the file by the card, whole or not at all. Errors: those of `readable_text` and `write_atomically`; what
 /// was there is then as it was.
 Faults write_card(const std::filesystem::path& file, const Card& card);
+
+/// The study that a card answers, as far as the card says: its tests with what was measured and what of it counts, and
+/// the parameters with their bounds. Its title, bounds and tolerances are the study's; of the search only seed,
+/// strategy, packings and budget are.
+Study study_of(const Card& card);
+
+/// The card's material among that study's candidates.
+Eigen::VectorXd point_of(const Card& card);
+
+/// The card's material for grains of another mean radius, in all its tests, by the scaling rule: F/R^2 stays the same
+/// function of d/R. With s = radius/old radius of the material's grains: a stays, b s, c s^2, d_c s, offset s, cohesion
+/// s^2, liquid volume s^3, surface tension s, all radii of the distribution s; Young's modulus stays (contact stiffness
+/// then goes with s). Source: Thakur, Ooi & Ahmadian, Powder Technology 293 (2016) 130-137.
+///
+/// What was simulated with the old grains (readings, confirmations, baseline, rebaselining) does not hold for the new
+/// ones and is left out; `rescaled` gets a row without bias (`check/rescale_bias.h` measures it).
+/// Errors: grains that a test cannot be run with (too coarse for the mould, finer than the format allows).
+Result<Card> rescaled(Card card, double radius_m);
 
 }  // namespace pastefit

@@ -12,7 +12,7 @@
 #include "calibrate/base/object_schema.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/compared_yield_stress.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/laboratory/specimen_json.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/json_document.h"
-#include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/json_reader.h"
+#include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card_description.h"
 

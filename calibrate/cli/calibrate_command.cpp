@@ -1,4 +1,7 @@
+#include <atomic>
+#include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -6,18 +9,17 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/delivery.h"
-#include "calibrate/cli/effort_checks.h"
-#include "calibrate/cli/interrupt.h"
-#include "calibrate/cli/machine_options.h"
-#include "calibrate/cli/option_checks.h"
-#include "calibrate/cli/progress_line.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/cli/study_remarks.h"
+#include "calibrate/cli/options.h"
+#include "calibrate/cli/process.h"
+#include "calibrate/cli/progress.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/cli/understood.h"
 #include "calibrate/evaluate/cost.h"
 #include "calibrate/evaluate/record.h"
-#include "calibrate/report/calibration_folder.h"
-#include "calibrate/report/report_page.h"
+#include "calibrate/inference/description.h"
+#include "calibrate/report/findings.h"
+#include "calibrate/report/page.h"
+#include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
 #include "calibrate/study/tests.h"
@@ -25,6 +27,61 @@
 namespace pastefit {
 
 namespace {
+
+/// What a calibration brought, to its folder and to the person: card, summary, curves and page; without a card the page
+/// alone, and why there is none. Who interrupts gets the page with what was seen until then.
+struct Delivery {
+  const Study& study;
+  const Store& store;
+  const OutputFolder& folder;
+  int threads = 0;    ///< to simulate what is to be shown and was not seen
+  bool json = false;  ///< print the card instead of the summary
+
+  /// The program's exit status: only a confirmed material is what was asked for.
+  int deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const;
+
+ private:
+  int deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
+                   RunRecordings& seen) const;
+  int say_why_not(const CalibrationResult& result) const;
+};
+
+/// The answer as JSON where there is no card to print.
+nlohmann::ordered_json without_material(const CalibrationResult& result) {
+  auto failures = nlohmann::ordered_json::object();
+  for (const auto& [reason, count] : result.counts.failures) failures[std::string(name_of(reason))] = count;
+  return {{"status", name_of(result.search.status)},
+          {"reason", result.search.reason},
+          {"simulations", result.search.simulations},
+          {"failures", failures}};
+}
+
+int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const {
+  return result.card ? deliver_card(*result.card, result.inference, stop, seen) : say_why_not(result);
+}
+
+int Delivery::deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
+                           RunRecordings& seen) const {
+  const auto summary = summary_of(card, inference ? describe(*inference) : "");
+  auto faults = write_card(folder, card, summary);
+  print("%s", json ? json_text(to_json(card)).c_str() : summary.c_str());
+  std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
+  if (faults.empty())
+    faults = write_looks(folder, findings_of(card, store, inference), stop, {.threads = threads, .seen = &seen}, files);
+  if (!faults.empty()) return report(faults, kFailed);
+  for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
+  return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
+}
+
+int Delivery::say_why_not(const CalibrationResult& result) const {
+  std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
+  for (const auto& [reason, count] : result.counts.failures)
+    std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
+  std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
+  if (json) print("%s", json_text(without_material(result)).c_str());
+  (void)write_page(folder.path(), findings_without_card(study, store));
+  return kFailed;
+}
 
 struct CalibrateArguments {
   std::string study;

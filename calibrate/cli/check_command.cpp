@@ -11,11 +11,10 @@
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/machine_options.h"
-#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/cli/work_line.h"
+#include "calibrate/cli/progress.h"
+#include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 

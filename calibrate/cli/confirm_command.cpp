@@ -14,17 +14,15 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/interrupt.h"
-#include "calibrate/cli/lammps_program.h"
 #include "calibrate/cli/lammps_run.h"
-#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/process.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/report/summary.h"
 
 namespace pastefit {
 

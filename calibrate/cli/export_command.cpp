@@ -4,11 +4,10 @@
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/exports/export.h"
-#include "calibrate/exports/export_notes.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {

@@ -1,17 +1,166 @@
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/manual.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/store/program.h"
 
 namespace pastefit {
 
+// Manual and completion, made from the command line's own definitions, so that they say what the program does.
+
 namespace {
+
+constexpr std::string_view completed_shells[] = {"bash", "zsh", "fish"};
+
+/// The verbs of a program, in the order of its table.
+std::vector<const CLI::App*> verbs_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// Text as roff takes it: no line begins a request, and a hyphen is the one that is typed.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n')) out += "\\&";
+    if (c == '-' || c == '\\')
+      out += c == '-' ? "\\-" : "\\e";
+    else
+      out += c;
+  }
+  return out;
+}
+
+bool is_positional(const CLI::Option& option) {
+  return option.nonpositional() == false;
+}
+
+/// "--out DIR", "-h,--help", "STUDY".
+std::string shape_of(const CLI::Option& option) {
+  const std::string name = option.get_name(is_positional(option), !is_positional(option));
+  const std::string type = option.get_type_name();
+  return is_positional(option) || type.empty() || option.get_items_expected_max() == 0 ? name : name + " " + type;
+}
+
+std::string synopsis_of(const CLI::App& verb) {
+  std::string out;
+  for (const CLI::Option* option : verb.get_options()) {
+    if (is_positional(*option))
+      out += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
+    else if (option->get_required())
+      out += " " + shape_of(*option);
+  }
+  return out + " [OPTIONS]";
+}
+
+std::string full_name(const CLI::App& app) {
+  return app.get_parent() ? app.get_parent()->get_name() + "-" + app.get_name() : app.get_name();
+}
+
+std::string options_section(const CLI::App& app) {
+  std::string out = ".SH OPTIONS\n";
+  for (const CLI::Option* option : app.get_options())
+    out += ".TP\n.B " + roff(shape_of(*option)) + "\n" + roff(option->get_description()) + "\n";
+  return out;
+}
+
+std::string flags_of(const CLI::App& verb) {
+  std::string out;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) out += (out.empty() ? "--" : " --") + name;
+  return out;
+}
+
+std::string names_of_verbs(const CLI::App& program) {
+  std::string out;
+  for (const CLI::App* verb : verbs_of(program)) out += (out.empty() ? "" : " ") + verb->get_name();
+  return out;
+}
+
+std::string bash_completion(const CLI::App& program) {
+  std::string out =
+      "_pastefit() {\n"
+      "  local word=${COMP_WORDS[COMP_CWORD]} words\n"
+      "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
+      "    COMPREPLY=($(compgen -W " +
+      shell_word(names_of_verbs(program) + " --help --version") +
+      " -- \"$word\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  case ${COMP_WORDS[1]} in\n";
+  for (const CLI::App* verb : verbs_of(program))
+    out += "    " + verb->get_name() + ") words=" + shell_word(flags_of(*verb)) + " ;;\n";
+  return out +
+         "  esac\n"
+         "  case $word in\n"
+         "    -*) COMPREPLY=($(compgen -W \"$words\" -- \"$word\")) ;;\n"
+         "    *) COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+         "  esac\n"
+         "}\n"
+         "complete -o filenames -F _pastefit pastefit\n";
+}
+
+std::string zsh_completion(const CLI::App& program) {
+  std::string out = "#compdef pastefit\nlocal -a verbs=(\n";
+  for (const CLI::App* verb : verbs_of(program))
+    out += "  " + shell_word(verb->get_name() + ":" + verb->get_description()) + "\n";
+  out += ")\nif (( CURRENT == 2 )); then\n  _describe verb verbs\n  return\nfi\ncase $words[2] in\n";
+  for (const CLI::App* verb : verbs_of(program)) {
+    out += "  " + verb->get_name() + ") compadd -- " + flags_of(*verb) + " ;;\n";
+  }
+  return out + "esac\n_files\n";
+}
+
+std::string fish_completion(const CLI::App& program) {
+  std::string out;
+  for (const CLI::App* verb : verbs_of(program)) {
+    out += "complete -c pastefit -n __fish_use_subcommand -f -a " + verb->get_name() + " -d " +
+           shell_word(verb->get_description()) + "\n";
+    for (const CLI::Option* option : verb->get_options())
+      for (const std::string& name : option->get_lnames())
+        out += "complete -c pastefit -n '__fish_seen_subcommand_from " + verb->get_name() + "' -l " + name +
+               (option->get_items_expected_max() > 0 ? " -r" : "") + " -d " + shell_word(option->get_description()) +
+               "\n";
+  }
+  return out;
+}
+
+/// The page of a verb, or of the program itself, for man(1), section 1.
+std::string man_page_of(const CLI::App& app) {
+  const std::string name = full_name(app);
+  std::string out = ".TH " + roff(name) + " 1 \"\" \"pastefit " + roff(program_version()) + "\"\n";
+  out += ".SH NAME\n" + roff(name) + " \\- " + roff(app.get_description()) + "\n.SH SYNOPSIS\n.B ";
+  const bool is_program = app.get_parent() == nullptr;
+  out += is_program ? "pastefit\nVERB [OPTIONS]\n" : "pastefit " + roff(app.get_name() + synopsis_of(app)) + "\n";
+  if (is_program) {
+    out += ".SH VERBS\n";
+    for (const CLI::App* verb : verbs_of(app))
+      out += ".TP\n.BR pastefit\\-" + roff(verb->get_name()) + " (1)\n" + roff(verb->get_description()) + "\n";
+  }
+  out += options_section(app);
+  out +=
+      ".SH EXIT STATUS\n0: done, and what was asked holds; 1: it does not, or it could not be kept; 2: the input "
+      "cannot be "
+      "used,\nevery error is named and nothing was written; 70: a bug of the program.\n";
+  return out + ".SH SEE ALSO\n" +
+         (is_program ? "The README in share/doc/pastefit.\n"
+                     : ".BR pastefit (1), and the README in share/doc/pastefit.\n");
+}
+
+/// Completes verbs, options and files. Requirement: `shell` is one of `completed_shells`.
+std::string completion_of(const CLI::App& program, std::string_view shell) {
+  if (shell == "bash") return bash_completion(program);
+  return shell == "zsh" ? zsh_completion(program) : fish_completion(program);
+}
 
 namespace fs = std::filesystem;
 

@@ -10,8 +10,8 @@
 #include "calibrate/card/card.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/report/summary.h"
 
 namespace pastefit {
 

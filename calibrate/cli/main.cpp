@@ -11,7 +11,6 @@
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/standard_output.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"

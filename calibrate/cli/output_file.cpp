@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 
 namespace pastefit {
 

@@ -7,8 +7,8 @@
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/option_checks.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/options.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/heap_dump.h"
 

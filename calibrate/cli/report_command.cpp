@@ -4,11 +4,11 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/interrupt.h"
-#include "calibrate/cli/machine_options.h"
+#include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/report/report_page.h"
+#include "calibrate/cli/process.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/report/page.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {

@@ -5,17 +5,14 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/card/rescale.h"
 #include "calibrate/check/rescale_bias.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/effort_checks.h"
-#include "calibrate/cli/machine_options.h"
-#include "calibrate/cli/option_checks.h"
+#include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/cli/work_line.h"
+#include "calibrate/cli/progress.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/report/summary.h"
 
 namespace pastefit {
 

@@ -2,10 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"
-#include "calibrate/card/compared_yield_stress.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/cli/terminal.h"
+#include "calibrate/report/summary.h"
 
 namespace pastefit {
 

@@ -5,9 +5,9 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/standard_output.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/laboratory/test.h"
-#include "calibrate/study/slump_lab_template.h"
+#include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/target_laws.h"
 
 namespace pastefit {

@@ -6,8 +6,8 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
-#include "calibrate/cli/standard_output.h"
-#include "calibrate/cli/work_line.h"
+#include "calibrate/cli/progress.h"
+#include "calibrate/cli/terminal.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit {

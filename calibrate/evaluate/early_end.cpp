@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/content_hash.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/tolerance.h"
 
 namespace pastefit {

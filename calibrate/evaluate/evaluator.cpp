@@ -10,7 +10,7 @@
 #include "calibrate/base/machine.h"
 #include "calibrate/evaluate/early_end.h"
 #include "calibrate/evaluate/record.h"
-#include "calibrate/laboratory/softness.h"
+#include "calibrate/laboratory/engine.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit {

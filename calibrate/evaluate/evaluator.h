@@ -16,7 +16,6 @@
 #include "calibrate/base/worker_pool.h"
 #include "calibrate/evaluate/objective.h"
 #include "calibrate/evaluate/record.h"
-#include "calibrate/evaluate/run_observer.h"
 #include "calibrate/evaluate/study_scoring.h"
 #include "calibrate/laboratory/engine.h"
 #include "calibrate/store/store.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "calibrate/base/data_folders.h"
+#include "calibrate/base/machine.h"
 #include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"

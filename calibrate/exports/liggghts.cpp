@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "calibrate/base/text.h"
-#include "calibrate/exports/edinburgh.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/exports/edinburgh.h"
+#include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/soulie.h"
 

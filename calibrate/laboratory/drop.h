@@ -11,7 +11,7 @@
 #include "calibrate/laboratory/default_answers.h"
 #include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
-#include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/drop_test/drop_test.h"
 
 namespace pastefit {

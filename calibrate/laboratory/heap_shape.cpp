@@ -7,7 +7,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/slump_curves.h"
+#include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
 namespace {

@@ -14,10 +14,10 @@
 #include "calibrate/laboratory/dimension_json.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/heap_shape.h"
-#include "calibrate/laboratory/surface.h"
+#include "calibrate/laboratory/measurement.h"
+#include "calibrate/laboratory/specimen_json.h"
 #include "calibrate/laboratory/yield_stress.h"
 #include "core/apparatus/slump/packing.h"
-#include "core/apparatus/slump/slump_readings.h"
 #include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
@@ -105,5 +105,9 @@ std::string_view rejected_runs(const SlumpTest& test);
 
 /// What a person should know of these runs besides their readings: heaps that sheared off. A line, or nothing.
 std::string remarks_on(const SlumpTest& test, std::span<const Readings> runs);
+
+/// Outlines and spread curves of a slump test that are in another frame or unit than the files': off a picture's edge,
+/// downwards, in centimetres, as a radius. Adds a fault for each.
+void check_curves(const SlumpTest& test, ReadingCheck& check);
 
 }  // namespace pastefit

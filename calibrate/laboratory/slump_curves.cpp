@@ -1,5 +1,3 @@
-#include "calibrate/laboratory/slump_curves.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/slump.h"
 
 namespace pastefit {
 namespace {

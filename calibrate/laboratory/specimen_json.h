@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "calibrate/laboratory/names.h"
 #include "core/apparatus/dimension.h"
 #include "core/apparatus/specimen.h"
+#include "core/laws/materials.h"
 
 namespace pastefit {
 
@@ -42,5 +44,12 @@ void describe_specimen(Fields& fields, Specimen& specimen) {
   fields.integer({"packing_seed", "of the packing that is simulated if no other is asked for"}, specimen.packing_seed,
                  required);
 }
+
+/// A surface of a test's apparatus that grains touch. Its parameters are `<name>_friction`,
+/// `<name>_rolling_friction` and `<name>_cohesion_factor`.
+struct Surface {
+  std::string_view name;
+  WallContact& contact;
+};
 
 }  // namespace pastefit

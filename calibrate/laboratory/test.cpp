@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calibrate/base/object_schema.h"
-#include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/template_lines.h"
 #include "calibrate/base/units.h"
 #include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "calibrate/models/gaussian_process.h"
-#include "calibrate/models/hyperparameters.h"
 
 namespace pastefit {
 namespace {

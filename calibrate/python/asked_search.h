@@ -6,15 +6,41 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "calibrate/inference/examination.h"
 #include "calibrate/python/answers.h"
-#include "calibrate/python/asked_examination.h"
+#include "calibrate/search/candidate_queue.h"
 #include "calibrate/search/search.h"
 
 namespace pastefit::python {
+
+/// An `Examination` whose simulations run in another engine: its candidates are suggested and answered as those of a
+/// search are.
+class AskedExamination {
+ public:
+  /// Requirements: those of `Examination`; answers and calibration outlive it.
+  AskedExamination(const Answers& answers, const Calibration& found, int simulations);
+
+  std::vector<Candidate> suggest(std::size_t count) { return queue_.suggest(count); }
+  void ingest(const CandidateResult& result);
+  void stop();
+  bool finished() const { return finished_; }
+  /// Requirement: it has finished.
+  std::optional<Inference> inference() const { return examination_.result(); }
+
+ private:
+  void advance();
+
+  const Scoring& scoring_;
+  CandidateQueue queue_;
+  Examination examination_;
+  std::vector<std::size_t> awaited_;  // candidates, by their numbers
+  bool finished_ = false;
+};
 
 /// A search whose simulations run in another engine. Every answer is kept before it is used, and what is known is not
 /// asked again, so that a search that was ended goes on where it was.

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/statistics.h"
+#include "calibrate/base/text.h"
 #include "calibrate/search/strategies.h"
-#include "calibrate/study/free_parameter.h"
-#include "calibrate/study/search_options.h"
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/study_sections.h"
 
 namespace pastefit::python {
 
@@ -103,6 +108,130 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document) {
   if (faults.empty()) faults = validate(problem.search, static_cast<int>(problem.parameters.size()));
   if (!faults.empty()) return faults;
   return problem;
+}
+
+using nlohmann::json;
+
+namespace {
+
+std::string key_of_candidate(const Candidate& candidate) {
+  return content_hash(json{
+      {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
+      {"seed",
+       candidate.packing}}.dump());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, const std::string& file,
+                                                      const std::string& engine) {
+  json inputs = json::parse(problem.content);
+  inputs.erase("title");
+  if (inputs.contains("search")) inputs["search"].erase("budget_simulations");
+  auto store = Store::open(file, {engine, json{{"problem", inputs}}.dump()});
+  if (!store.ok()) return store.faults();
+  if (store.value().size() > 0 && !store.value().changes().empty())
+    return Fault{file, "holds the answers of another problem", "another file; nothing of it was changed"};
+  return std::unique_ptr<Answers>(new ProblemAnswers(std::move(problem), std::move(store).value()));
+}
+
+ProblemAnswers::ProblemAnswers(CustomProblem problem, Store store)
+    : problem_(std::move(problem)), store_(std::move(store)), scoring_(problem_.readings, problem_.parameters) {}
+
+/// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
+bool ProblemAnswers::is_answer(const StoredEvaluation& kept) const {
+  const auto is_there = [&](const StudyReading& reading) {
+    return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
+  };
+  return kept.point.size() == problem_.parameters.size() &&
+         (kept.failure || std::ranges::all_of(problem_.readings, is_there));
+}
+
+Evaluation ProblemAnswers::evaluation_of(const StoredEvaluation& kept) const {
+  Evaluation evaluation;
+  evaluation.point = Eigen::Map<const Eigen::VectorXd>(kept.point.data(), static_cast<Eigen::Index>(kept.point.size()));
+  evaluation.packing = kept.packing;
+  evaluation.failure = kept.failure;
+  if (!kept.failure)
+    for (const StudyReading& reading : problem_.readings)
+      evaluation.readings.push_back(kept.readings.find(reading.name).value());
+  return evaluation;
+}
+
+std::vector<std::string> ProblemAnswers::readings() const {
+  std::vector<std::string> names;
+  for (const StudyReading& reading : problem_.readings) names.push_back(reading.name);
+  return names;
+}
+
+std::optional<Evaluation> ProblemAnswers::find(const Candidate& candidate) const {
+  const auto kept = store_.find(key_of_candidate(candidate));
+  return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
+}
+
+Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const EngineAnswer& answer) {
+  StoredEvaluation kept;
+  kept.key = key_of_candidate(candidate);
+  kept.point.assign(candidate.point.begin(), candidate.point.end());
+  kept.values = default_values();
+  kept.packing = candidate.packing;
+  const auto names = readings();
+  kept.failure = failure_of(answer, names);
+  if (!kept.failure)
+    for (const std::string& name : names) kept.readings.set(name, answer.readings.find(name).value());
+  if (auto faults = store_.add(kept); !faults.empty()) return faults;
+  return evaluation_of(kept);
+}
+
+TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
+  TrainingData data;
+  data.parameters = problem_.parameters;
+  std::vector<const Evaluation*> good;
+  std::set<std::pair<std::vector<double>, std::uint64_t>> seen;
+  for (const Response& response : history)
+    for (const Evaluation& one : response.evaluations) {
+      const bool cut_off = one.failure && one.failure->reason == FailureReason::stopped;
+      if (cut_off || !seen.insert({{one.point.begin(), one.point.end()}, one.packing}).second) continue;
+      (one.failure ? data.failed : data.points).push_back(one.point);
+      if (!one.failure) good.push_back(&one);
+    }
+  for (std::size_t k = 0; k < problem_.readings.size(); ++k) {
+    const StudyReading& reading = problem_.readings[k];
+    ReadingTrainingData one;
+    one.name = reading.name;
+    one.measured = reading.measurement.value;
+    one.deviation = reading.measurement.standard_deviation;
+    one.repeats = reading.measurement.repeats;
+    one.widening = widening(one.repeats);
+    one.weight = reading.weight;
+    one.simulated.resize(static_cast<Eigen::Index>(good.size()));
+    for (std::size_t i = 0; i < good.size(); ++i) one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings[k];
+    data.readings.push_back(std::move(one));
+  }
+  return data;
+}
+
+nlohmann::ordered_json ProblemAnswers::evaluations() const {
+  auto out = nlohmann::ordered_json::array();
+  for (const StoredEvaluation& one : store_.all()) {
+    if (!is_answer(one)) continue;
+    nlohmann::ordered_json parameters, readings = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
+      parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
+    for (const auto& [name, value] : one.readings.all()) readings[name] = value;
+    out.push_back({{"number", out.size()},
+                   {"packing", one.packing},
+                   {"parameters", std::move(parameters)},
+                   {"readings", std::move(readings)},
+                   {"failure", one.failure ? std::string(name_of(one.failure->reason)) : ""},
+                   {"message", one.failure ? one.failure->message : ""},
+                   {"ended_early", false}});
+  }
+  return out;
+}
+
+double ProblemAnswers::ProblemScoring::largest_error(const StudyReading& reading) const {
+  return std::max(std::abs(reading.measurement.value), 10 * reading.measurement.standard_deviation);
 }
 
 }  // namespace pastefit::python

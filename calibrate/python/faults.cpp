@@ -1,8 +1,7 @@
-#include "calibrate/python/faults.h"
-
 #include <exception>
 
 #include "calibrate/base/text.h"
+#include "calibrate/python/module.h"
 
 namespace pastefit::python {
 

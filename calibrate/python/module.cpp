@@ -1,7 +1,6 @@
 #include "calibrate/python/module.h"
 
 #include "calibrate/base/text.h"
-#include "calibrate/python/faults.h"
 #include "calibrate/store/program.h"
 
 // What crosses between C++ and Python: positions and radii as views of memory, everything else as the JSON text that it

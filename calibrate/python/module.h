@@ -4,13 +4,37 @@
 
 #include <atomic>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "calibrate/calibrate.h"
+#include "calibrate/laboratory/engine.h"
+#include "calibrate/search/calibration.h"
+#include "calibrate/store/store.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
+#include "core/result.h"
 
 namespace pastefit::python {
+
+/// Becomes one `pastefit.InputError` that holds all of them.
+struct BadInput {
+  Faults faults;
+};
+
+/// The value, or a `BadInput` with every fault.
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result.ok()) throw BadInput{result.faults()};
+  return std::move(result).value();
+}
+
+/// Throws a `BadInput` if there is a fault.
+void refuse(Faults faults);
+
+void add_faults(pybind11::module_& module);
 
 /// What a person who interrupts sets; a run looks at it now and then. Python holds it as `_core.Stop`.
 struct Stop {
@@ -32,5 +56,19 @@ void add_tasks(pybind11::module_& module);
 void add_calibration(pybind11::module_& module);
 void add_search(pybind11::module_& module);
 void add_cards(pybind11::module_& module);
+
+/// The engine whose simulations run wherever `ask` takes them: `ask(task, goes_on)` gets what `simulate_task` is to be
+/// called with, and gives what it gave; nothing, if `goes_on()` became false and nobody waits any more.
+/// `name`: of this engine among those that run at the same time.
+Engine engine_of(pybind11::function ask, std::string name);
+
+/// {"status", "reason", "simulated", "known", "failures", "card", "summary", "intervals", "correlation"}
+nlohmann::ordered_json result_json(const CalibrationResult& result);
+
+/// One object for each evaluation, in the order of arrival: number, test's packing, parameters and readings by name.
+nlohmann::ordered_json evaluations_json(const Store& store);
+
+/// Where a search is, for who asks from another thread.
+nlohmann::ordered_json progress_json(const Progress& progress, const std::string& phase);
 
 }  // namespace pastefit::python

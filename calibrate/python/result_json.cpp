@@ -1,8 +1,7 @@
-#include "calibrate/python/result_json.h"
-
 #include <nlohmann/json.hpp>
 
 #include "calibrate/inference/description.h"
+#include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"

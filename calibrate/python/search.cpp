@@ -7,12 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/python/answers.h"
 #include "calibrate/python/asked_search.h"
-#include "calibrate/python/faults.h"
+#include "calibrate/python/custom_problem.h"
 #include "calibrate/python/module.h"
-#include "calibrate/python/problem_answers.h"
-#include "calibrate/python/result_json.h"
-#include "calibrate/python/study_answers.h"
 #include "calibrate/study/parameters.h"
 
 namespace pastefit::python {

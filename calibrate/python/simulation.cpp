@@ -14,7 +14,6 @@
 
 #include "calibrate/card/scene.h"
 #include "calibrate/evaluate/cost.h"
-#include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
 #include "calibrate/store/outcome_json.h"
 #include "core/world/world.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/laboratory/names.h"
-#include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"

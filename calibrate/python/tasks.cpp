@@ -1,5 +1,3 @@
-#include "calibrate/python/tasks.h"
-
 #include <cstdint>
 #include <future>
 #include <map>
@@ -10,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/python/faults.h"
 #include "calibrate/python/module.h"
 #include "calibrate/store/outcome_json.h"
 #include "core/apparatus/slump/packing.h"

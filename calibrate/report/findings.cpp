@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "calibrate/card/card_study.h"
+#include "calibrate/card/card.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/examination.h"
 

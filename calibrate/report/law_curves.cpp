@@ -1,11 +1,10 @@
-#include "calibrate/report/law_curves.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"
 #include "calibrate/laboratory/names.h"
+#include "calibrate/report/page_content.h"
 #include "calibrate/study/parameters.h"
 #include "core/laws/table.h"
 #include "core/world/world.h"

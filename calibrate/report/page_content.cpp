@@ -5,12 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"
-#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/standing.h"
 #include "calibrate/inference/description.h"
-#include "calibrate/report/law_curves.h"
-#include "calibrate/report/reservations.h"
-#include "calibrate/report/search_history.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/report/type_in_table.h"
 #include "calibrate/store/program.h"

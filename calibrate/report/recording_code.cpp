@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "calibrate/base/base64.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

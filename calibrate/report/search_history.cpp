@@ -1,15 +1,14 @@
-#include "calibrate/report/search_history.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "calibrate/base/text.h"
-#include "calibrate/card/card_study.h"
+#include "calibrate/card/card.h"
 #include "calibrate/evaluate/early_end.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/response_model.h"
+#include "calibrate/report/page_content.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/tolerance.h"

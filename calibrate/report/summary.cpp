@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "calibrate/base/text.h"
-#include "calibrate/card/compared_yield_stress.h"
 #include "calibrate/card/standing.h"
-#include "calibrate/report/reservations.h"
 #include "calibrate/report/type_in_table.h"
 #include "calibrate/study/parameters.h"
 

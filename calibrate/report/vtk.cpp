@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/base64.h"
+#include "calibrate/base/text.h"
 
 namespace pastefit {
 

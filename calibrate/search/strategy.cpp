@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "calibrate/search/bracket.h"
 #include "calibrate/search/candidate_search.h"
 #include "calibrate/search/conclusion.h"
 #include "calibrate/search/low_fidelity.h"

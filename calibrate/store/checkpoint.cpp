@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "calibrate/base/atomic_file.h"
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/text.h"
 #include "calibrate/store/program.h"
 #include "core/step/kernels.h"

@@ -2,9 +2,8 @@
 
 #include <cstdlib>
 
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/text.h"
-#include "core/step/kernel_choice.h"
+#include "core/step/kernels.h"
 #include "engine_fingerprint.h"
 
 namespace pastefit {

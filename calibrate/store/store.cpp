@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/text.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/store/database.h"

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "calibrate/base/data_folders.h"
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/machine.h"
+#include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/names.h"

@@ -4,16 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
-#include "calibrate/study/coarseness.h"
-#include "calibrate/study/measurements.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/questions.h"
 #include "calibrate/study/schemas.h"
+#include "calibrate/study/tolerance.h"
 
 namespace pastefit {
 

@@ -1,18 +1,31 @@
-#include "calibrate/study/measurements.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/laboratory/reading_words.h"
+#include "calibrate/study/lab.h"
 #include "calibrate/study/schemas.h"
 
 namespace pastefit {
+
+Questions::Questions(ObjectReader& document) : faults_(document.faults()) {
+  document.texts("confirmed", confirmed_, Need::optional);
+}
+
+void Questions::ask(const std::string& place, std::string what, std::string remedy) {
+  if (std::ranges::count(confirmed_, place) > 0)
+    note(place, std::move(what) + ", as confirmed");
+  else
+    faults_.push_back({place, std::move(what),
+                       std::move(remedy) + "; if it is right, say \"confirmed\": [" + in_quotes(place) + "]"});
+}
+
 namespace {
 
 /// Standard deviations of a reading, in its unit; what is smaller is a slip, and would make a weight of it without

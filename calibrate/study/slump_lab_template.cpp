@@ -1,5 +1,3 @@
-#include "calibrate/study/slump_lab_template.h"
-
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -10,6 +8,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"
+#include "calibrate/study/slump_sheet.h"
 
 namespace pastefit {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "calibrate/base/json_reader.h"
-#include "calibrate/base/source_to_fill_in.h"
+#include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
 #include "calibrate/study/apparatus.h"

@@ -5,14 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/text.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/study/apparatus.h"
-#include "calibrate/study/free_parameter.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/schemas.h"
-#include "calibrate/study/search_options.h"
+#include "calibrate/study/study_sections.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/table.h"
 

@@ -1,9 +1,11 @@
 #include "calibrate/study/tolerance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "calibrate/base/text.h"
+#include "calibrate/base/units.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -37,6 +39,54 @@ ErrorUnit error_unit_of(const Study& study) {
   for (const StudyReading& reading : readings)
     if (reading.weight > 0) fitted.emplace_back(reading.measurement.reading, reading.tolerance);
   return error_unit_of(fitted);
+}
+
+namespace {
+
+constexpr double kDeviations = 3;
+
+std::string grains_in_words(const Test& test) {
+  return "about " + plain(grains_needed(test), 2) + " grains of " +
+         format("%g mm", mm * specimen_of(test).grains.radius_m) + " mean radius";
+}
+
+/// A test of a single body has as many grains as it needs.
+bool is_bed(const Test& test) {
+  return why_of_that_size(test).empty();
+}
+
+}  // namespace
+
+std::string note_on_grain_count(const Test& test) {
+  const double count = grains_needed(test);
+  if (!is_bed(test) || count >= kFewGrains) return {};
+  const double radius_mm = mm * specimen_of(test).grains.radius_m * std::cbrt(count / kFewGrains);
+  return grains_in_words(test) + format(
+                                     " fill the apparatus, fewer than %g: heaps of so few scatter, and a wrong "
+                                     "material may meet the readings; take a mean radius of %.2g mm or less",
+                                     kFewGrains, radius_mm);
+}
+
+std::vector<std::string> notes_on_tolerances(const Study& study) {
+  std::vector<std::string> notes;
+  for (const StudyReading& reading : readings_of(study)) {
+    const Test& test = study.tests[reading.test].lab.test;
+    const auto own_kinds = reading_kinds(test);
+    const ReadingKind* kind = find_kind(own_kinds, reading.measurement.reading);
+    // A shift has the tolerance that the standards' rejection of sheared heaps gives it.
+    if (reading.weight == 0 || !kind || kind->key.find("lateral_shift") != kind->key.npos) continue;
+    const double published = kind->published_deviation;
+    const double measured = reading.measurement.standard_deviation;
+    const double deviation = published > 0 ? std::min(published, measured) : measured;
+    if (reading.tolerance <= kDeviations * deviation) continue;
+    notes.push_back(
+        reading.name + " counts as met within " + plain(reading.tolerance) +
+        format(", which is %.1f standard deviations (%s) of the ", reading.tolerance / deviation,
+               plain(deviation, 2).c_str()) +
+        (deviation < measured ? "published repeatability" : "laboratory") + ", with " + grains_in_words(test) +
+        ": a wrong material may meet it; give a smaller tolerance, or smaller grains if theirs is the limit");
+  }
+  return notes;
 }
 
 }  // namespace pastefit

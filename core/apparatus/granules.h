@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/apparatus/field_checker.h"
-#include "core/apparatus/pour.h"
+#include "core/apparatus/specimen.h"
 #include "core/step/runner.h"
 
 namespace pastefit {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "core/laws/materials.h"
+#include "core/vec3.h"
 
 namespace pastefit {
 
@@ -19,5 +22,32 @@ double largest_radius(const GrainSizes& sizes);
 
 /// Radius of grain n of a scene, from the stream "grain-radius". Pure function of its arguments.
 double draw_radius(const GrainSizes& sizes, std::uint64_t seed, std::uint64_t n);
+
+/// Grains without a world.
+struct LooseGrains {
+  std::vector<Vec3> centres;
+  std::vector<double> radii;
+  double solid_volume_m3 = 0;
+};
+
+/// Loose grains on a jittered lattice above z = 0, from the bottom up, until so much solid volume is there.
+/// `inner_radius(z)`: of what they are poured into, whose axis is x = y = 0, nowhere above `widest_m`.
+LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double solid_volume_m3, double widest_m,
+                 const std::function<double(double)>& inner_radius);
+
+/// A box to pour into: 0 <= x < `length_m`, which repeats, and sides at y = -`width_m`/2 and `width_m`/2, above
+/// `floor_m`.
+struct OpenBox {
+  double length_m = 0, width_m = 0, floor_m = 0;
+};
+
+/// The same in such a box, above its floor. Requirement: two of the largest grains fit across each side.
+LooseGrains pour(const GrainSizes& sizes, std::uint64_t seed, double solid_volume_m3, const OpenBox& box);
+
+/// 4/3 pi r^3.
+double sphere_volume_m3(double radius_m);
+
+/// Highest point of any of them [m]; 0 if there is none.
+double top_of(const LooseGrains& grains);
 
 }  // namespace pastefit

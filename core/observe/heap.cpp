@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/observe/closing.h"
+#include "core/observe/outline.h"
 
 namespace pastefit {
 

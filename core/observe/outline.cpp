@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/observe/closing.h"
-
 namespace pastefit {
 
 namespace {

@@ -27,4 +27,8 @@ using OutlinePoint = std::array<double, 2>;
 /// Requirement: at least two points, x ascending; straight between them.
 double rms_difference(const Outline& outline, const std::vector<OutlinePoint>& measured);
 
+// How surfaces and outlines are taken off grains, in mean radii.
+inline constexpr double kPointsPerRadius = 4;
+inline constexpr double kClosingBall = 2;  ///< radius of the ball that bridges what no ruler would dip into
+
 }  // namespace pastefit

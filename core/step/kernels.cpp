@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/step/kernel_choice.h"
-
 namespace pastefit {
 
 namespace {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -125,5 +126,13 @@ extern const KernelTable kernels;
 std::vector<const KernelTable*> kernels_this_processor_runs();
 /// The widest of them.
 const KernelTable& kernels_of_this_processor();
+
+/// Chooses the kernels of runs whose `StepOptions` name none: those of "sse2", "avx2" or "avx512" instead of the widest
+/// that this processor runs. Returns false, and changes nothing, if it does not run them. Requirement: no run is under
+/// way. The bits of SSE2 differ from those of the others (core/README.md, Determinism).
+bool use_kernels(std::string_view instruction_set);
+
+/// The words that `use_kernels` takes on this processor, the widest first: "avx512, avx2, sse2".
+std::string usable_kernels();
 
 }  // namespace pastefit

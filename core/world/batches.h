@@ -1,8 +1,26 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
+#include <vector>
 
 namespace pastefit {
+
+/// Allocates on cache lines, so that packs load without crossing one.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+  bool operator==(const CacheLineAllocator&) const { return true; }
+};
+
+template <class T>
+using Column = std::vector<T, CacheLineAllocator<T>>;
 
 /// Pairs are kept and worked on in batches of this many, each value of a batch a cache line: a kernel reads one stream
 /// of history, and whole lines of it. Lists end with pairs of the dummy grain with itself.

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/world/aligned.h"
 #include "core/world/batches.h"
 #include "core/world/neighbour_list.h"
 #include "core/world/particles.h"

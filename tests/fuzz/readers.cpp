@@ -10,13 +10,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "calibrate/base/json_document.h"
+#include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
-#include "calibrate/batch/array_job.h"
+#include "calibrate/batch/batch.h"
 #include "calibrate/card/card.h"
 #include "calibrate/evaluate/study_scoring.h"
-#include "calibrate/exports/lammps_log.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/exports/lammps_deck.h"
+#include "calibrate/report/summary.h"
 #include "calibrate/store/outcome_json.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"

@@ -9,9 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "calibrate/laboratory/softness.h"
+#include "calibrate/laboratory/engine.h"
 #include "core/apparatus/slump/packing.h"
-#include "core/apparatus/slump/slump_readings.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "core/world/world.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/apparatus/drive.h"
 #include "core/apparatus/impact/approach.h"
 #include "core/apparatus/impact/impact_record.h"
-#include "core/apparatus/rotor.h"
 #include "core/laws/table.h"
 #include "core/step/runner.h"
 #include "core/world/world.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/apparatus/pellet_crush/die.h"
+#include "core/apparatus/granules.h"
 #include "core/apparatus/pellet_crush/pellet_crush.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
@@ -9,7 +9,43 @@
 
 namespace pastefit {
 
+double poured_grains(const PelletCrush& test) {
+  return number_of_granules(test, poured_volume_m3(filled_volume_m3(test)));
+}
+
 namespace {
+
+constexpr double kEmptiest = 0.25;  // solid share of a die that is full
+
+World empty_die(const PelletCrush& test, const LooseGrains& grains) {
+  World world;
+  world.particles = make_particles(grains.centres, grains.radii, test.bulk_density_kg_m3);
+  set_contact_model(world, test.contact, test.grains.radius_m);
+  const PairConstants surface = wall_pair(test.contact, test.tools, test.grains.radius_m);
+  const double radius = 0.5 * test.die_diameter_m, top = std::max(top_of(grains), test.fill_height_m);
+  Wall floor, die;
+  floor.name = "floor";
+  floor.shape = Plane{};
+  floor.pair = surface;
+  die.name = "die";
+  die.shape = Shell{{}, radius, radius, top + 2 * test.grains.radius_m};
+  die.pair = surface;
+  world.walls = {floor, die};
+  return world;
+}
+
+/// Granules in the die of `test`, struck off level and at rest; or why it could not be filled.
+FilledVessel fill_die(const PelletCrush& test, const RunOptions& options) {
+  const double radius = 0.5 * test.die_diameter_m;
+  FilledVessel filled = fill_vessel(
+      test, {test.fill_height_m, test.pour_speed_m_s},
+      pour(test.grains, test.packing_seed, poured_volume_m3(filled_volume_m3(test)), radius,
+           [&](double) { return radius; }),
+      [&](const LooseGrains& grains) { return empty_die(test, grains); }, rest_measure_of_heap, options);
+  const double fraction = filled.grains.solid_volume_m3 / filled_volume_m3(test);
+  if (!filled.failure && fraction < kEmptiest) filled.failure = bridged(filled, fraction, kEmptiest);
+  return filled;
+}
 
 constexpr int kStepsPerLook = 64;           // at what has fallen off, and at what the punch has left behind
 constexpr double kPelletRestCap = 1;        // [s] simulated time granules are allowed for coming to rest

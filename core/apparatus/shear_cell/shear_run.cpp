@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/apparatus/drive.h"
 #include "core/apparatus/granules.h"
-#include "core/apparatus/servo.h"
 #include "core/apparatus/shear_cell/shear_cell.h"
 #include "core/observe/heap.h"
 #include "core/observe/steady_state.h"

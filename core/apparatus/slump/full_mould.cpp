@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "core/apparatus/slump/packing.h"
-#include "core/apparatus/slump/slump_world.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
 

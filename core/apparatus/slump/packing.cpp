@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "core/apparatus/pour.h"
 #include "core/apparatus/slump/random_addition.h"
+#include "core/apparatus/specimen.h"
 #include "core/laws/constants.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
@@ -278,6 +278,39 @@ std::shared_ptr<const Packing> fill_mould(const SlumpTest& test, const RunOption
   for (double& r : packing->radii) r *= swelling;
   packing->solid_volume_m3 *= swelling * swelling * swelling;
   return packing;
+}
+
+namespace {
+
+constexpr double kGroundDepth = 0.1;  // [m] below the table
+
+}  // namespace
+
+Shape table_on_seat(const SlumpTest& test) {
+  // A shell without height from the edge to the axis.
+  if (test.drop && test.drop->motion == TableMotion::vertical) return Shell{{}, 0.5 * test.drop->length_m, 0, 0};
+  Plate plate;
+  plate.half_length = plate.half_width = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
+  return plate;
+}
+
+World world_in_mould(const SlumpTest& test, const Packing& packing) {
+  World world;
+  world.particles = make_particles(packing.centres, packing.radii, grain_density(test, packing));
+  set_contact_model(world, test.contact, test.grains.radius_m);
+  const auto add = [&](const char* name, Shape shape, const WallContact& surface) {
+    Wall wall;
+    wall.name = name;
+    wall.shape = shape;
+    wall.pair = wall_pair(test.contact, surface, test.grains.radius_m);
+    world.walls.push_back(wall);
+  };
+  const Mould& mould = test.mould;
+  add("table", table_on_seat(test), test.table_wall);
+  add("ground", Plane{{0, 0, -kGroundDepth}}, test.table_wall);
+  world.walls[kGround].pair.rolling_friction = 1;
+  add("mould", Shell{{}, mould.base_radius_m, mould.top_radius_m, mould.height_m}, test.mould_wall);
+  return world;
 }
 
 }  // namespace pastefit

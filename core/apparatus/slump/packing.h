@@ -7,6 +7,7 @@
 #include "core/laws/materials.h"
 #include "core/result.h"
 #include "core/vec3.h"
+#include "core/world/world.h"
 
 namespace pastefit {
 
@@ -60,5 +61,17 @@ double grain_density(const SlumpTest& test, const Packing& packing);
 /// Number of grains that fill mould and hopper: their solid volume over the mean volume of a grain. Some of them are
 /// struck off.
 double grains_to_fill(const SlumpTest& test);
+
+/// Places of the walls in a slump test's world. The mould is the last one, and is gone after the lift.
+inline constexpr std::size_t kTable = 0, kGround = 1, kMould = 2;
+
+inline constexpr double kRestCap = 4;  ///< [s] simulated time a heap is allowed for coming to rest
+
+/// The table, or the plate that can be dropped, on its seat: a square, or a disc where it falls upright.
+Shape table_on_seat(const SlumpTest& test);
+
+/// A packing in its mould on the table, under the laws of `test`. Grains that flow over the table's edge land on the
+/// ground below it.
+World world_in_mould(const SlumpTest& test, const Packing& packing);
 
 }  // namespace pastefit

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/apparatus/rotor.h"
-#include "core/apparatus/slump/slump_world.h"
+#include "core/apparatus/drive.h"
+#include "core/apparatus/slump/packing.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"
 

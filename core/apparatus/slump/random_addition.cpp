@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/apparatus/pour.h"
+#include "core/apparatus/specimen.h"
 #include "core/random.h"
 
 namespace pastefit {

@@ -1,6 +1,6 @@
-#include "core/apparatus/slump/slump_readings.h"
-
 #include <algorithm>
+
+#include "core/apparatus/slump/slump_test.h"
 
 namespace pastefit {
 

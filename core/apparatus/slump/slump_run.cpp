@@ -4,7 +4,6 @@
 #include "core/apparatus/slump/packing.h"
 #include "core/apparatus/slump/plate_drop.h"
 #include "core/apparatus/slump/slump_test.h"
-#include "core/apparatus/slump/slump_world.h"
 #include "core/apparatus/slump/spread_series.h"
 #include "core/observe/heap.h"
 #include "core/step/runner.h"

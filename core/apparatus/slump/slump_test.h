@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/apparatus/dimension.h"
+#include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
 #include "core/observe/outline.h"
 #include "core/result.h"
@@ -151,5 +153,14 @@ Outcome simulate(const SlumpTest& test, const RunOptions& options = {});
 
 /// The names of all readings the test will have, in order (with or without step 2).
 std::vector<std::string> reading_names(const SlumpTest& test);
+
+/// The stages of a slump test.
+inline constexpr int kFill = 0, kStep1 = 1, kStep2 = 2, kAfterDrops = 3;
+
+/// Whether the apparatus asks for a reading that is taken on request only (`ReadingKind::on_request`).
+bool is_asked_for(const SlumpTest& test, std::string_view reading);
+
+/// Every reading of slump tests, in the order in which a simulation gives them; those that this one lacks say so.
+std::vector<ReadingKind> reading_kinds(const SlumpTest& test);
 
 }  // namespace pastefit

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "calibrate/base/base64.h"
+#include "calibrate/base/text.h"
 
 using namespace pastefit;
 

@@ -1,8 +1,8 @@
-#include "calibrate/batch/trend.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+
+#include "calibrate/batch/interpolation.h"
 
 namespace pastefit {
 namespace {

@@ -5,9 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/card.h"
-#include "calibrate/card/compared_yield_stress.h"
-#include "calibrate/card/rescale.h"
-#include "calibrate/report/card_text.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"
 #include "tests/calibrate/card/as_text.h"

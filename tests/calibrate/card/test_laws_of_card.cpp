@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "calibrate/card/card.h"
-#include "calibrate/card/rescale.h"
 #include "calibrate/laboratory/names.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/study/parameters.h"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/card/rescale.h"
+#include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/check/rescale_bias.h"

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <sstream>
 
-#include "calibrate/exports/edinburgh.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "core/laws/constants.h"

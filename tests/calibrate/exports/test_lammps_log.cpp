@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "calibrate/exports/lammps_log.h"
+#include "calibrate/exports/lammps_deck.h"
 
 using namespace pastefit;
 

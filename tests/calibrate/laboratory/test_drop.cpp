@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/card/calibration_card.h"
-#include "calibrate/card/rescale.h"
+#include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
 #include "calibrate/inference/examination.h"
 #include "calibrate/search/low_fidelity.h"

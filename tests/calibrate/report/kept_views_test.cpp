@@ -1,7 +1,6 @@
-#include "calibrate/report/kept_views.h"
-
 #include <catch2/catch.hpp>
 
+#include "calibrate/report/views.h"
 #include "tests/calibrate/folder.h"
 
 namespace pastefit {

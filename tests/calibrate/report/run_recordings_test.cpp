@@ -1,7 +1,6 @@
-#include "calibrate/report/run_recordings.h"
-
 #include <catch2/catch.hpp>
 
+#include "calibrate/report/run_recording.h"
 #include "calibrate/report/views.h"
 
 namespace pastefit {

@@ -4,7 +4,6 @@
 
 #include "calibrate/card/card.h"
 #include "calibrate/report/findings.h"
-#include "calibrate/report/law_curves.h"
 #include "calibrate/report/page.h"
 #include "calibrate/report/page_content.h"
 #include "calibrate/report/views.h"

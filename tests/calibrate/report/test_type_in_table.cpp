@@ -7,8 +7,6 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/report/card_text.h"
-#include "calibrate/report/reservations.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/report/type_in_table.h"
 #include "tests/calibrate/folder.h"

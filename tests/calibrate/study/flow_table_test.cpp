@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "calibrate/study/apparatus.h"
-#include "calibrate/study/coarseness.h"
 #include "calibrate/study/lab.h"
-#include "calibrate/study/slump_lab_template.h"
+#include "calibrate/study/slump_sheet.h"
+#include "calibrate/study/tolerance.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/desk.h"

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/study/lab.h"
-#include "core/apparatus/slump/slump_readings.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/lab_file.h"

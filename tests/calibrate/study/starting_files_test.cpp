@@ -7,7 +7,7 @@
 #include "calibrate/base/template_lines.h"
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/apparatus.h"
-#include "calibrate/study/slump_lab_template.h"
+#include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/target_laws.h"
 
 namespace pastefit {

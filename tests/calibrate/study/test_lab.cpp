@@ -3,11 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/content_hash.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/text.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
-#include "core/apparatus/slump/slump_readings.h"
 #include "core/apparatus/slump/slump_test.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/lab_file.h"

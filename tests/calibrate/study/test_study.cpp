@@ -9,7 +9,7 @@
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study.h"
 #include "calibrate/study/tests.h"
-#include "core/apparatus/slump/slump_readings.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "core/laws/constants.h"
 #include "tests/calibrate/files.h"
 #include "tests/calibrate/study/desk.h"

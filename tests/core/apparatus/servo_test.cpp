@@ -1,8 +1,7 @@
-#include "core/apparatus/servo.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/apparatus/drive.h"
 #include "core/laws/normal.h"
 #include "core/step/stepper.h"
 #include "core/world/world.h"

@@ -81,7 +81,7 @@
  */
 
 /**
- * @typedef {object} YieldStress of a fluid that would have a reading [Pa] (calibrate/card/compared_yield_stress.h)
+ * @typedef {object} YieldStress of a fluid that would have a reading [Pa] (calibrate/card/standing.h)
  * @property {string} formula
  * @property {number} simulated
  * @property {number} [measured] by the laboratory's reading

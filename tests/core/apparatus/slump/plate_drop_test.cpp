@@ -6,8 +6,7 @@
 #include <string>
 
 #include "core/apparatus/slump/packing.h"
-#include "core/apparatus/slump/slump_readings.h"
-#include "core/apparatus/slump/slump_world.h"
+#include "core/apparatus/slump/slump_test.h"
 #include "core/world/world.h"
 
 using namespace pastefit;

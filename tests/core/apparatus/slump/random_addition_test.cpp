@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/apparatus/pour.h"
 #include "core/apparatus/specimen.h"
 
 using namespace pastefit;

@@ -1,0 +1,193 @@
+#include "calibrate/cli/progress.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "calibrate/base/text.h"
+#include "calibrate/cli/terminal.h"
+
+namespace pastefit {
+
+StatusLine::StatusLine() : StatusLine(Schedule{}) {}
+
+StatusLine::StatusLine(const Schedule& schedule)
+    : schedule_(schedule), terminal_(pastefit::is_terminal()), next_(start_ + schedule.first) {}
+
+double StatusLine::gone_s() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+bool StatusLine::is_due() const {
+  return !is_quiet() && Clock::now() >= next_;
+}
+
+void StatusLine::show(const std::string& line) {
+  if (is_quiet()) return;
+  next_ = Clock::now() + (terminal_ ? schedule_.on_terminal : schedule_.elsewhere);
+  shown_ = true;
+  if (terminal_)
+    std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
+  else
+    note("%s\n", line.c_str());
+}
+
+void StatusLine::clear() {
+  if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+void StatusLine::keep() {
+  if (shown_ && terminal_) note("\n");
+  shown_ = false;
+}
+
+std::string SignOfLife::time_left(const Snapshot& snapshot) const {
+  constexpr double enough_s = 0.5;  // that a phase is looked at before its rate says anything
+  const double taken_s = line_.gone_s() - phase_start_wall_s_;
+  const double simulated_s = snapshot.time_s - phase_start_s_;
+  if (taken_s < enough_s || simulated_s <= 0) return "";
+  const double pace = taken_s / simulated_s;
+  return " (" + range_of_time(pace * snapshot.left.least_s, pace * snapshot.left.most_s) + " left)";
+}
+
+void SignOfLife::show(const Snapshot& snapshot) {
+  // A test may come to a phase again, in a world whose time is an earlier one.
+  if (snapshot.phase != phase_ || snapshot.time_s < last_s_) {
+    phase_ = snapshot.phase;
+    phase_start_wall_s_ = line_.gone_s();
+    phase_start_s_ = snapshot.time_s;
+  }
+  last_s_ = snapshot.time_s;
+  if (!line_.is_due()) return;
+  line_.show(
+      fitted({phase_ + time_left(snapshot), format("%.4g s simulated", snapshot.time_s),
+              format("step %lld", static_cast<long long>(snapshot.step)), format("%.0f s gone", line_.gone_s())}));
+}
+
+WorkLine::WorkLine(std::string pieces, int total) : pieces_(std::move(pieces)), total_(total) {}
+
+WorkLine::~WorkLine() {
+  clear();
+}
+
+void WorkLine::clear() {
+  const std::lock_guard lock(mutex_);
+  line_.clear();
+}
+
+void WorkLine::one_done() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+  }
+  look();
+}
+
+void WorkLine::look() {
+  const std::lock_guard lock(mutex_);
+  if (line_.is_due()) line_.show(text());
+}
+
+std::string WorkLine::text() const {
+  const int left = std::max(0, total_ - done_);
+  // Those under way are as good as begun: at least what is left without them, at most all that is.
+  const double each_s = done_ > 0 ? line_.gone_s() / done_ : 0;
+  return fitted({format("%d of %d %s", done_, total_, pieces_.c_str()), format("%.0f s gone", line_.gone_s()),
+                 done_ > 0 && left > 0 ? range_of_time(std::max(0, left - 1) * each_s, left * each_s) + " left" : ""});
+}
+
+CheckEngine counted(CheckEngine engine, WorkLine& line) {
+  const auto seen = [&line](const RunOptions& asked) {
+    RunOptions options = asked;
+    options.pulse = [&line, pulse = asked.pulse](const Snapshot& snapshot) {
+      line.look();
+      return !pulse || pulse(snapshot);
+    };
+    return options;
+  };
+  engine.prepare = [prepare = std::move(engine.prepare), seen](const Test& test, const RunOptions& options) {
+    return prepare(test, seen(options));
+  };
+  engine.run = [run = std::move(engine.run), seen, &line](const Test& test, const RunOptions& options) {
+    Outcome outcome = run(test, seen(options));
+    line.one_done();
+    return outcome;
+  };
+  return engine;
+}
+
+ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
+    : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(5)}),
+      work_(work),
+      unit_(unit) {}
+
+void ProgressLine::show(const Progress& progress) {
+  const std::lock_guard lock(mutex_);
+  const bool new_phase = progress.phase != phase_;
+  if (new_phase) done_before_ = done();
+  phase_ = progress.phase;
+  best_error_ = progress.best_error;
+  rewrite(new_phase);
+  if (!progress.note.empty()) note("%s%s\n", line_.is_terminal() ? "\n" : "", progress.note.c_str());
+}
+
+void ProgressLine::show(const EvaluationCounts& counts) {
+  const std::lock_guard lock(mutex_);
+  counts_ = counts;
+  rewrite(false);
+}
+
+std::string ProgressLine::time_left() const {
+  const double elapsed = line_.gone_s();
+  if (counts_.simulated == 0 || elapsed <= 0) return "";
+  const int in_phase = done() - done_before_;
+  const int budget = std::max(0, work_.budget - done());
+  int least = work_.examination, most = budget;
+  if (phase_ == "examination")
+    least = most = std::clamp(work_.examination - in_phase, 0, budget);
+  else
+    least += phase_ == "confirmation" ? std::max(0, work_.confirmation - in_phase) : work_.confirmation;
+  if (phase_ == "screening") least += std::max(0, work_.screening - done());
+  const double each_s = elapsed / counts_.simulated;
+  return range_of_time(std::min(least, most) * each_s, most * each_s) + " left";
+}
+
+std::string ProgressLine::text() const {
+  int failed = 0;
+  for (const auto& [reason, count] : counts_.failures) failed += count;
+  std::string line =
+      fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, line_.is_terminal() ? "" : " simulations"),
+              best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"), time_left(),
+              failed > 0 ? format("%d failed", failed) : "",
+              counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
+  if (line_.is_terminal()) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));
+  return line;
+}
+
+/// How much of the budget is used, as a bar of at most so many columns; none where that is too few to be told.
+std::string ProgressLine::bar(std::size_t columns) const {
+  constexpr std::size_t kMost = 24, kLeast = 6, kFrame = 3;  // a blank and the brackets
+  if (columns < kLeast + kFrame || work_.budget <= 0) return "";
+  const std::size_t length = std::min(kMost, columns - kFrame);
+  const double share = std::clamp(static_cast<double>(done()) / work_.budget, 0.0, 1.0);
+  const auto full = static_cast<std::size_t>(share * static_cast<double>(length));
+  return " [" + std::string(full, '#') + std::string(length - full, '-') + "]";
+}
+
+void ProgressLine::rewrite(bool now) {
+  if (!now && !line_.is_due()) return;
+  const auto line = text();
+  if (line == last_) return;
+  last_ = line;
+  line_.show(line);
+}
+
+void ProgressLine::end() {
+  const std::lock_guard lock(mutex_);
+  rewrite(true);
+  line_.keep();
+}
+
+}  // namespace pastefit

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "calibrate/check/check.h"
+#include "calibrate/evaluate/evaluator.h"
+#include "calibrate/search/search.h"
+#include "core/step/run.h"
+
+namespace pastefit {
+
+/// Where some work is, on standard error: one line that is rewritten in place on a terminal, else a plain line now and
+/// then. Nothing while the program is quiet. One caller at a time.
+class StatusLine {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// When a line is due: after the start, after another one on a terminal, after another one elsewhere.
+  struct Schedule {
+    Clock::duration first = std::chrono::seconds(2);
+    Clock::duration on_terminal = std::chrono::milliseconds(500), elsewhere = std::chrono::seconds(10);
+  };
+  StatusLine();
+  explicit StatusLine(const Schedule& schedule);
+
+  bool is_terminal() const { return terminal_; }
+  double gone_s() const;
+  bool is_due() const;
+  void show(const std::string& line);
+  void clear();  ///< takes a rewritten line away
+  void keep();   ///< leaves it as it is, and goes on below
+
+ private:
+  const Schedule schedule_;
+  const bool terminal_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point next_;
+  bool shown_ = false;
+};
+
+/// Tells where a single simulation is, once it has taken two seconds (`StatusLine`).
+///
+/// The time that is left is that of the phase: a range from the least to the most that it still takes, at the rate of
+/// this phase so far. Of the whole test there is none: a heap rests when it does, and each phase has a pace of its own.
+class SignOfLife {
+ public:
+  SignOfLife() = default;
+  ~SignOfLife() { line_.clear(); }
+  SignOfLife(const SignOfLife&) = delete;
+  SignOfLife& operator=(const SignOfLife&) = delete;
+
+  void show(const Snapshot& snapshot);
+
+ private:
+  /// In words; nothing while the phase is too young to know.
+  std::string time_left(const Snapshot& snapshot) const;
+
+  StatusLine line_;
+  std::string phase_;
+  double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // simulated, the second
+  double last_s_ = 0;
+};
+
+/// Tells how many of some pieces of work are done and what is left of them, once they have taken two seconds
+/// (`StatusLine`). Thread-safe.
+class WorkLine {
+ public:
+  /// `pieces`: what they are, e.g. "simulations".
+  WorkLine(std::string pieces, int total);
+  ~WorkLine();
+  WorkLine(const WorkLine&) = delete;
+  WorkLine& operator=(const WorkLine&) = delete;
+
+  void one_done();
+  void look();  ///< to be called now and then while a piece is under way
+  /// Leaves the line of a terminal to what is printed next.
+  void clear();
+
+ private:
+  std::string text() const;
+
+  const std::string pieces_;
+  const int total_;
+  std::mutex mutex_;
+  StatusLine line_;
+  int done_ = 0;
+};
+
+/// An engine whose simulations are the pieces of this work, which it must not outlive.
+CheckEngine counted(CheckEngine engine, WorkLine& line);
+
+/// Simulations of a calibration, in every test that is fitted.
+struct WorkAhead {
+  int budget = 0;        ///< at most, in all
+  int screening = 0;     ///< before the search
+  int confirmation = 0;  ///< of a candidate that holds
+  int examination = 0;   ///< after the search, hold-outs included
+};
+
+/// Live progress (`StatusLine`): on a terminal a line cut to its width, with a bar where there is room; elsewhere
+/// one of at most 80 columns at the start of each phase and every few seconds. Thread-safe.
+///
+/// The time that is left is a range: from what the phases still have to do if the next candidate holds, to what the
+/// budget allows, both at the rate of simulations so far.
+class ProgressLine {
+ public:
+  ProgressLine(const WorkAhead& work, const ErrorUnit& unit);
+  void show(const Progress& progress);        ///< from the search
+  void show(const EvaluationCounts& counts);  ///< after each simulation
+  void end();                                 ///< ends the rewritten line
+
+ private:
+  void rewrite(bool now);
+  std::string text() const;
+  std::string bar(std::size_t columns) const;
+  std::string time_left() const;
+  int done() const { return counts_.simulated + counts_.answered; }
+
+  StatusLine line_;
+  const WorkAhead work_;
+  const ErrorUnit unit_;
+  std::mutex mutex_;
+  std::string phase_ = "start";
+  int done_before_ = 0;  // the phase
+  double best_error_ = -1;
+  EvaluationCounts counts_;
+  std::string last_;
+};
+
+}  // namespace pastefit

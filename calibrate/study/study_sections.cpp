@@ -1,0 +1,156 @@
+#include "calibrate/study/study_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibrate/study/parameters.h"
+#include "calibrate/study/schemas.h"
+
+namespace pastefit {
+
+namespace {
+
+template <class Fields>
+void describe_search_options(Fields& fields, SearchOptions& search) {
+  constexpr int most = 1'000'000;
+  fields.text({"strategy", "\"default\", or the name of an algorithm (calibrate/search/README.md)"}, search.strategy,
+              Need::optional);
+  fields.integer({"screening", "candidates that are spread over the bounds to begin with; default 8"}, search.screening,
+                 0, most, Need::optional);
+  fields.integer({"budget_simulations", "simulations in all, confirmation and examination included; default 60"},
+                 search.budget_simulations, 1, most, Need::optional);
+  fields.integer({"packings",
+                  "random packings that all candidates of an optimiser share, and those with coarse grains; default 2"},
+                 search.packings, 1, 1000, Need::optional);
+  fields.integer({"max_pending", "how many simulations may be under way when the next is chosen; default 0"},
+                 search.max_pending, 0, 1000, Need::optional);
+  fields.integer(
+      {"confirmation_packings", "fresh packings on which the best candidate is judged, to begin with; default 4"},
+      search.confirmation_packings, 1, 1000, Need::optional);
+  fields.number({"rejected_share",
+                 "of the heaps that a laboratory would reject because they sheared off, at most; 1: not judged; "
+                 "default 0.2, or the laboratory's own share (`repeats` of its file), if that is more"},
+                search.rejected_share, {0, 1}, Need::optional);
+  fields.integer({"examination_simulations", "of the budget, for what else fits; default 12"},
+                 search.examination_simulations, 0, most, Need::optional);
+  fields.nullable_number({"tolerance_mm",
+                          "of every length without a tolerance of its own; left out or null: the laboratory's "
+                          "deviation, of a heap half a grain's radius at least"},
+                         search.tolerance_mm, {1e-6, 1000}, Need::optional);
+  fields.flag({"coarse_first", "coarse grains propose, fine ones decide"}, search.coarse_first, Need::optional);
+  fields.flag({"end_early", "false: hopeless simulations run to their end, too"}, search.end_early, Need::optional);
+  fields.integer({"seed", "of the search and of its packings; default 1"}, search.seed, Need::optional);
+}
+
+}  // namespace
+
+void read_search_options(ObjectReader& document, int fitted_tests, SearchOptions& search) {
+  document.object("search", Need::optional, [&](ObjectReader& reader) {
+    reader.former("lag", "max_pending");
+    describe_search_options(reader, search);
+    const int least = (search.packings + search.confirmation_packings) * fitted_tests;
+    if (search.budget_simulations < least)
+      reader.fault("budget_simulations",
+                   std::to_string(search.budget_simulations) + " simulations do not pay for one candidate (packings " +
+                       std::to_string(search.packings) + ") and its confirmation (confirmation_packings " +
+                       std::to_string(search.confirmation_packings) + ")" +
+                       (fitted_tests > 1 ? " in " + std::to_string(fitted_tests) + " tests" : ""),
+                   "at least " + std::to_string(least));
+  });
+}
+
+void tell_search_options(ObjectSchema& study) {
+  SearchOptions any;
+  study.object({"search", "how the search goes (calibrate/search/README.md)"}, Need::optional,
+               [&](ObjectSchema& fields) { describe_search_options(fields, any); });
+}
+
+namespace {
+
+/// How wide the way between two bounds is at least, as a share of the larger one, and how far apart they are at most on
+/// a logarithmic scale. Beyond either a coordinate between them has no digits that count.
+constexpr double narrowest = 1e-6, farthest_apart = 1e12;
+
+/// The standard deviation of a prior, as a share of the way between the bounds: narrower is a fixed value, wider says
+/// nothing.
+constexpr Range prior_deviations{1e-6, 1e6};
+
+/// Whether a coordinate can be told between the bounds; a fault if not.
+bool check_bounds(ObjectReader& reader, const std::vector<double>& bounds, Scale scale) {
+  const std::string both = "the bounds " + shown(bounds[0]) + " and " + shown(bounds[1]) + " are ";
+  const auto refused = [&](const std::string& what, std::string remedy) {
+    reader.fault("free", what, std::move(remedy));
+    return false;
+  };
+  if (bounds[0] >= bounds[1])
+    return refused(both + "not in order", "[lower, upper], lower below upper; for a fixed parameter give \"value\"");
+  if (bounds[1] - bounds[0] < narrowest * std::max(std::abs(bounds[0]), std::abs(bounds[1])))
+    return refused(both + "the same within a millionth", "wider ones; for a fixed parameter give \"value\"");
+  if (scale == Scale::linear) return true;
+  if (bounds[0] <= 0)
+    return refused("a lower bound of " + shown(bounds[0]) + " has no logarithm",
+                   "a lower bound above 0, or \"scale\": \"linear\"");
+  if (bounds[0] * farthest_apart < bounds[1])
+    return refused(both + "too far apart for a logarithmic scale",
+                   "a lower bound of at least " + shown(bounds[1] / farthest_apart) + ", or \"scale\": \"linear\"");
+  return true;
+}
+
+/// Requirement: the bounds of the parameter are good.
+void read_prior(ObjectReader& known, Parameter& parameter, const Range& range) {
+  Prior prior{0, 1};
+  Range admissible{0, largest_quantity, true};
+  const bool given = known.number("value", prior.value, range, Need::required);
+  const bool within = given && prior.value >= parameter.lower && prior.value <= parameter.upper;
+  if (given && !within)
+    known.fault(
+        "value",
+        shown(prior.value) + " contradicts the bounds " + shown(parameter.lower) + " to " + shown(parameter.upper),
+        "a value within them, or bounds that hold it");
+  if (within) {
+    parameter.prior = prior;
+    const double between_bounds = 1 / unit_prior(parameter).deviation;
+    admissible = {prior_deviations.smallest * between_bounds, prior_deviations.largest * between_bounds};
+  }
+  const bool spread = known.number("standard_deviation", prior.standard_deviation, admissible, Need::required);
+  parameter.prior.reset();
+  if (within && spread) parameter.prior = prior;
+}
+
+}  // namespace
+
+void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind) {
+  const Range range{kind.smallest, kind.largest};
+  const auto fixed = parameters.described([&](ObjectSchema& form) { form.number("value", 0, range, Need::required); });
+  const auto free = parameters.described([&](ObjectSchema& form) {
+    form.numbers("free", {}, range, Need::required, 2, 2);
+    form.choice("scale", kind.scale, scales, Need::optional);
+    form.object("prior", Need::optional, [](ObjectSchema& prior) {
+      prior.shared("prior");
+      prior.number({"value", "mean, within the bounds"}, 0, Range{}, Need::required);
+      prior.number({"standard_deviation",
+                    "how well it is known; from a millionth of the way between the bounds to a million times it"},
+                   0, {0, largest_quantity, true}, Need::required);
+    });
+  });
+  parameters.put({kind.name, kind.meaning}, {{"oneOf", {fixed, free}}}, Need::optional);
+}
+
+void read_free(ObjectReader& reader, const Range& range, Parameter& parameter) {
+  parameter.free = true;
+  reader.refuse("value", "stands beside \"free\"", "give one of them");
+  reader.choice("scale", parameter.scale, scales, Need::optional);
+  std::vector<double> bounds;
+  reader.known("prior");
+  if (!reader.numbers("free", bounds, range, Need::required, 2, 2)) return;
+  if (!check_bounds(reader, bounds, parameter.scale)) return;
+  parameter.lower = bounds[0];
+  parameter.upper = bounds[1];
+  reader.object("prior", Need::optional, [&](ObjectReader& known) { read_prior(known, parameter, range); });
+}
+
+}  // namespace pastefit
