@@ -11,12 +11,14 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 37293,
-    "files of core and calibrate": 432,
-    "of them below 40 lines": 61,
+    "lines of C++ in calibrate": 36744,
+    "files of core and calibrate": 427,
+    "of them below 40 lines": 60,
     "files that start or wait for threads": 2,
     "files that decide whether a material meets the laboratory": 1,
     "lines of schemas written by hand": 282,
+    "files in which a reading has its name": 7,
+    "files in which a law's parameter has its name": 14,
 }
 
 # Words that were given up: a reading is no observable, and an error is the largest difference over its tolerance (tests/style.md).
@@ -62,6 +64,8 @@ def counts(source):
         "of them below 40 lines": sum(count < 40 for count in lines.values()),
         "files that start or wait for threads": matching(r"std::j?thread> |std::condition_variable"),
         "files that decide whether a material meets the laboratory": matching(r"\? Verdict::meets : "),
+        "files in which a reading has its name": matching(r"plateau_width"),
+        "files in which a law's parameter has its name": matching(r"cohesion_energy_density"),
         "lines of schemas written by hand": (source / "data/schema/case.schema.json").read_text().count("\n"),
     }
 

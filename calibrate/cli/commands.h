@@ -16,7 +16,6 @@ inline constexpr int kBadInput = 2;  ///< what the user gave cannot be used; not
 using Command = std::function<int()>;
 Command add_batch(CLI::App& verb);
 Command add_calibrate(CLI::App& verb);
-Command add_compare_optimisers(CLI::App& verb);
 Command add_check(CLI::App& verb);
 Command add_confirm(CLI::App& verb);
 Command add_export(CLI::App& verb);

@@ -75,7 +75,6 @@ int run(int argc, char** argv) {
       {"batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch},
       {"interpolate", "write the card of a mix between those of a batch, not confirmed", add_interpolate},
       {"infer", "say what a calibration's stored simulations tell of the parameters, without simulating", add_infer},
-      {"compare-optimisers", "run all search strategies on one study with the same budget", add_compare_optimisers},
       {"simulate", "run the test of a study, card, laboratory, apparatus or impact file once", add_simulate},
       {"template", "print a commented starting file", add_template},
       {"show", "print a material card for a person", add_show},

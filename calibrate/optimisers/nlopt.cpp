@@ -10,7 +10,6 @@
 namespace pastefit {
 namespace {
 
-constexpr int no_limit = 1'000'000;
 constexpr int most_refused = 100;        // points that are not a number before the run is given up
 constexpr int most_late_calls = 10'000;  // questions after the stop before the algorithm is left by force
 
@@ -18,30 +17,13 @@ constexpr int most_late_calls = 10'000;  // questions after the stop before the 
 struct AlgorithmRow {
   std::string_view name;
   nlopt::algorithm algorithm;
-  int fewest, most;  ///< coordinates it can search
+  int fewest;  ///< coordinates it can search
 };
 
 constexpr std::array algorithms = {
-    AlgorithmRow{"direct", nlopt::GN_DIRECT, 1, no_limit},
-    AlgorithmRow{"direct_l", nlopt::GN_DIRECT_L, 1, no_limit},
-    AlgorithmRow{"direct_l_rand", nlopt::GN_DIRECT_L_RAND, 1, no_limit},
-    AlgorithmRow{"direct_noscal", nlopt::GN_DIRECT_NOSCAL, 1, no_limit},
-    AlgorithmRow{"direct_l_noscal", nlopt::GN_DIRECT_L_NOSCAL, 1, no_limit},
-    AlgorithmRow{"direct_l_rand_noscal", nlopt::GN_DIRECT_L_RAND_NOSCAL, 1, no_limit},
-    AlgorithmRow{"orig_direct", nlopt::GN_ORIG_DIRECT, 1, no_limit},
-    AlgorithmRow{"orig_direct_l", nlopt::GN_ORIG_DIRECT_L, 1, no_limit},
-    AlgorithmRow{"crs2_lm", nlopt::GN_CRS2_LM, 1, no_limit},
-    AlgorithmRow{"isres", nlopt::GN_ISRES, 1, no_limit},
-    AlgorithmRow{"esch", nlopt::GN_ESCH, 1, no_limit},
-    AlgorithmRow{"mlsl", nlopt::GN_MLSL, 2, no_limit},
-    AlgorithmRow{"mlsl_lds", nlopt::GN_MLSL_LDS, 2, no_limit},
-    AlgorithmRow{"ags", nlopt::GN_AGS, 1, 5},
-    AlgorithmRow{"cobyla", nlopt::LN_COBYLA, 1, no_limit},
-    AlgorithmRow{"bobyqa", nlopt::LN_BOBYQA, 2, no_limit},
-    AlgorithmRow{"newuoa_bound", nlopt::LN_NEWUOA_BOUND, 2, no_limit},
-    AlgorithmRow{"praxis", nlopt::LN_PRAXIS, 2, no_limit},
-    AlgorithmRow{"nelder_mead", nlopt::LN_NELDERMEAD, 1, no_limit},
-    AlgorithmRow{"sbplx", nlopt::LN_SBPLX, 1, no_limit},
+    AlgorithmRow{"direct_l", nlopt::GN_DIRECT_L, 1},      AlgorithmRow{"crs2_lm", nlopt::GN_CRS2_LM, 1},
+    AlgorithmRow{"bobyqa", nlopt::LN_BOBYQA, 2},          AlgorithmRow{"cobyla", nlopt::LN_COBYLA, 1},
+    AlgorithmRow{"nelder_mead", nlopt::LN_NELDERMEAD, 1}, AlgorithmRow{"sbplx", nlopt::LN_SBPLX, 1},
 };
 
 const AlgorithmRow* find_algorithm(std::string_view name) {
@@ -160,13 +142,6 @@ class Answerer {
   bool ended_ = false;
 };
 
-/// Questions of an algorithm's first division of the cube, two a coordinate. NLopt 2.7.1 crashes if the original DIRECT
-/// is stopped within it (it follows a pointer that was never set), so that they are all answered, with the worst number
-/// once the run has ended.
-int undivided(Eigen::Index dimension) {
-  return 2 * static_cast<int>(dimension) + 2;
-}
-
 /// What NLopt's callback carries. The problem's exceptions cross NLopt in here, because NLopt would forget their
 /// type.
 struct Question {
@@ -174,7 +149,6 @@ struct Question {
   nlopt::opt& optimiser;
   Eigen::Index dimension;
   std::exception_ptr thrown;
-  int asked = 0;
 };
 
 double ask(unsigned, const double* x, double*, void* data) {
@@ -186,8 +160,7 @@ double ask(unsigned, const double* x, double*, void* data) {
     question.thrown = std::current_exception();
     question.answerer.end(SearchStatus::failed, "the problem threw");
   }
-  ++question.asked;
-  if (question.answerer.ended() && question.asked > undivided(question.dimension)) question.optimiser.force_stop();
+  if (question.answerer.ended()) question.optimiser.force_stop();
   if (question.answerer.late_calls() > most_late_calls) throw nlopt::forced_stop();
   return value;
 }
@@ -197,19 +170,12 @@ void configure(nlopt::opt& optimiser, const AlgorithmRow& row, unsigned dimensio
   optimiser.set_upper_bounds(1.0);
   optimiser.set_xtol_abs(options.step_tolerance);
   optimiser.set_initial_step(options.initial_step);
-  optimiser.set_maxeval(std::max(options.evaluations, undivided(dimension)) + 1);
-  const bool evolves = row.algorithm == nlopt::GN_CRS2_LM || row.algorithm == nlopt::GN_ISRES;
-  if (evolves) {
-    // NLopt's own choice, ten or twenty a coordinate, would spend a small budget on the first generation.
+  optimiser.set_maxeval(options.evaluations + 1);
+  if (row.algorithm == nlopt::GN_CRS2_LM) {
+    // NLopt's own choice, ten a coordinate, would spend a small budget on the first generation.
     const unsigned generations = 5;
     const unsigned share = static_cast<unsigned>(options.evaluations) / generations;
     optimiser.set_population(std::clamp(share, dimension + 2, 10 * (dimension + 1)));
-  }
-  if (row.algorithm == nlopt::GN_MLSL || row.algorithm == nlopt::GN_MLSL_LDS) {
-    nlopt::opt local(nlopt::LN_BOBYQA, dimension);
-    local.set_xtol_abs(options.step_tolerance);
-    local.set_initial_step(options.initial_step);
-    optimiser.set_local_optimizer(local);
   }
 }
 
@@ -243,7 +209,7 @@ void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOption
   const int dimension = std::max(static_cast<int>(start.size()), row.fewest);
   nlopt::opt optimiser(row.algorithm, static_cast<unsigned>(dimension));
   configure(optimiser, row, static_cast<unsigned>(dimension), options);
-  Question question{answerer, optimiser, start.size(), nullptr, 0};
+  Question question{answerer, optimiser, start.size(), nullptr};
   optimiser.set_min_objective(ask, &question);
   nlopt::srand(static_cast<unsigned long>(options.seed));
   std::vector<double> x(static_cast<std::size_t>(dimension), 0.5);
@@ -271,18 +237,15 @@ std::vector<std::string_view> nlopt_algorithm_names() {
   return names;
 }
 
-Faults validate(const NloptOptions& options, int dimension) {
+Faults validate(const NloptOptions& options) {
   Faults faults;
   const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
     if (!holds) faults.push_back({where, std::move(what), std::move(remedy)});
   };
-  const AlgorithmRow* row = find_algorithm(options.algorithm);
   std::string known;
   for (const AlgorithmRow& each : algorithms) known += (known.empty() ? "" : ", ") + std::string(each.name);
-  demand(row != nullptr, "algorithm", "\"" + options.algorithm + "\" is not known", "one of " + known);
-  demand(row == nullptr || dimension <= row->most, "algorithm",
-         options.algorithm + " cannot search " + std::to_string(dimension) + " parameters",
-         "fix parameters, or take an algorithm without that bound, e.g. crs2_lm");
+  demand(find_algorithm(options.algorithm) != nullptr, "algorithm", "\"" + options.algorithm + "\" is not known",
+         "one of " + known);
   demand(options.evaluations > 0, "evaluations", std::to_string(options.evaluations), "at least 1");
   demand(options.initial_step > 0 && options.initial_step <= 0.5, "initial_step", std::to_string(options.initial_step),
          "above 0, at most 0.5");
@@ -294,7 +257,7 @@ Faults validate(const NloptOptions& options, int dimension) {
 
 Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOptions& options) {
   const bool inside = start.size() == problem.parameters && (start.array() >= 0).all() && (start.array() <= 1).all();
-  if (!inside || !validate(options, problem.parameters).empty())
+  if (!inside || !validate(options).empty())
     throw std::logic_error("minimise: start outside the unit cube, or options that are not valid");
   Answerer answerer(problem, options);
   answerer.answer(start);

@@ -22,15 +22,15 @@ struct NloptOptions {
   std::uint64_t seed = 1;            ///< of the algorithms that draw random numbers
 };
 
-/// Names of the algorithms, in a fixed order: every derivative-free one of NLopt 2.7. StoGO needs gradients and AUGLAG
-/// serves constraints only, so both are left out.
+/// Names of the algorithms, in a fixed order: those of NLopt's that a user would choose when a question costs a
+/// simulation, two global ones and four local ones.
 std::vector<std::string_view> nlopt_algorithm_names();
 
-/// Everything wrong with the options; empty: fit to run. `dimension`: number of parameters (AGS: at most 5).
-Faults validate(const NloptOptions& options, int dimension);
+/// Everything wrong with the options; empty: fit to run.
+Faults validate(const NloptOptions& options);
 
 /// Minimises a problem over the unit cube, from `start`.
-/// Requirements: `validate(options, problem.parameters)` is empty, `start` lies in the unit cube.
+/// Requirements: `validate(options)` is empty, `start` lies in the unit cube.
 /// NLopt never sees the value f itself but f/(f + f_start), between 0 and 1, and 1 to 2 for a failure: finite,
 /// bounded, in the same order as the value and the same from the first call to the last, so that a failure is worse
 /// than any answer without a cliff that grows with the units. Points outside the cube are moved to its border, points

@@ -40,7 +40,7 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
   if (!row || row->kind == StrategyKind::nlopt) {
     NloptOptions nlopt;
     nlopt.algorithm = options.strategy;
-    for (const Fault& fault : validate(nlopt, parameters)) {
+    for (const Fault& fault : validate(nlopt)) {
       demand(false, "search.strategy", fault.what, "default, levenberg_marquardt, dogleg, or " + fault.remedy);
     }
   }

@@ -5,17 +5,17 @@
 namespace pastefit {
 
 void Readings::set(std::string_view name, double value) {
-  const auto same = [&](const Reading& o) { return o.name == name; };
-  if (const auto it = std::find_if(readings_.begin(), readings_.end(), same); it != readings_.end())
-    it->value = value;
+  const auto [place, added] = places_.try_emplace(std::string(name), readings_.size());
+  if (added)
+    readings_.push_back({place->first, value});
   else
-    readings_.push_back({std::string(name), value});
+    readings_[place->second].value = value;
 }
 
 std::optional<double> Readings::find(std::string_view name) const {
-  for (const Reading& o : readings_)
-    if (o.name == name) return o.value;
-  return {};
+  const auto place = places_.find(std::string(name));
+  if (place == places_.end()) return {};
+  return readings_[place->second].value;
 }
 
 Readings mean_of(const std::vector<Readings>& runs) {

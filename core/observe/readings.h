@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace pastefit {
@@ -23,6 +24,7 @@ class Readings {
 
  private:
   std::vector<Reading> readings_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< in `readings_`, by name
 };
 
 /// The mean of each reading over several runs. One that some run lacks has none.

@@ -317,23 +317,6 @@ class CommandLine(Desk):
         self.assertIn(result.returncode, (0, 1), result.stderr)
         self.assertTrue((self.out / "evaluations.sqlite").exists())
 
-    def test_compare_optimisers_prints_a_table_and_draws_it(self):
-        study = self.study(budget=8, screening=4)
-        names = "default,bobyqa,dogleg"
-        result = run("compare-optimisers", study, "--out", self.out, "--strategies", names, "--judge-packings", "1")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        rows = (self.out / "comparison.csv").read_text().splitlines()
-        self.assertEqual([row.split(",")[0] for row in rows], ["strategy", *names.split(",")])
-        for row in rows[1:]:
-            self.assertLessEqual(int(row.split(",")[3]), 8)
-        self.assertIn("default", result.stdout)
-        xml.parse(self.out / "comparison.svg")
-        again = run("compare-optimisers", study, "--out", self.out, "--strategies", names, "--judge-packings", "1",
-                    "--resume")
-        self.assertEqual((self.out / "comparison.csv").read_text().splitlines(), rows, again.stderr)
-        self.fails(run("compare-optimisers", study, "--out", self.folder / "x", "--strategies", "magic"), 2, "magic")
-        self.assertFalse((self.folder / "x").exists())
-
     # what people expect of a command line
 
     def test_json_is_the_answer_alone_and_quiet_says_nothing_besides(self):
@@ -347,9 +330,7 @@ class CommandLine(Desk):
         self.assertIn(quiet.returncode, (0, 1))
         for verb in (["infer", study, "--from", self.out], ["show", self.out / "card.json"],
                      ["rescale", self.out / "card.json", "--radius", "13", "--packings", "0"],
-                     ["simulate", APPARATUS, *COARSE], ["check", "--quick", CARD], ["verify", "free-fall"],
-                     ["compare-optimisers", study, "--out", self.folder / "compared", "--strategies", "default",
-                      "--judge-packings", "1"]):
+                     ["simulate", APPARATUS, *COARSE], ["check", "--quick", CARD], ["verify", "free-fall"]):
             with self.subTest(verb[0]):
                 result = run(*verb, "--json", "--quiet")
                 self.assertIn(result.returncode, (0, 1))

@@ -104,7 +104,6 @@ class Limits(Desk):
         nowhere = self.folder / "nowhere" / "file"
         for verb in (["simulate", APPARATUS, "--out", self.out], ["simulate", APPARATUS, "--checkpoint", nowhere],
                      ["calibrate", self.study(), "--out", self.out / "x"],
-                     ["compare-optimisers", self.study(), "--out", self.out / "x"],
                      ["rescale", CARD, "--radius", 4, "--out", nowhere], ["check", CARD, "--junit", nowhere],
                      ["export", "--unconfirmed", coarse_card(), "--to", "lammps", "--out", self.out / "x"]):
             with self.subTest(verb[0]):

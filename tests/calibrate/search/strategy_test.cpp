@@ -158,7 +158,7 @@ TEST_CASE("every algorithm by name goes the whole way within the budget", "[camp
       CHECK(finite(calibration.best));
       if (calibration.status == CalibrationStatus::confirmed) ++confirmed;
     }
-    // Ten seeds leave a share of a half uncertain by 1.6 of ten; the worst of them, newuoa_bound, has 3 or 4.
+    // Ten seeds leave a share of a half uncertain by 1.6 of ten.
     CHECK(confirmed >= (name == "default" ? 9 : 3));
     all_confirmed += confirmed;
   }
