@@ -43,7 +43,7 @@ inline std::string pairs_of(const std::vector<double>& values) {
   std::string out = format("peratomtypepair %zu", values.size());
   for (std::size_t row = 0; row < values.size(); ++row)
     for (std::size_t column = 0; column < values.size(); ++column)
-      out += format(" %.17g", values[std::min(row, column) == 0 ? std::max(row, column) : std::min(row, column)]);
+      out += " " + exact(values[std::min(row, column) == 0 ? std::max(row, column) : std::min(row, column)]);
   return out;
 }
 

@@ -46,7 +46,7 @@ std::vector<double> by_type(const std::vector<ExportWall>& walls, double grains,
 
 std::string one_each(const std::vector<double>& values) {
   std::string out = "peratomtype";
-  for (const double value : values) out += format(" %.17g", value);
+  for (const double value : values) out += " " + exact(value);
   return out;
 }
 
@@ -95,14 +95,14 @@ std::string properties(const ExportScene& scene, const Written& written) {
   const double radius = fit->bridge.radius_m;
   // LIGGGHTS gives each bridge the share 1 - sqrt(3/4) of the liquid on one of two equal grains.
   const double grain = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  out += format("fix p7 all property/global surfaceLiquidContentInitial scalar %.17g\n",
-                fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75))));
-  out += format("fix p8 all property/global surfaceTension scalar %.17g\n", fit->bridge.surface_tension_n_m);
+  out += "fix p7 all property/global surfaceLiquidContentInitial scalar " +
+         exact(fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75)))) + "\n";
+  out += "fix p8 all property/global surfaceTension scalar " + exact(fit->bridge.surface_tension_n_m) + "\n";
   out += "fix p9 all property/global fluidViscosity scalar 0\n";
   property(10, "contactAngle", one_each(by_type(walls, 0, [](const auto&) { return 0; })));
   out += "fix p11 all property/global minSeparationDistanceRatio scalar 1.01\n";
-  out += format("fix p12 all property/global maxSeparationDistanceRatio scalar %.17g\n",
-                1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius);
+  out += "fix p12 all property/global maxSeparationDistanceRatio scalar " +
+         exact(1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius) + "\n";
   return out;
 }
 

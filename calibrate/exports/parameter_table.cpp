@@ -101,7 +101,7 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
 ExportFile parameters_csv(const ExportScene& scene) {
   std::string text = "name,value,meaning\n";
   for (const auto& row : parameter_rows(scene))
-    text += format("%s,%.17g,\"%s\"\n", row.name.c_str(), row.value, row.meaning.c_str());
+    text += row.name + "," + exact(row.value) + ",\"" + row.meaning + "\"\n";
   return {"parameters.csv", text};
 }
 
@@ -110,7 +110,7 @@ ExportFile force_csv(const ExportScene& scene) {
   const double radius = specimen.grains.radius_m;
   std::string text = "overlap_m,attraction_n,repulsion_n\n";
   for (const auto& point : force_table(specimen.contact, {radius, radius, radius}, 0.1 * radius, 2001))
-    text += format("%.17g,%.17g,%.17g\n", point.overlap_m, point.attraction_n, point.repulsion_n);
+    text += exact(point.overlap_m) + "," + exact(point.attraction_n) + "," + exact(point.repulsion_n) + "\n";
   return {"force.csv", text};
 }
 
@@ -118,7 +118,7 @@ ExportFile grains_csv(const ExportScene& scene) {
   std::string text = "x_m,y_m,z_m,radius_m\n";
   for (std::size_t i = 0; i < scene.packing.centres.size(); ++i) {
     const auto& p = scene.packing.centres[i];
-    text += format("%.17g,%.17g,%.17g,%.17g\n", p.x, p.y, p.z, scene.packing.radii[i]);
+    text += exact(p.x) + "," + exact(p.y) + "," + exact(p.z) + "," + exact(scene.packing.radii[i]) + "\n";
   }
   return {"grains.csv", text};
 }

@@ -233,7 +233,7 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   out +=
       "from math import atan, cos, pi, sin, sqrt\n\nimport numpy as np\nfrom yade import *\nfrom yade import utils\n";
   out += "from yade.utils import facet, sphere, wall\nfrom yade.wrapper import *\nfrom yade.minieigenHP import *\n\n";
-  const auto number = [&](const char* name, double value) { out += format("%s = %.17g\n", name, value); };
+  const auto number = [&](const char* name, double value) { out += std::string(name) + " = " + exact(value) + "\n"; };
   out += "SHAPE = '" + word_of(bridge.shape, bridge_shapes) + "'\n";
   number("RADIUS", radius);
   number("A", bridge.a_n_m2);
@@ -249,17 +249,16 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
   out += "WALLS = [";
   for (const auto& wall : walls) out += "'" + wall.name + "', ";
   out += "]\n# of the grains, then of each wall: Young's modulus, Poisson's ratio, density, friction\n";
-  out += format("MATERIALS = [(%.17g, %.17g, %.17g, %.17g),\n", contact.youngs_modulus_pa, contact.poissons_ratio,
-                scene.grain_density_kg_m3, contact.friction);
+  out += "MATERIALS = [(" + exact(contact.youngs_modulus_pa) + ", " + exact(contact.poissons_ratio) + ", " +
+         exact(scene.grain_density_kg_m3) + ", " + exact(contact.friction) + "),\n";
   for (const auto& [name, wall] : walls)
-    out += format("             (%.17g, %.17g, 2500, %.17g),  # ", wall.youngs_modulus_pa, wall.poissons_ratio,
-                  wall.friction) +
-           name + "\n";
-  std::string restitution = format("RESTITUTION = [%.17g", contact.restitution),
-              friction = format("FRICTION = [%.17g", contact.friction);
+    out += "             (" + exact(wall.youngs_modulus_pa) + ", " + exact(wall.poissons_ratio) + ", 2500, " +
+           exact(wall.friction) + "),  # " + name + "\n";
+  std::string restitution = "RESTITUTION = [" + exact(contact.restitution),
+              friction = "FRICTION = [" + exact(contact.friction);
   for (const auto& [name, wall] : walls) {
-    restitution += format(", %.17g", wall.restitution);
-    friction += format(", %.17g", wall.friction);
+    restitution += ", " + exact(wall.restitution);
+    friction += ", " + exact(wall.friction);
   }
   out += "            ]\n" + restitution + "]\n" + friction + "]\n";
   out += "# rolling: stiffness over the shear stiffness [m^2], largest moment over the normal force [m]\n";
@@ -275,7 +274,7 @@ std::string module_of(const ExportScene& scene, const ContactModel& contact) {
 std::string with_numbers(std::string script, std::initializer_list<std::pair<std::string, double>> numbers) {
   for (const auto& [name, value] : numbers) {
     const auto at = script.find("@" + name);
-    script.replace(at, name.size() + 1, format("%.17g", value));
+    script.replace(at, name.size() + 1, exact(value));
   }
   return script;
 }

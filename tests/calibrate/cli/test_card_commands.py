@@ -76,6 +76,10 @@ class CardCommands(Desk):
             said = [found[0] or found[1] for file in out.rglob("*") if file.suffix in (".csv", ".txt", ".inc", ".py")
                     for found in re.findall(r"grain_density_kg_m3[ ,]+([0-9.]+)|density of a grain,? [^(\n]*\(([0-9.]+) on the card", file.read_text())]
             self.assertTrue(said, target)
+            for name in ("material.inc", "material.py", "parameters.csv", "edem.txt", "mercurydpm.txt"):
+                text = (out / name).read_text() if (out / name).exists() else ""
+                for number in re.findall(r"\b\d\.\d{12,}\b", text):  # 0.29999999999999999 is 0.3
+                    self.assertLessEqual(len(number), len(repr(float(number))), name)
             for value in said:
                 self.assertAlmostEqual(float(value), on_card, delta=1e-4, msg=target)
 
