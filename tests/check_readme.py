@@ -48,7 +48,7 @@ class Readme(unittest.TestCase):
                     self.assertTrue(any(path.exists() for path in tries))
 
     def test_verbs_and_options_are_those_of_the_program(self):
-        verbs = re.findall(r"^  ([\w-]+) +\w", help_of().split("Subcommands:")[1], re.M)
+        verbs = re.findall(r"^  ([\w-]+) +\w", help_of().split("\nStart:")[1], re.M)
         told = {re.search(r"pastefit ([\w-]+)", cells[0]).group(1): cells[1] for cells in rows("verb")}
         self.assertEqual(sorted(verbs), sorted(told))
         for verb, text in told.items():

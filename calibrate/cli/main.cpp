@@ -65,27 +65,33 @@ int run(int argc, char** argv) {
   program.fallthrough(false);
 
   struct Verb {
+    const char* group;  ///< what one wants, as a heading of the help
     const char* name;
     const char* meaning;
     Command (*add)(CLI::App&);
   };
+  constexpr const char *kStart = "Start", *kCalibrate = "Calibrate", *kLook = "Look", *kUse = "Use elsewhere",
+                       *kTrust = "Check", *kMany = "Many studies";
   constexpr Verb kVerbs[] = {
-      {"new", "write a laboratory file and a study from what a measuring sheet says", add_new},
-      {"calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
-      {"batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch},
-      {"interpolate", "write the card of a mix between those of a batch, not confirmed", add_interpolate},
-      {"infer", "say what a calibration's stored simulations tell of the parameters, without simulating", add_infer},
-      {"simulate", "run the test of a study, card, laboratory, apparatus or impact file once", add_simulate},
-      {"template", "print a commented starting file", add_template},
-      {"show", "print a material card for a person", add_show},
-      {"report", "write the page of a calibration, for a browser", add_report},
-      {"rescale", "carry a material card to another grain size", add_rescale},
-      {"confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card", add_confirm},
-      {"export", "write a material card's test for another DEM program", add_export},
-      {"read", "compare the heap of an exported deck with the card", add_read},
-      {"check", "simulate cards again and compare within the noise", add_check},
-      {"verify", "hold the contact laws against closed forms, case by case", add_verify},
-      {"help", "say what the program does, or one of its verbs", add_help}};
+      {kStart, "new", "write a laboratory file and a study from what a measuring sheet says", add_new},
+      {kStart, "template", "print a commented starting file", add_template},
+      {kStart, "help", "say what the program does, or one of its verbs", add_help},
+      {kCalibrate, "calibrate", "find the material that meets the laboratory's readings of a study", add_calibrate},
+      {kCalibrate, "simulate", "run the test of a study, card, laboratory, apparatus or impact file once",
+       add_simulate},
+      {kCalibrate, "infer", "say what a calibration's stored simulations tell of the parameters, without simulating",
+       add_infer},
+      {kLook, "show", "print a material card for a person", add_show},
+      {kLook, "report", "write the page of a calibration, for a browser", add_report},
+      {kUse, "export", "write a material card's test for another DEM program", add_export},
+      {kUse, "read", "compare the heap of an exported deck with the card", add_read},
+      {kUse, "confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card",
+       add_confirm},
+      {kUse, "rescale", "carry a material card to another grain size", add_rescale},
+      {kTrust, "check", "simulate cards again and compare within the noise", add_check},
+      {kTrust, "verify", "hold the contact laws against closed forms, case by case", add_verify},
+      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch},
+      {kMany, "interpolate", "write the card of a mix between those of a batch, not confirmed", add_interpolate}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {
@@ -95,12 +101,16 @@ int run(int argc, char** argv) {
   }
   Command chosen;
   for (const auto& verb : kVerbs) {
-    auto* app = program.add_subcommand(verb.name, verb.meaning);
+    auto* app = program.add_subcommand(verb.name, verb.meaning)->group(verb.group);
     app->add_flag_callback("--quiet", be_quiet, "no progress and no notes, only the answer and errors");
     app->callback([&chosen, command = verb.add(*app)] { chosen = command; });
   }
 
-  if (argc > 1 && names.contains(argv[1]))
+  if (argc == 1) {
+    print("%s", program.help().c_str());
+    return kDone;
+  }
+  if (names.contains(argv[1]))
     if (const Faults faults = unknown_options(*program.get_subcommand(argv[1]), argc, argv); !faults.empty())
       return report(faults);
   try {

@@ -17,7 +17,7 @@ from desk import CARD, PROGRAM, Desk, run
 
 
 def verbs():
-    return re.findall(r"^  ([a-z-]+)  +\S", run("--help").stdout.split("Subcommands:")[1], flags=re.M)
+    return re.findall(r"^  ([a-z-]+)  +\S", run("--help").stdout.split("\nStart:")[1], flags=re.M)
 
 
 def options_of(verb):
@@ -28,6 +28,12 @@ class Help(Desk):
     def written(self):
         self.assertEqual(run("help", "--write", self.folder / "manual").returncode, 0)
         return self.folder / "manual"
+
+    def test_the_program_alone_prints_its_help_with_verbs_by_what_one_wants(self):
+        alone = run()
+        self.assertEqual((alone.returncode, alone.stdout), (0, run("--help").stdout))
+        self.assertEqual(re.findall(r"^([A-Z][a-z ]+):$", alone.stdout, flags=re.M),
+                         ["Options", "Start", "Calibrate", "Look", "Use elsewhere", "Check", "Many studies"])
 
     def test_help_of_a_verb_is_what_the_verb_says_itself(self):
         self.assertEqual(run("help").stdout, run("--help").stdout)
