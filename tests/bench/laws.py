@@ -6,7 +6,7 @@ usage: laws.py PROGRAM TABLE.csv [--sheets structural,en,stiff,uci:79,...] [--la
        laws.py --report TABLE.csv
 
 structural: Abrams cone, slumps 95, 110 and 100 mm, spread 270 mm. en: EN 12350-5 with one drop. stiff: slumps of 40 to 120 mm with
-spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height. uci:NN: a concrete of Yeh's slump tests,
+spreads of 0.8 and 0.9 of the width of a cone of the mould's volume and the heap's height; slump-80-0.9: one of them. uci:NN: a concrete of Yeh's slump tests,
 uci:all: those whose spread is at most 1.1 of that width. The law `new` is what `pastefit new` chooses by itself. Rows that
 stand in the table are not run again. Each material is simulated on packings 201 to 216 (`--foreign` many), which no search has
 seen; of its heaps those that stand are averaged. core_s is the processor time of the calibration, core_s_to_card its share of the simulations up
@@ -49,12 +49,13 @@ def sheets_of(words):
         elif word == "en":
             sheets[word] = ["--mould", "hinged-plate", "--density", "1900", "--height", "135", "--height2", "118", "--sag", "9",
                             "--spread", "255", "--spread2", "280"]
-        elif word == "stiff":
+        elif word == "stiff" or word.startswith("slump-"):
             for slump in (40, 60, 80, 100, 120):
                 for share in (0.8, 0.9):
                     spread = round(share * width_of_cone_mm(300 - slump))
-                    sheets[f"slump-{slump}-{share}"] = ["--mould", "abrams", "--density", "2300", "--slump", str(slump), "--spread",
-                                                        str(spread)]
+                    if word in ("stiff", f"slump-{slump}-{share}"):
+                        sheets[f"slump-{slump}-{share}"] = ["--mould", "abrams", "--density", "2300", "--slump", str(slump), "--spread",
+                                                            str(spread)]
         elif word.startswith("uci:"):
             for mix, row in concretes().items():
                 height, spread = 300 - 10 * float(row["slump_cm"]), 10 * float(row["flow_cm"])
