@@ -12,6 +12,7 @@
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/written_readings.h"
@@ -290,6 +291,17 @@ struct ChosenLaws {
   std::string why;
 };
 
+/// Whether the heap is narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height
+/// with 0.67 of a cone's width are met by grains that stick to the table, and by none that only rub
+/// (tests/results/laws.md).
+bool sticks_to_the_table(const SlumpTest& test, std::span<const Measurement> measured) {
+  constexpr double narrow = 0.7, low = 0.25;
+  const auto* height = find_measurement(measured, "step1.height_mm");
+  const auto* spread = find_measurement(measured, "step1.spread_mm");
+  return height && spread && height->value > 1e3 * low * test.mould.height_m &&
+         spread->value < narrow * cone_width_mm(test, height->value);
+}
+
 /// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
 /// both, heaps that keep more than half of their height get elasto-plastic adhesion: those of a bridge shear off.
 /// Others get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed
@@ -308,13 +320,15 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
     return {*epa,
             "More than half of the height is left: heaps of a bridge shear off there, heaps of elasto-plastic "
             "adhesion stand"};
+  if (sticks_to_the_table(test, measured))
+    return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
   return {*bridge, std::string(bridge->why)};
 }
 
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
 /// of them alone tells the strength.
 /// A time of the flow tells the viscosity, of laws that have one.
-ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm) {
+ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm, bool sticks) {
   if (is_dry(measurements)) return dry_parameters();
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
@@ -324,6 +338,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
   ordered_json out = starting_parameters(laws.laws(), both);
+  if (sticks && laws.law == "epa") out["table_cohesion_factor"] = {{"value", 1}};
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {
@@ -415,19 +430,22 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   measurements = lab["measurements"];
   const auto read = lab_from_json(json::parse(lab.dump()), folder);
   if (!read.ok()) return read.faults();
-  const auto chosen = laws_of(sheet, *laws, slump_of(test.value()), read.value().measurements);
-  const ordered_json study{{"format", "pastefit-study-1"},
-                           {"title", one_line(sheet.title)},
-                           {"lab", "lab.json"},
-                           {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(chosen.laws)},
-                           {"parameters", parameters_for(chosen.laws, measurements, lab["grains"]["largest_mm"])},
-                           {"search",
-                            {{"screening", 8},
-                             {"budget_simulations", 150},
-                             {"packings", 2},
-                             {"confirmation_packings", 8},
-                             {"examination_simulations", 12},
-                             {"seed", 1}}}};
+  const auto& measured = read.value().measurements;
+  const auto chosen = laws_of(sheet, *laws, slump_of(test.value()), measured);
+  const bool sticks = sticks_to_the_table(slump_of(test.value()), measured);
+  const ordered_json study{
+      {"format", "pastefit-study-1"},
+      {"title", one_line(sheet.title)},
+      {"lab", "lab.json"},
+      {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(chosen.laws)},
+      {"parameters", parameters_for(chosen.laws, measurements, lab["grains"]["largest_mm"], sticks)},
+      {"search",
+       {{"screening", 8},
+        {"budget_simulations", 150},
+        {"packings", 2},
+        {"confirmation_packings", 8},
+        {"examination_simulations", 12},
+        {"seed", 1}}}};
   return StartingFiles{
       with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
       with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " + chosen.why + ".",
