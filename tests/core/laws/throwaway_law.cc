@@ -18,7 +18,7 @@ double rebound_speed(NormalLaw law) {
   impact.duration_s = 1;
   impact.rebound_gap_m = 1e-4;
   if (!validate(impact).empty()) return -1;
-  return simulate(impact).observables.find("relative_speed_m_s").value_or(-1);
+  return simulate(impact).readings.find("relative_speed_m_s").value_or(-1);
 }
 
 }  // namespace
