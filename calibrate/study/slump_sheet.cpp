@@ -12,7 +12,6 @@
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/written_readings.h"
@@ -263,91 +262,6 @@ void predict_reading(ordered_json& lab, Test test, const std::vector<double>& st
                     " Pa, with the formula's own error");
 }
 
-/// An angle of repose is measured of dry materials.
-bool is_dry(const ordered_json& measurements) {
-  return measurements.contains("step1.angle_of_repose_deg");
-}
-
-/// As in the template of the lifted cylinder.
-ordered_json dry_parameters() {
-  return {{"friction", {{"free", {0.2, 0.8}}}},
-          {"rolling_friction", {{"free", {0.02, 0.5}}}},
-          {"table_friction", {{"value", 0.5}}},
-          {"table_rolling_friction", {{"value", 0.1}}},
-          {"mould_friction", {{"value", 0.4}}}};
-}
-
-/// Laws of grains that nothing attracts, with the rolling model of the target.
-ordered_json dry_contact(const TargetLaws& laws) {
-  return {{"normal", "hertz"},
-          {"attraction", "none"},
-          {"rolling_model", laws.rolling_model},
-          {"friction_basis", "elastic"}};
-}
-
-/// A law, and the reason for it that the study gives.
-struct ChosenLaws {
-  TargetLaws laws;
-  std::string why;
-};
-
-/// Whether the heap is narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height
-/// with 0.67 of a cone's width are met by grains that stick to the table, and by none that only rub
-/// (tests/results/laws.md).
-bool sticks_to_the_table(const SlumpTest& test, std::span<const Measurement> measured) {
-  constexpr double narrow = 0.7, low = 0.25;
-  const auto* height = find_measurement(measured, "step1.height_mm");
-  const auto* spread = find_measurement(measured, "step1.spread_mm");
-  return height && spread && height->value > 1e3 * low * test.mould.height_m &&
-         spread->value < narrow * cone_width_mm(test, height->value);
-}
-
-/// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
-/// both, heaps that keep more than half of their height get elasto-plastic adhesion: those of a bridge shear off.
-/// Others get the bridge, whose strength does not depend on the size of the mould (tests/results/laws.md); so do timed
-/// flows, because only a bridge has a viscosity, and sheets of a yield stress alone.
-ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
-                   std::span<const Measurement> measured) {
-  constexpr double stands = 0.5;
-  const auto bridge = laws_for(sheet.target, "bridge"), epa = laws_for(sheet.target, "epa");
-  if (!sheet.law.empty() || !bridge || !epa) return {named, std::string(named.why)};
-  if (find_measurement(measured, "step1.t500_s") || find_measurement(measured, "step1.flow_time_s"))
-    return {*bridge, "The flow is timed, and of the laws only a bridge has a viscosity"};
-  if (sheet.readings.empty())
-    return {*bridge, "A yield stress is known, and of the laws a bridge has a strength in Pa"};
-  const auto* height = find_measurement(measured, "step1.height_mm");
-  if (height && height->value > 1e3 * stands * test.mould.height_m)
-    return {*epa,
-            "More than half of the height is left: heaps of a bridge shear off there, heaps of elasto-plastic "
-            "adhesion stand"};
-  if (sticks_to_the_table(test, measured))
-    return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
-  return {*bridge, std::string(bridge->why)};
-}
-
-/// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
-/// of them alone tells the strength.
-/// A time of the flow tells the viscosity, of laws that have one.
-ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm, bool sticks) {
-  if (is_dry(measurements)) return dry_parameters();
-  const auto is_there = [&](std::string_view part) {
-    for (const auto& [key, reading] : measurements.items())
-      if (key.find(part) != std::string::npos) return true;
-    return false;
-  };
-  const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
-                                           (is_there("step1.spread") && is_there("after_drops.spread")));
-  ordered_json out = starting_parameters(laws.laws(), both);
-  if (sticks && laws.law == "epa") out["table_cohesion_factor"] = {{"value", 1}};
-  bool timed = false;
-  for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
-  if (timed && laws.law == "bridge" && laws.target == "lammps") {
-    const double most_pa_s = rounded(0.4 * radius_mm, 2);  // larger ones need shorter steps, by the radius
-    out["viscosity_pa_s"] = {{"free", {rounded(most_pa_s / 100, 2), most_pa_s}}, {"scale", "log"}};
-  }
-  return out;
-}
-
 /// What of the sheet cannot be as it is typed.
 Faults doubtful_numbers(const Sheet& sheet, const std::vector<double>& densities) {
   Faults faults;
@@ -427,29 +341,13 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (!stresses_pa.empty()) add_yield_stress(lab, stresses_pa);
   if (sheet.readings.empty()) predict_reading(lab, test.value(), stresses_pa, faults);
   if (!faults.empty()) return faults;
-  measurements = lab["measurements"];
   const auto read = lab_from_json(json::parse(lab.dump()), folder);
   if (!read.ok()) return read.faults();
-  const auto& measured = read.value().measurements;
-  const auto chosen = laws_of(sheet, *laws, slump_of(test.value()), measured);
-  const bool sticks = sticks_to_the_table(slump_of(test.value()), measured);
-  const ordered_json study{
-      {"format", "pastefit-study-1"},
-      {"title", one_line(sheet.title)},
-      {"lab", "lab.json"},
-      {"contact", is_dry(measurements) ? dry_contact(*laws) : contact_of(chosen.laws)},
-      {"parameters", parameters_for(chosen.laws, measurements, lab["grains"]["largest_mm"], sticks)},
-      {"search",
-       {{"screening", 8},
-        {"budget_simulations", 150},
-        {"packings", 2},
-        {"confirmation_packings", 8},
-        {"examination_simulations", 12},
-        {"seed", 1}}}};
+  const StartingStudy study = starting_study(sheet, *laws, slump_of(test.value()), lab, read.value().measurements);
   return StartingFiles{
       with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
-      with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " + chosen.why + ".",
-                study)};
+      with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " + study.why + ".",
+                study.document)};
 }
 
 }  // namespace pastefit

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,6 +46,17 @@ Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path&
 /// deviations come from the mould, the free parameters from what the readings tell of, the laws from the target.
 /// Errors: every fault of the sheet, or of the laboratory file that it makes.
 Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::path& folder);
+
+/// A study for the laboratory file of a sheet, and why its laws are these.
+struct StartingStudy {
+  nlohmann::ordered_json document;
+  std::string why;
+};
+
+/// The laws by what the sheet names or measured, the free parameters by what its readings tell of. `named`: the laws of
+/// the sheet's target. Requirement: `lab` is a laboratory file without faults, `measured` its measurements.
+StartingStudy starting_study(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
+                             const nlohmann::ordered_json& lab, std::span<const Measurement> measured);
 
 /// The commented laboratory file of a slump test on this preset's apparatus, fit to be read as it is: its mould, speed,
 /// table and grains, and the readings that are customary with it, each with its usual value and deviation. Of a preset
