@@ -63,6 +63,7 @@ EvaluatorOptions evaluator_of(const Study& study, const CalibrateOptions& option
   evaluator.core_budget_s = options.core_budget_s;
   evaluator.stop = options.stop;
   evaluator.observer = callbacks.evaluated;
+  evaluator.pulse = callbacks.pulse;
   evaluator.run_observer = callbacks.run_observer;
   evaluator.engine = options.engine;
   return evaluator;

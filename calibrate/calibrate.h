@@ -30,6 +30,7 @@ struct CalibrateOptions {
 struct CalibrateCallbacks {
   std::function<void(const Progress&)> progress;           ///< of the search
   std::function<void(const EvaluationCounts&)> evaluated;  ///< after each simulation, never two calls at a time
+  std::function<void()> pulse;                             ///< now and then during each, from any thread
   RunObserver* run_observer = nullptr;                     ///< of the simulations that are not only tried out
 };
 

@@ -168,7 +168,7 @@ int run_calibrate(const CalibrateArguments& options) {
     if (progress.phase != "examination") page.show(study, store.value());
   };
   const auto count = [&](const EvaluationCounts& counts) { line.show(counts); };
-  const auto result = calibrate(study, store.value(), how, {show, count, &looks});
+  const auto result = calibrate(study, store.value(), how, {show, count, [&] { line.look(); }, &looks});
   line.end();
   if (!result.ok()) return report(result.faults(), kFailed);
   const Delivery delivery{study, store.value(), folder.value(), options.threads, options.json};

@@ -119,7 +119,7 @@ CheckEngine counted(CheckEngine engine, WorkLine& line) {
 }
 
 ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
-    : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(5)}),
+    : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(4)}),
       work_(work),
       unit_(unit) {}
 
@@ -136,6 +136,11 @@ void ProgressLine::show(const Progress& progress) {
 void ProgressLine::show(const EvaluationCounts& counts) {
   const std::lock_guard lock(mutex_);
   counts_ = counts;
+  rewrite(false);
+}
+
+void ProgressLine::look() {
+  const std::lock_guard lock(mutex_);
   rewrite(false);
 }
 
@@ -159,8 +164,8 @@ std::string ProgressLine::text() const {
   for (const auto& [reason, count] : counts_.failures) failed += count;
   std::string line =
       fitted({format("%s %d of %d%s", phase_.c_str(), done(), work_.budget, line_.is_terminal() ? "" : " simulations"),
-              best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"), time_left(),
-              failed > 0 ? format("%d failed", failed) : "",
+              best_error_ < 0 ? "no error yet" : "error " + unit_.words(best_error_, "%.2f"),
+              format("%.0f s gone", line_.gone_s()), time_left(), failed > 0 ? format("%d failed", failed) : "",
               counts_.answered > 0 ? format("%d known", counts_.answered) : ""});
   if (line_.is_terminal()) line.insert(phase_.size(), bar(columns() - 1 - std::min(line.size(), columns() - 1)));
   return line;

@@ -19,7 +19,7 @@ class StatusLine {
   /// When a line is due: after the start, after another one on a terminal, after another one elsewhere.
   struct Schedule {
     Clock::duration first = std::chrono::seconds(2);
-    Clock::duration on_terminal = std::chrono::milliseconds(500), elsewhere = std::chrono::seconds(10);
+    Clock::duration on_terminal = std::chrono::milliseconds(500), elsewhere = std::chrono::seconds(4);
   };
   StatusLine();
   explicit StatusLine(const Schedule& schedule);
@@ -108,6 +108,7 @@ class ProgressLine {
   ProgressLine(const WorkAhead& work, const ErrorUnit& unit);
   void show(const Progress& progress);        ///< from the search
   void show(const EvaluationCounts& counts);  ///< after each simulation
+  void look();                                ///< now and then during one
   void end();                                 ///< ends the rewritten line
 
  private:

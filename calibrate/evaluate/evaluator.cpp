@@ -259,6 +259,7 @@ void SimulationObjective::watch(RunOptions& options, Clock::time_point start, co
   options.pulse = [this, start, by_user](const Snapshot&) {
     const bool stopped = (by_user && *by_user) || stop_requested();
     if (by_user) *by_user = stopped;
+    if (options_.pulse) options_.pulse();
     return !stopped && seconds_since(start) < options_.wall_limit_s;
   };
   options.watch = [look, goes_on = options.pulse](const Snapshot& snapshot) {

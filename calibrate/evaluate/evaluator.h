@@ -44,6 +44,7 @@ struct EvaluatorOptions {
   double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
   std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
+  std::function<void()> pulse;                            ///< now and then during each, from any thread
   RunObserver* run_observer = nullptr;                    ///< of the simulations that are not only tried out
   Engine engine;
   /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation
