@@ -27,34 +27,26 @@ int export_to_folder(const ExportOptions& options) {
   const auto card = read_card(options.card);
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
-  if (card.ok())
-    for (Fault& fault : unconfirmed_faults(card.value(), options.unconfirmed)) faults.push_back(std::move(fault));
+  if (!exporter.ok() || !card.ok()) return report(faults);
+  const auto written =
+      export_card(card.value(), exporter.value(), {options.card, options.test, options.packing, options.unconfirmed});
+  if (!written.ok()) faults.insert(faults.end(), written.faults().begin(), written.faults().end());
   if (!faults.empty()) return report(faults);
-
-  const auto test = test_to_export(card.value(), options.test);
-  if (!test.ok()) return report(test.faults());
-  const auto scene = export_scene(card.value(), test.value(), options.packing);
-  if (!scene.ok()) return report(scene.faults(), kFailed);
-  auto answer = exporter.value().write(scene.value());
-  if (!answer.ok()) return report(answer.faults());
-  Export written = std::move(answer).value();
-  written.files.push_back({kExportNotes, export_notes(written, exporter.value(), card.value(), test.value(),
-                                                      {options.card, options.test, options.packing})});
-  mark_unconfirmed(card.value(), written);
+  const std::vector<ExportFile>& files = written.value().files;
 
   std::vector<std::string> names;
-  for (const auto& file : written.files) names.push_back(file.name);
+  for (const auto& file : files) names.push_back(file.name);
   const auto folder =
       OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
   if (!folder.ok()) return report(folder.faults());
-  for (const auto& file : written.files) {
+  for (const auto& file : files) {
     std::error_code ignored;  // what cannot be made cannot be written into
     std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
     if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
       return report(unwritten, kFailed);
   }
-  for (const auto& file : written.files) print("wrote %s\n", folder.value().file(file.name).c_str());
-  print("%s", written.files.back().content.c_str());
+  for (const auto& file : files) print("wrote %s\n", folder.value().file(file.name).c_str());
+  print("%s", files.back().content.c_str());
   return kDone;
 }
 

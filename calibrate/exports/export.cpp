@@ -180,8 +180,7 @@ std::string bias_text(const Export& written) {
   return out + "To have none: calibrate with a law that this program has, in the study\n    " + written.own_law + "\n";
 }
 
-}  // namespace
-
+/// For a person.
 std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
                          const ExportRequest& request) {
   std::string out = one_line(title_of(card, test)) + "\n" + std::string(exporter.meaning) + "\n\n" +
@@ -195,6 +194,7 @@ std::string export_notes(const Export& written, const Exporter& exporter, const 
   return out;
 }
 
+/// A card that is not confirmed leaves pastefit only if the user accepts that.
 Faults unconfirmed_faults(const Card& card, bool accepted) {
   const std::string cause = cause_unconfirmed(card);
   if (cause.empty() || accepted) return {};
@@ -202,6 +202,7 @@ Faults unconfirmed_faults(const Card& card, bool accepted) {
            "calibrate until it is confirmed, or give --unconfirmed: every file then begins with this"}};
 }
 
+/// Writes why the card is not confirmed as the first line of every file about its material; nothing for one that is.
 void mark_unconfirmed(const Card& card, Export& written) {
   const std::string line = one_line(unconfirmed_line(card));
   if (line.empty()) return;
@@ -209,6 +210,21 @@ void mark_unconfirmed(const Card& card, Export& written) {
     const bool mesh = file.name.ends_with(".stl");
     if (!mesh && !file.name.starts_with(kStyleFolder)) file.content = marked(file, line);
   }
+}
+
+}  // namespace
+
+Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request) {
+  Faults faults = unconfirmed_faults(card, request.unconfirmed);
+  const auto test = test_to_export(card, request.test);
+  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing) : test.faults();
+  auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
+  if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
+  if (!faults.empty()) return faults;
+  Export written = std::move(answer).value();
+  written.files.push_back({kExportNotes, export_notes(written, exporter, card, test.value(), request)});
+  mark_unconfirmed(card, written);
+  return written;
 }
 
 }  // namespace pastefit

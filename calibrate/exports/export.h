@@ -114,16 +114,13 @@ struct ExportRequest {
   std::string card_file;
   std::string test;                      ///< name; empty: the card's own choice
   std::optional<std::uint64_t> packing;  ///< empty: the test's own
+  bool unconfirmed = false;              ///< a card that is not confirmed is accepted
 };
 
-/// The notes beside an export, for a person: what is lost, how to run it, the heap to expect and how to compare it.
-std::string export_notes(const Export& written, const Exporter& exporter, const Card& card, const CardTest& test,
-                         const ExportRequest& request);
-
-/// A card that is not confirmed leaves pastefit only if the user accepts that. Error: it does not.
-Faults unconfirmed_faults(const Card& card, bool accepted);
-
-/// Writes why the card is not confirmed as the first line of every file about its material; nothing for one that is.
-void mark_unconfirmed(const Card& card, Export& written);
+/// The card in the words of a target, with notes for a person as the last file: what is lost, how to run it, the heap
+/// to expect and how to compare it. Every file about the material of a card that is not confirmed begins with the
+/// reason. Errors, all at once: the card is not confirmed and the request does not accept that; it has no such test;
+/// its mould cannot be filled; the target lacks its law.
+Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request);
 
 }  // namespace pastefit

@@ -24,21 +24,14 @@ using nlohmann::ordered_json;
 namespace {
 
 /// {"files": {name: content}, "notes": [...], "instructions"}; the notes for a person are one of the files.
-std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request,
-                        bool unconfirmed) {
+std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
   Faults faults;
   const auto exporter = exporter_named(target);
   if (!exporter.ok()) faults = exporter.faults();
   const auto card = card_from_json(parsed(card_text));
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
-  if (card.ok())
-    for (Fault& fault : unconfirmed_faults(card.value(), unconfirmed)) faults.push_back(std::move(fault));
   refuse(std::move(faults));
-  const CardTest test = value_or_throw(test_to_export(card.value(), request.test));
-  Export written =
-      value_or_throw(exporter.value().write(value_or_throw(export_scene(card.value(), test, request.packing))));
-  written.files.push_back({kExportNotes, export_notes(written, exporter.value(), card.value(), test, request)});
-  mark_unconfirmed(card.value(), written);
+  const Export written = value_or_throw(export_card(card.value(), exporter.value(), request));
   ordered_json out{{"files", ordered_json::object()}, {"notes", written.notes}, {"instructions", written.instructions}};
   for (const ExportFile& file : written.files) out["files"][file.name] = file.content;
   return out.dump();
@@ -80,7 +73,7 @@ void add_cards(py::module_& module) {
       "export",
       [](const std::string& card, const std::string& target, const std::string& card_file, const std::string& test,
          std::optional<std::uint64_t> packing, bool unconfirmed) {
-        return export_json(card, target, {card_file, test, packing}, unconfirmed);
+        return export_json(card, target, {card_file, test, packing, unconfirmed});
       },
       unlocked);
   module.def("export_targets", [] {

@@ -179,6 +179,13 @@ class CardCommands(Desk):
                 with self.subTest(file=file.name):
                     self.assertIn("NOT CONFIRMED: carried over", file.read_text().split("\n")[0])
 
+    def test_what_the_target_lacks_and_that_a_card_is_unconfirmed_are_said_at_once(self):
+        card = json.loads(coarse_card().read_text())
+        card["material"]["contact"]["restitution"] = card["material"]["parameters"]["restitution"] = 0.02
+        file = self.folder / "card.json"
+        file.write_text(json.dumps(card))
+        self.fails(run("export", file, "--to", "liggghts", "--out", self.out), 2, "2 errors", "not confirmed", "restitution")
+
     def test_the_verdict_names_the_cause_and_what_to_try(self):
         text = " ".join(run("show", self.sheared()).stdout.split())
         self.assertIn("Readings met; 5 of 8 heaps sheared off, 1 in 5 allowed: largest error 1.25 mm of the 5 mm allowed", text)
