@@ -38,15 +38,20 @@ struct ChosenLaws {
   std::string why;
 };
 
-/// Whether the heap is narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height
-/// with 0.67 of a cone's width are met by grains that stick to the table, and by none that only rub
-/// (tests/results/laws.md).
-bool sticks_to_the_table(const SlumpTest& test, std::span<const Measurement> measured) {
-  constexpr double narrow = 0.7, low = 0.25;
+/// How wide a heap is beside a cone of its volume and height; ordinary ones have 0.7 to 0.95 of that width.
+enum class HeapWidth { ordinary, narrow, wide };
+
+/// Narrow heaps are narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height with
+/// 0.67 of a cone's width are met by grains that stick to the table, and by none that only rub. Wide ones are met by
+/// much friction between the grains (tests/results/laws.md).
+HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured) {
+  constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
   const auto* height = find_measurement(measured, "step1.height_mm");
   const auto* spread = find_measurement(measured, "step1.spread_mm");
-  return height && spread && height->value > 1e3 * low * test.mould.height_m &&
-         spread->value < narrow * cone_width_mm(test, height->value);
+  if (!height || !spread) return HeapWidth::ordinary;
+  const double share = spread->value / cone_width_mm(test, height->value);
+  if (share < narrow && height->value > 1e3 * low * test.mould.height_m) return HeapWidth::narrow;
+  return share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
 /// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs
@@ -67,7 +72,7 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
     return {*epa,
             "More than half of the height is left: heaps of a bridge shear off there, heaps of elasto-plastic "
             "adhesion stand"};
-  if (sticks_to_the_table(test, measured))
+  if (width_of(test, measured) == HeapWidth::narrow)
     return {*epa, "The heap is narrow: heaps of elasto-plastic adhesion that stick to the table are"};
   return {*bridge, std::string(bridge->why)};
 }
@@ -75,7 +80,8 @@ ChosenLaws laws_of(const Sheet& sheet, const TargetLaws& named, const SlumpTest&
 /// A height and a spread, or the spreads before and after the drops of a table, tell strength and friction apart; one
 /// of them alone tells the strength.
 /// A time of the flow tells the viscosity, of laws that have one.
-ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm, bool sticks) {
+ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurements, double radius_mm,
+                            HeapWidth width) {
   if (is_dry(measurements)) return dry_parameters();
   const auto is_there = [&](std::string_view part) {
     for (const auto& [key, reading] : measurements.items())
@@ -85,7 +91,9 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   const bool both = is_there("spread") && (is_there("slump") || is_there("height") ||
                                            (is_there("step1.spread") && is_there("after_drops.spread")));
   ordered_json out = starting_parameters(laws.laws(), both);
-  if (sticks && laws.law == "epa") out["table_cohesion_factor"] = {{"value", 1}};
+  if (width == HeapWidth::narrow && laws.law == "epa") out["table_cohesion_factor"] = {{"value", 1}};
+  if (width == HeapWidth::wide && laws.law == "bridge" && both) out["friction"]["free"] = {0.05, 0.8};
+  if (is_there("step2.") && laws.law == "epa") out["friction"] = {{"free", {0.05, 0.3}}, {"scale", "log"}};
   bool timed = false;
   for (const auto& [key, reading] : measurements.items()) timed = timed || key.ends_with("_s");
   if (timed && laws.law == "bridge" && laws.target == "lammps") {
@@ -101,12 +109,12 @@ StartingStudy starting_study(const Sheet& sheet, const TargetLaws& named, const 
                              const ordered_json& lab, std::span<const Measurement> measured) {
   const ordered_json& measurements = lab.at("measurements");
   const ChosenLaws chosen = laws_of(sheet, named, test, measured);
-  const bool sticks = sticks_to_the_table(test, measured);
   return {{{"format", "pastefit-study-1"},
            {"title", one_line(sheet.title)},
            {"lab", "lab.json"},
            {"contact", is_dry(measurements) ? dry_contact(named) : contact_of(chosen.laws)},
-           {"parameters", parameters_for(chosen.laws, measurements, lab.at("grains").at("largest_mm"), sticks)},
+           {"parameters",
+            parameters_for(chosen.laws, measurements, lab.at("grains").at("largest_mm"), width_of(test, measured))},
            {"search",
             {{"screening", 8},
              {"budget_simulations", 150},

@@ -247,6 +247,12 @@ class New(Desk):
         narrow, why = normal_of("--height", "140", "--spread", "260")
         self.assertEqual((narrow, document(self.out / "study.json")["parameters"]["table_cohesion_factor"]), ("epa", {"value": 1}))
         self.assertIn("stick to the table", why)
+        for spread, most in (("400", 0.3), ("510", 0.8)):  # 0.83 and 1.06 of a cone's width
+            normal_of("--height", "90", "--spread", spread)
+            friction = document(self.out / "study.json")["parameters"]["friction"]
+            self.assertEqual((friction["free"][1], friction["scale"]), (most, "log"))
+        self.files("--mould", "hinged-plate", "--density", "1900", "--height", "135", "--height2", "118", "--spread", "255", "--force")
+        self.assertEqual(document(self.out / "study.json")["parameters"]["friction"], {"free": [0.05, 0.3], "scale": "log"})
         timed, why = normal_of("--slump", "240", "--spread", "500", "--reading", "step1.t500_s=3")
         self.assertEqual(timed, "hertz")
         self.assertIn("only a bridge has a viscosity", why)
