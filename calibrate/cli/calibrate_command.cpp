@@ -1,5 +1,6 @@
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -89,6 +90,7 @@ struct CalibrateArguments {
   bool resume = false;
   bool force = false;
   bool json = false;
+  bool dry_run = false;
   int threads = 0;
   int budget = 0;
   double wall_budget_s = 0, core_budget_s = 0;
@@ -149,6 +151,11 @@ int run_calibrate(const CalibrateArguments& options) {
   if (const auto faults = faults_of(study, how, options); !faults.empty()) return report(faults);
 
   if (const auto faults = too_long_faults(study, options); !faults.empty()) return report(faults);
+  if (options.dry_run) {
+    print("%s\n%s%sResults go to %s.\n", one_line(study.title).c_str(), understood(study, options.threads).c_str(),
+          notes_on_readings(study).c_str(), printable(options.out).c_str());
+    return kDone;
+  }
 
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;
@@ -180,8 +187,9 @@ int run_calibrate(const CalibrateArguments& options) {
 Command add_calibrate(CLI::App& verb) {
   const auto options = std::make_shared<CalibrateArguments>();
   verb.add_option("STUDY", options->study, "study file")->required();
-  verb.add_option("--out", options->out, "folder for card.json, summary.txt, " + kPage + " and " + kStore)
-      ->required()
+  verb.add_option("--out", options->out,
+                  "folder for card.json, summary.txt, " + kPage + " and " + kStore +
+                      "; without it one beside STUDY with its name, less .json")
       ->type_name("DIR");
   auto* resume = verb.add_flag("--resume", options->resume, "go on with the evaluations that DIR holds");
   verb.add_flag("--force", options->force, "replace the earlier result in DIR; compute for more than a day")
@@ -200,7 +208,11 @@ Command add_calibrate(CLI::App& verb) {
       ->check(positive_number());
   verb.add_option("--seed", options->seed, "seed of the search and its packings, instead of the study's")
       ->check(whole_number());
-  return [options] { return run_calibrate(*options); };
+  verb.add_flag("--dry-run", options->dry_run, "say what would be done and how long it takes, and end");
+  return [options] {
+    if (options->out.empty()) options->out = std::filesystem::path(options->study).replace_extension().string();
+    return run_calibrate(*options);
+  };
 }
 
 }  // namespace pastefit

@@ -134,6 +134,17 @@ class CommandLine(Desk):
         self.assertAlmostEqual(times[-1], outcome["run"]["simulated_s"], delta=1e-6)
         self.fails(run("simulate", APPARATUS, *COARSE, "--out", self.out), 2, "earlier result")
 
+    def test_a_dry_run_tells_the_plan_and_writes_nothing_and_results_go_beside_the_study(self):
+        study = self.study()
+        plan = run("calibrate", study, "--dry-run")
+        self.assertEqual((plan.returncode, plan.stderr), (0, ""))
+        for word in ("To be met", "step1.height_mm", "simulations of about", f"Results go to {study.with_suffix('')}"):
+            self.assertIn(word, plan.stdout)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["lab.json", "study.json"])
+        self.fails(run("calibrate", self.folder / "nothing.json", "--dry-run"), 2, "nothing.json")
+        self.assertIn(run("calibrate", study, "--quiet").returncode, (0, 1))
+        self.assertTrue((study.with_suffix("") / "card.json").exists())
+
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
         self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json"])
