@@ -27,9 +27,6 @@ inline double processor_seconds(clockid_t clock) {
 inline double thread_seconds() {
   return processor_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
-inline double process_seconds() {
-  return processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
-}
 
 /// Keeps memory that was given up in the process, so that lists made anew hundreds of times a second need not ask the
 /// system for it, page by page: 5 to 10 % of a flowing slump. To be called once, at the beginning of a program.

@@ -10,10 +10,7 @@
 
 namespace pastefit {
 
-StatusLine::StatusLine() : StatusLine(Schedule{}) {}
-
-StatusLine::StatusLine(const Schedule& schedule)
-    : schedule_(schedule), terminal_(pastefit::is_terminal()), next_(start_ + schedule.first) {}
+StatusLine::StatusLine(Clock::duration first) : terminal_(pastefit::is_terminal()), next_(start_ + first) {}
 
 double StatusLine::gone_s() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
@@ -25,7 +22,7 @@ bool StatusLine::is_due() const {
 
 void StatusLine::show(const std::string& line) {
   if (is_quiet()) return;
-  next_ = Clock::now() + (terminal_ ? schedule_.on_terminal : schedule_.elsewhere);
+  next_ = Clock::now() + std::chrono::milliseconds(terminal_ ? 200 : 4000);
   shown_ = true;
   if (terminal_)
     std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
@@ -119,9 +116,7 @@ CheckEngine counted(CheckEngine engine, WorkLine& line) {
 }
 
 ProgressLine::ProgressLine(const WorkAhead& work, const ErrorUnit& unit)
-    : line_({.first = {}, .on_terminal = std::chrono::milliseconds(100), .elsewhere = std::chrono::seconds(4)}),
-      work_(work),
-      unit_(unit) {}
+    : line_(StatusLine::Clock::duration::zero()), work_(work), unit_(unit) {}
 
 void ProgressLine::show(const Progress& progress) {
   const std::lock_guard lock(mutex_);

@@ -16,13 +16,8 @@ namespace pastefit {
 class StatusLine {
  public:
   using Clock = std::chrono::steady_clock;
-  /// When a line is due: after the start, after another one on a terminal, after another one elsewhere.
-  struct Schedule {
-    Clock::duration first = std::chrono::seconds(2);
-    Clock::duration on_terminal = std::chrono::milliseconds(500), elsewhere = std::chrono::seconds(4);
-  };
-  StatusLine();
-  explicit StatusLine(const Schedule& schedule);
+  /// The first line is due after this time, another one after 0.2 s on a terminal, after 4 s elsewhere.
+  explicit StatusLine(Clock::duration first = std::chrono::seconds(2));
 
   bool is_terminal() const { return terminal_; }
   double gone_s() const;
@@ -32,7 +27,6 @@ class StatusLine {
   void keep();   ///< leaves it as it is, and goes on below
 
  private:
-  const Schedule schedule_;
   const bool terminal_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_;

@@ -24,12 +24,6 @@ const StrategyRow* find_strategy(std::string_view name) {
   return row == strategies().end() ? nullptr : &*row;
 }
 
-std::vector<std::string_view> strategy_names() {
-  std::vector<std::string_view> names;
-  for (const StrategyRow& row : strategies()) names.push_back(row.name);
-  return names;
-}
-
 Faults validate(const SearchOptions& options, int parameters, int tests) {
   Faults faults;
   const auto demand = [&](bool holds, const char* where, std::string what, std::string remedy) {
@@ -40,9 +34,8 @@ Faults validate(const SearchOptions& options, int parameters, int tests) {
   if (!row || row->kind == StrategyKind::nlopt) {
     NloptOptions nlopt;
     nlopt.algorithm = options.strategy;
-    for (const Fault& fault : validate(nlopt)) {
+    for (const Fault& fault : validate(nlopt))
       demand(false, "search.strategy", fault.what, "default, levenberg_marquardt, dogleg, or " + fault.remedy);
-    }
   }
   demand(options.screening >= 1, "search.screening", std::to_string(options.screening), "at least 1");
   demand(options.packings >= 1, "search.packings", std::to_string(options.packings), "at least 1");

@@ -25,7 +25,6 @@ struct StrategyRow {
 const std::vector<StrategyRow>& strategies();
 /// No row if there is no strategy of that name.
 const StrategyRow* find_strategy(std::string_view name);
-std::vector<std::string_view> strategy_names();
 
 /// Everything wrong with the options of a search over so many parameters and fitted tests; empty: fit to run.
 Faults validate(const SearchOptions& options, int parameters, int tests = 1);

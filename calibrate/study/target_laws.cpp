@@ -109,10 +109,6 @@ std::vector<std::string> parameter_lines(const StartingLaws& laws) {
 
 }  // namespace
 
-std::span<const StartingLaws> starting_laws() {
-  return known_laws;
-}
-
 const StartingLaws& TargetLaws::laws() const {
   return *std::ranges::find(known_laws, law, &StartingLaws::word);
 }

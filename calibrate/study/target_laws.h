@@ -26,9 +26,6 @@ struct StartingLaws {
   std::string_view meaning;
 };
 
-/// Every choice; the first is what a study starts from unless its target lacks the law.
-std::span<const StartingLaws> starting_laws();
-
 /// Laws that a program runs: exactly, so that the heap of its deck is the card's, unless `why` says what differs.
 struct TargetLaws {
   std::string_view target;         ///< as people call it: "edem"

@@ -49,7 +49,7 @@ class Workers {
     options.budget_simulations = 150;
     options.max_pending = max_pending_;
     objective.budget = options.budget_simulations;
-    const double before = process_seconds();
+    const double before = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     Search search(objective, options, {.simulations = options.budget_simulations});
     think(before);
     while (!search.finished()) {
@@ -72,14 +72,14 @@ class Workers {
 
   /// The search has worked since `before`: meanwhile nothing new is started.
   void think(double before) {
-    const double gone = process_seconds() - before;
+    const double gone = processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - before;
     now_ += gone;
     course_.thought_s += gone;
   }
 
   /// Whether there was something to start.
   bool start(Search& search) {
-    const double before = process_seconds();
+    const double before = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     const auto candidates = search.suggest(static_cast<std::size_t>(idle_));
     think(before);
     for (const Candidate& one : candidates) {
@@ -103,7 +103,7 @@ class Workers {
     const auto answer = one.may_end_early ? &Objective::try_out : &Objective::evaluate;
     const Response response = (objective.*answer)({&one.point, 1}, {&one.packing, 1}).at(0);
     const CandidateResult result{one.number, response.evaluations.at(0)};
-    const double before = process_seconds();
+    const double before = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     search.ingest({&result, 1});
     think(before);
   }

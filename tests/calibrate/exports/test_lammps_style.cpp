@@ -119,9 +119,9 @@ TEST_CASE("LAMMPS runs every law that the engine has, and every law that a study
     specimen_of(one.test).contact = model;
     CHECK(export_lammps(one).ok());
   });
-  for (const StartingLaws& laws : starting_laws()) {
-    INFO(laws.word);
-    CHECK(laws_for("lammps", laws.word));
+  for (const TargetLaws& laws : target_laws()) {
+    INFO(laws.law);
+    CHECK(laws_for("lammps", laws.law));
   }
 }
 
