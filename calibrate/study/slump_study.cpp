@@ -38,7 +38,7 @@ struct ChosenLaws {
   std::string why;
 };
 
-/// How wide a heap is beside a cone of its volume and height; ordinary ones have 0.7 to 0.95 of that width.
+/// How wide a heap is beside a cone of its volume and height; ordinary ones have 0.7 to 0.95 of that width, or are low.
 enum class HeapWidth { ordinary, narrow, wide };
 
 /// Narrow heaps are narrower than any that slides on its table: heaps of 0.43 to 0.5 of the Abrams cone's height with
@@ -48,10 +48,9 @@ HeapWidth width_of(const SlumpTest& test, std::span<const Measurement> measured)
   constexpr double narrow = 0.7, low = 0.25, wide = 0.95;
   const auto* height = find_measurement(measured, "step1.height_mm");
   const auto* spread = find_measurement(measured, "step1.spread_mm");
-  if (!height || !spread) return HeapWidth::ordinary;
+  if (!height || !spread || height->value < 1e3 * low * test.mould.height_m) return HeapWidth::ordinary;
   const double share = spread->value / cone_width_mm(test, height->value);
-  if (share < narrow && height->value > 1e3 * low * test.mould.height_m) return HeapWidth::narrow;
-  return share > wide ? HeapWidth::wide : HeapWidth::ordinary;
+  return share < narrow ? HeapWidth::narrow : share > wide ? HeapWidth::wide : HeapWidth::ordinary;
 }
 
 /// The laws that the sheet names, or those that its target starts from. Where the sheet names none and the target runs

@@ -247,8 +247,8 @@ class New(Desk):
         narrow, why = normal_of("--height", "140", "--spread", "260")
         self.assertEqual((narrow, document(self.out / "study.json")["parameters"]["table_cohesion_factor"]), ("epa", {"value": 1}))
         self.assertIn("stick to the table", why)
-        for spread, most in (("400", 0.3), ("510", 0.8)):  # 0.83 and 1.06 of a cone's width
-            normal_of("--height", "90", "--spread", spread)
+        for height, spread, most in (("90", "400", 0.3), ("90", "510", 0.8), ("60", "600", 0.3)):  # 0.83, 1.06, 1.02 of a cone's width
+            normal_of("--height", height, "--spread", spread)
             friction = document(self.out / "study.json")["parameters"]["friction"]
             self.assertEqual((friction["free"][1], friction["scale"]), (most, "log"))
         self.files("--mould", "hinged-plate", "--density", "1900", "--height", "135", "--height2", "118", "--spread", "255", "--force")
