@@ -170,20 +170,6 @@ std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
   return std::nullopt;
 }
 
-/// The laboratory's test with the card's contact laws and, unless the size of grains is the laboratory's in either
-/// test, its grains; its surfaces are the card's, where that has them, or else as the card's parameters say.
-Test with_material_of(const Card& card, Test test) {
-  Specimen& specimen = specimen_of(test);
-  const GrainSizes& grains = card.material.grains;
-  const auto has_that_size = [](const CardTest& of_card) { return !why_of_that_size(of_card.test).empty(); };
-  if (why_of_that_size(test).empty() && std::ranges::none_of(card.tests, has_that_size)) specimen.grains = grains;
-  test = with_contact_of(std::move(test), values_of(card.material));
-  specimen.contact = enlarged(card.material.contact, specimen.grains.radius_m / grains.radius_m);
-  for (const Surface& surface : surfaces_of(test))
-    surface.contact = surface_of(card, surface.name).value_or(surface.contact);
-  return test;
-}
-
 void judge(CardCheck& out, const CheckOptions& options) {
   const auto wrong = std::ranges::count_if(out.readings, [](const auto& reading) { return !reading.agrees(); });
   const bool bits_matter = out.same_program || options.bits;
@@ -219,6 +205,18 @@ std::string_view name_of(SameBits bits) {
 
 bool CheckedReading::agrees() const {
   return std::abs(got - expected) <= band;
+}
+
+Test with_material_of(const Card& card, Test test) {
+  Specimen& specimen = specimen_of(test);
+  const GrainSizes& grains = card.material.grains;
+  const auto has_that_size = [](const CardTest& of_card) { return !why_of_that_size(of_card.test).empty(); };
+  if (why_of_that_size(test).empty() && std::ranges::none_of(card.tests, has_that_size)) specimen.grains = grains;
+  test = with_contact_of(std::move(test), values_of(card.material));
+  specimen.contact = enlarged(card.material.contact, specimen.grains.radius_m / grains.radius_m);
+  for (const Surface& surface : surfaces_of(test))
+    surface.contact = surface_of(card, surface.name).value_or(surface.contact);
+  return test;
 }
 
 int simulations_to_check(const Card& card, const CheckOptions& options) {

@@ -77,6 +77,10 @@ int simulations_to_check_against(const Card& card, const CheckOptions& options);
 /// is a disagreement. Not checked: a card with fewer than two runs.
 CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine = CheckEngine::ours());
 
+/// Another test with the card's contact laws and, unless the size of grains is the laboratory's in either test, its
+/// grains; its surfaces are the card's, where that has them, or else as the card's parameters say.
+Test with_material_of(const Card& card, Test test);
+
 /// Judges the material by other readings of a laboratory: its contact laws and grains in that laboratory's test,
 /// against the readings, within the noise of both (`unequal_band_of`).
 /// Not checked: the card's grains do not fit the laboratory's test.

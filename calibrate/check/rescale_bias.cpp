@@ -9,23 +9,6 @@
 
 namespace pastefit {
 
-namespace {
-
-Result<std::vector<Baseline::Run>> runs_of(const CardTest& test, const std::vector<std::uint64_t>& packings,
-                                           const CheckEngine& engine, int threads) {
-  const auto outcomes = run_packings(test.test, packings, engine, threads);
-  std::vector<Baseline::Run> runs;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (const auto& failure = outcomes[i].failure)
-      return Fault{heading_of(test) + "packing " + std::to_string(packings[i]),
-                   "failed: " + std::string(name_of(failure->reason)), failure->message};
-    runs.push_back({packings[i], outcomes[i].readings});
-  }
-  return runs;
-}
-
-}  // namespace
-
 Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
   // Packings that no search has seen: seeds of a search are small or derived from its own seed.
@@ -34,9 +17,9 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
   for (std::size_t t = 0; t < after.tests.size(); ++t) {
     const CardTest& old_test = before.tests[t];
     CardTest& test = after.tests[t];
-    auto old_runs = runs_of(old_test, packings, engine, options.threads);
+    auto old_runs = runs_of(old_test.test, heading_of(old_test), packings, engine, options.threads);
     if (!old_runs.ok()) return old_runs.faults();
-    auto runs = runs_of(test, packings, engine, options.threads);
+    auto runs = runs_of(test.test, heading_of(test), packings, engine, options.threads);
     if (!runs.ok()) return runs.faults();
 
     const auto old_accepted = accepted(old_test.test, old_runs.value());

@@ -24,6 +24,20 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
   return outcomes;
 }
 
+Result<std::vector<Baseline::Run>> runs_of(const Test& test, const std::string& heading,
+                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                           int threads) {
+  const auto outcomes = run_packings(test, packings, engine, threads);
+  std::vector<Baseline::Run> runs;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (const auto& failure = outcomes[i].failure)
+      return Fault{heading + "packing " + std::to_string(packings[i]),
+                   "failed: " + std::string(name_of(failure->reason)), failure->message};
+    runs.push_back({packings[i], outcomes[i].readings});
+  }
+  return runs;
+}
+
 std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs) {
   std::vector<Readings> all;
   for (const Baseline::Run& run : runs) all.push_back(run.readings);

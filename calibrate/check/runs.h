@@ -11,6 +11,11 @@ namespace pastefit {
 std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads);
 
+/// The same as runs of a baseline. `heading`: what a fault begins with (`heading_of`). Error: a simulation fails.
+Result<std::vector<Baseline::Run>> runs_of(const Test& test, const std::string& heading,
+                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                           int threads);
+
 /// The runs that a laboratory would accept (`laboratory/test.h`).
 std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs);
 

@@ -83,6 +83,7 @@ int run(int argc, char** argv) {
        add_infer},
       {kLook, "show", "print a material card for a person", add_show},
       {kLook, "report", "write the page of a calibration, for a browser", add_report},
+      {kLook, "predict", "say what the materials that fit a calibration leave in another test", add_predict},
       {kUse, "export", "write a material card's test for another DEM program", add_export},
       {kUse, "read", "compare the heap of an exported deck with the card", add_read},
       {kUse, "confirm", "simulate a material card's test in LAMMPS, and write what that gives onto the card",

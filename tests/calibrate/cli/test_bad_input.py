@@ -27,7 +27,7 @@ class BadInput(Desk):
         self.fails(run("simulat", STUDY), 2, "did you mean 'simulate'")
         self.fails(run("simulate"), 2, "FILE")
         self.fails(run("simulate", APPARATUS, "--sed", "3"), 2, "--sed")
-        self.fails(run("calibrate", STUDY), 2, "--out")
+        self.fails(run("export", CARD, "--out", self.out), 2, "--to")
         self.fails(run("calibrate", STUDY, "--out", self.out, "--force", "--resume"), 2, "--force")
         self.assertFalse(self.out.exists())
 

@@ -1,0 +1,70 @@
+#include "calibrate/check/prediction.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "calibrate/base/statistics.h"
+#include "calibrate/check/runs.h"
+#include "calibrate/study/parameters.h"
+
+namespace pastefit {
+
+namespace {
+
+using Runs = std::vector<Baseline::Run>;
+
+/// `accepted`: the runs of each material that a laboratory would accept.
+ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& accepted) {
+  ReadingPrediction out;
+  out.name = name;
+  double squares = 0;
+  int freedom = 0;
+  for (const Runs& runs : accepted) {
+    const Sample sample = sample_of(column_of(runs, name));
+    if (sample.count == 0) continue;
+    out.of_materials.push_back(sample.mean);
+    squares += (sample.count - 1) * sample.standard_deviation * sample.standard_deviation;
+    freedom += sample.count - 1;
+  }
+  const auto [least, most] = std::ranges::minmax(out.of_materials);
+  out.mean =
+      std::reduce(out.of_materials.begin(), out.of_materials.end()) / static_cast<double>(out.of_materials.size());
+  out.of_heap = freedom > 0 ? std::sqrt(squares / freedom) : 0;
+  const boost::math::students_t distribution(std::max(1, freedom));
+  const double scatter = boost::math::quantile(distribution, (1 + prediction_level) / 2) * out.of_heap;
+  out.lower = least - scatter;
+  out.upper = most + scatter;
+  return out;
+}
+
+}  // namespace
+
+Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& asked,
+                           std::span<const Measurement> measured, int count, int threads, const CheckEngine& engine) {
+  std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
+  std::iota(packings.begin(), packings.end(), 80'001);  // which no search has seen
+  const Test test = with_material_of(card, asked);
+  std::vector<Runs> standing;
+  Prediction out;
+  for (const std::vector<double>& values : materials) {
+    const Test candidate = with_contact_of(test, values);
+    if (const auto faults = validate(candidate); !faults.empty()) return faults;
+    const auto runs = runs_of(candidate, "", packings, engine, threads);
+    if (!runs.ok()) return runs.faults();
+    out.heaps += count;
+    for (const Baseline::Run& run : runs.value()) out.rejected += is_rejected(candidate, run.readings) ? 1 : 0;
+    standing.push_back(accepted(candidate, runs.value()));
+  }
+  for (const ReadingKind& kind : reading_kinds(test)) {
+    const auto* one = find_measurement(measured, kind.name);
+    if ((!kind.advised && !one) || column_of(standing.front(), std::string(kind.name)).empty()) continue;
+    ReadingPrediction reading = reading_of(std::string(kind.name), standing);
+    if (one) reading.measured = *one;
+    out.readings.push_back(std::move(reading));
+  }
+  return out;
+}
+
+}  // namespace pastefit

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/card/card.h"
+#include "calibrate/check/check.h"
+
+namespace pastefit {
+
+/// A reading of a test that no search saw.
+struct ReadingPrediction {
+  std::string name;
+  std::vector<double> of_materials;     ///< mean of each material, in their order
+  double mean = 0;                      ///< of these means
+  double of_heap = 0;                   ///< standard deviation of one heap about its material's mean
+  double lower = 0, upper = 0;          ///< band for one measured heap
+  std::optional<Measurement> measured;  ///< by the laboratory, if the file has it
+
+  bool is_within() const { return !measured || (lower <= measured->value && measured->value <= upper); }
+};
+
+struct Prediction {
+  std::vector<ReadingPrediction> readings;  ///< that a laboratory would take, or took
+  int heaps = 0, rejected = 0;  ///< simulated; of them such as a laboratory would repeat, which are left out
+};
+
+/// The probability that a band is meant to have.
+inline constexpr double prediction_level = 0.9;
+
+/// What materials that fit the card's readings leave in another test, each in as many packings, one heap of 90 %:
+///     from min_k x_k - t(0.95; n - m) s to max_k x_k + t(0.95; n - m) s,
+/// x_k the mean of material k, s the standard deviation of one heap, pooled over m materials and n heaps. The materials
+/// are as different as the readings allow, so that their range stands for what is not known of the material; the rest
+/// is the scatter of one heap. Error of the contact law and of the grains' size is not in it. `materials`: values of
+/// every parameter (`values_at`), the recommended ones first. Requirements: at least one, packings >= 2. Errors: the
+/// grains do not fit the test; a simulation fails.
+Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& test,
+                           std::span<const Measurement> measured, int packings, int threads,
+                           const CheckEngine& engine = CheckEngine::ours());
+
+}  // namespace pastefit

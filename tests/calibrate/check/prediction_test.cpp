@@ -1,0 +1,58 @@
+#include "calibrate/check/prediction.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+
+#include "calibrate/study/parameters.h"
+
+using namespace pastefit;
+
+namespace {
+
+/// Heaps whose height goes with the friction of their grains, 1 mm higher or lower from packing to packing.
+CheckEngine made_up() {
+  CheckEngine engine;
+  engine.prepare = [](const Test&, const RunOptions&) { return std::make_shared<const Packing>(); };
+  engine.run = [](const Test& test, const RunOptions&) {
+    const Specimen& specimen = specimen_of(test);
+    Outcome outcome;
+    outcome.readings.set("step1.height_mm",
+                         100 + 100 * specimen.contact.friction + (specimen.packing_seed % 2 ? 1 : -1));
+    return outcome;
+  };
+  return engine;
+}
+
+}  // namespace
+
+TEST_CASE("a predicted band reaches from the lowest to the highest material, wider by the scatter of one heap") {
+  const auto card = read_card(PASTEFIT_SOURCE_DIR "/data/cards/concrete-mix-79.json");
+  REQUIRE(card.ok());
+  std::vector<std::vector<double>> materials(2, values_of(card.value().material));
+  const auto friction = static_cast<std::size_t>(
+      std::ranges::find(parameter_kinds(), "friction", &ParameterKind::name) - parameter_kinds().begin());
+  materials[0][friction] = 0.1;
+  materials[1][friction] = 0.3;
+  const Test test = card.value().tests.front().test;
+  std::vector<Measurement> measured(1);
+  measured[0].reading = "step1.height_mm";
+  const auto predicted = [&](double value) {
+    measured[0].value = value;
+    const auto found = predict(card.value(), materials, test, measured, 4, 1, made_up());
+    REQUIRE(found.ok());
+    REQUIRE(found.value().readings.size() == 1);
+    CHECK(found.value().heaps == 8);
+    return found.value().readings[0];
+  };
+  const ReadingPrediction height = predicted(120);
+  const double scatter = 1.943180 * std::sqrt(4.0 / 3);  // t(0.95; 6), from a table, times the pooled deviation
+  CHECK(height.of_materials == std::vector<double>{110, 130});
+  CHECK(height.mean == 120);
+  CHECK(height.lower == Approx(110 - scatter).epsilon(1e-6));
+  CHECK(height.upper == Approx(130 + scatter).epsilon(1e-6));
+  CHECK(height.is_within());
+  CHECK_FALSE(predicted(130 + 1.01 * scatter).is_within());
+  CHECK_FALSE(predicted(110 - 1.01 * scatter).is_within());
+}
