@@ -51,7 +51,7 @@ Result<Prediction> predict(const Card& card, std::span<const std::vector<double>
   for (const std::vector<double>& values : materials) {
     const Test candidate = with_contact_of(test, values);
     if (const auto faults = validate(candidate); !faults.empty()) return faults;
-    const auto runs = runs_of(candidate, "", packings, engine, threads);
+    const auto runs = baseline_runs(candidate, "", packings, engine, threads);
     if (!runs.ok()) return runs.faults();
     out.heaps += count;
     for (const Baseline::Run& run : runs.value()) out.rejected += is_rejected(candidate, run.readings) ? 1 : 0;

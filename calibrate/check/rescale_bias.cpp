@@ -17,9 +17,9 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
   for (std::size_t t = 0; t < after.tests.size(); ++t) {
     const CardTest& old_test = before.tests[t];
     CardTest& test = after.tests[t];
-    auto old_runs = runs_of(old_test.test, heading_of(old_test), packings, engine, options.threads);
+    auto old_runs = baseline_runs(old_test.test, heading_of(old_test), packings, engine, options.threads);
     if (!old_runs.ok()) return old_runs.faults();
-    auto runs = runs_of(test.test, heading_of(test), packings, engine, options.threads);
+    auto runs = baseline_runs(test.test, heading_of(test), packings, engine, options.threads);
     if (!runs.ok()) return runs.faults();
 
     const auto old_accepted = accepted(old_test.test, old_runs.value());

@@ -24,9 +24,9 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
   return outcomes;
 }
 
-Result<std::vector<Baseline::Run>> runs_of(const Test& test, const std::string& heading,
-                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
-                                           int threads) {
+Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
+                                                 const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                                 int threads) {
   const auto outcomes = run_packings(test, packings, engine, threads);
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -12,9 +12,9 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
                                   const CheckEngine& engine, int threads);
 
 /// The same as runs of a baseline. `heading`: what a fault begins with (`heading_of`). Error: a simulation fails.
-Result<std::vector<Baseline::Run>> runs_of(const Test& test, const std::string& heading,
-                                           const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
-                                           int threads);
+Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
+                                                 const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
+                                                 int threads);
 
 /// The runs that a laboratory would accept (`laboratory/test.h`).
 std::vector<Baseline::Run> accepted(const Test& test, const std::vector<Baseline::Run>& runs);

@@ -22,7 +22,7 @@ namespace pastefit {
 namespace {
 
 struct PredictOptions {
-  std::string folder, lab, mould;
+  std::string folder, lab, preset;
   int packings = 4, threads = 0;
   bool force = false, json = false;
 };
@@ -39,29 +39,31 @@ Result<OtherTest> other_test(const PredictOptions& options, const Card& card) {
     if (!lab.ok()) return lab.faults();
     return OtherTest{std::move(lab.value().test), std::move(lab.value().measurements)};
   }
-  auto preset = find_preset(options.mould, ".");
+  auto preset = find_preset(options.preset, ".");
   if (!preset.ok()) return preset.faults();
   OtherTest out{std::move(preset.value().test), {}};
   specimen_of(out.test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
   return out;
 }
 
-std::string table_of(const Prediction& found, std::size_t materials) {
+std::string prediction_table(const Prediction& found, std::size_t materials) {
   std::string out =
-      format("%-27s %9s %19s %19s %9s\n", "Reading", "predicted", "90 % of heaps", "materials", "measured");
+      format("%-26s %9s %15s %15s %8s\n", "Reading", "predicted", "90 % of heaps", "materials", "measured");
   for (const ReadingPrediction& one : found.readings) {
     const auto [least, most] = std::ranges::minmax(one.of_materials);
-    const std::string measured = one.measured ? plain(one.measured->value, 4) : "";
-    out += format("%-27s %9s %19s %19s %9s%s\n", one.name.c_str(), plain(one.mean, 4).c_str(),
-                  (plain(one.lower, 4) + " to " + plain(one.upper, 4)).c_str(),
-                  (plain(least, 4) + " to " + plain(most, 4)).c_str(), measured.c_str(),
-                  one.is_within() ? "" : "  outside");
+    const std::string measured = one.measured ? plain(one.measured->value, 3) : "";
+    out += format("%-26s %9s %15s %15s %8s%s\n", one.name.c_str(), plain(one.mean, 3).c_str(),
+                  (plain(one.lower, 3) + " to " + plain(one.upper, 3)).c_str(),
+                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), measured.c_str(), one.is_within() ? "" : " x");
   }
+  if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within)) out += "x: measured outside of the band.\n";
   out += format("%zu materials that fit the readings of the calibration, %d heaps", materials, found.heaps);
-  return out + (found.rejected > 0 ? format("; %d of them sheared off, and are left out", found.rejected) : "") + ".\n";
+  return out + (found.rejected > 0
+                    ? format("\n(%d of them left out: a laboratory would repeat such a test).\n", found.rejected)
+                    : ".\n");
 }
 
-nlohmann::ordered_json json_of(const Prediction& found, std::size_t materials) {
+nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t materials) {
   nlohmann::ordered_json out{{"materials", materials},
                              {"heaps", found.heaps},
                              {"rejected", found.rejected},
@@ -80,8 +82,8 @@ nlohmann::ordered_json json_of(const Prediction& found, std::size_t materials) {
 }
 
 int predict_other(const PredictOptions& options) {
-  if (options.lab.empty() == options.mould.empty())
-    return report({{"--lab, --mould", "name the test to predict", "give one of them"}});
+  if (options.lab.empty() == options.preset.empty())
+    return report({{"--lab, --preset", "name the test to predict", "give one of them"}});
   const auto findings = read_findings(options.folder, kStore);
   if (!findings.ok()) return report(findings.faults());
   if (!findings.value().card || !findings.value().inference)
@@ -111,11 +113,11 @@ int predict_other(const PredictOptions& options) {
   line.clear();
   if (!found.ok()) return report(found.faults(), kFailed);
   if (options.json) {
-    print("%s", json_text(json_of(found.value(), materials.size())).c_str());
+    print("%s", json_text(prediction_json(found.value(), materials.size())).c_str());
   } else {
     const std::string open = unconfirmed_line(card);
     print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(),
-          table_of(found.value(), materials.size()).c_str());
+          prediction_table(found.value(), materials.size()).c_str());
   }
   return std::ranges::all_of(found.value().readings, &ReadingPrediction::is_within) ? kDone : kFailed;
 }
@@ -128,7 +130,7 @@ Command add_predict(CLI::App& verb) {
   auto* lab =
       verb.add_option("--lab", options->lab, "laboratory file of the test to predict; what it measured is compared")
           ->type_name("LAB");
-  verb.add_option("--mould", options->mould, "preset of the test to predict, e.g. en12350-5")
+  verb.add_option("--preset", options->preset, "preset of the test to predict, e.g. en12350-5")
       ->type_name("PRESET")
       ->excludes(lab);
   verb.add_option("--packings", options->packings, "heaps of each material")
