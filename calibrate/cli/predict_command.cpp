@@ -101,6 +101,7 @@ int predict_other(const PredictOptions& options) {
         values_at(*findings.value().study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
   const int simulations = options.packings * static_cast<int>(materials.size());
   const Test test = with_material_of(card, other.value().test);
+  if (const auto faults = validate(test); !faults.empty()) return report(faults);
   if (const auto faults = validate_memory(test, options.threads); !faults.empty()) return report(faults);
   if (const auto faults =
           long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
@@ -130,7 +131,7 @@ Command add_predict(CLI::App& verb) {
   auto* lab =
       verb.add_option("--lab", options->lab, "laboratory file of the test to predict; what it measured is compared")
           ->type_name("LAB");
-  verb.add_option("--preset", options->preset, "preset of the test to predict, e.g. en12350-5")
+  verb.add_option("--preset", options->preset, "preset of the test to predict, e.g. hinged-plate")
       ->type_name("PRESET")
       ->excludes(lab);
   verb.add_option("--packings", options->packings, "heaps of each material")
