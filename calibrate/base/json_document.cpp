@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <system_error>
 #include <vector>
 
+#include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/text.h"
 
@@ -15,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t deepest_nesting = 32;      // our files need 4; the bound keeps recursive writers safe
-constexpr std::size_t largest_file = 16u << 20;  // bytes; a laboratory file has some kilobytes
 
 std::string line_and_column(std::string_view text, std::size_t bytes_read) {
   const std::string_view read = text.substr(0, bytes_read);
@@ -162,20 +160,6 @@ class SyntaxCheck final : public nlohmann::json_sax<json> {
   std::vector<Level> levels_;
 };
 
-/// What to give in place of a folder: the JSON files in it, the first few by name.
-std::string file_in(const std::filesystem::path& folder) {
-  constexpr std::size_t most = 3;
-  std::set<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".json") names.insert((folder / entry.path().filename()).string());
-  std::string list;
-  std::size_t shown = 0;
-  for (const std::string& name : names)
-    if (shown++ < most) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "give a file" : "give a file of it: " + list;
-}
-
 }  // namespace
 
 std::optional<json> parse_json(std::string_view text, Faults& faults) {
@@ -194,38 +178,13 @@ std::optional<json> parse_json(std::string_view text, Faults& faults) {
 }
 
 std::optional<json> read_json(const std::filesystem::path& file, Faults& faults) {
-  std::error_code error;
-  if (file.native().find('\0') != std::string::npos) {
-    faults.push_back({file.string(), "holds a null byte", "the path of a file"});
-    return std::nullopt;
-  }
-  if (!std::filesystem::exists(file, error)) {
-    const bool circle = error == std::errc::too_many_symbolic_link_levels;
-    faults.push_back({file.string(), circle ? "is a symbolic link that goes in a circle" : "there is no such file",
-                      "check the path"});
-    return std::nullopt;
-  }
-  if (!std::filesystem::is_regular_file(file, error) && !std::filesystem::is_directory(file, error)) {
-    faults.push_back({file.string(), "is no regular file", "write its content to a file, and give that"});
-    return std::nullopt;
-  }
-  if (std::filesystem::is_directory(file, error)) {
-    faults.push_back({file.string(), "is a folder", file_in(file)});
-    return std::nullopt;
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  std::array<char, 65536> block;
-  while (text.size() <= largest_file && (stream.read(block.data(), block.size()) || stream.gcount() > 0))
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad() || !stream.eof()) {
-    const bool too_large = text.size() > largest_file;
-    faults.push_back({file.string(), too_large ? "larger than 16 MB" : "cannot be read",
-                      too_large ? "give a file of pastefit" : "give a readable file"});
+  const auto text = read_input(file, {.remedy = "give a file of pastefit", .ending = ".json"});
+  if (!text.ok()) {
+    faults.insert(faults.end(), text.faults().begin(), text.faults().end());
     return std::nullopt;
   }
   Faults found;
-  std::optional<json> document = parse_json(text, found);
+  std::optional<json> document = parse_json(text.value(), found);
   for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
   return document;
 }

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/process.h"
 #include "calibrate/cli/progress.h"
@@ -48,9 +47,10 @@ fs::path cache_folder() {
   return {};
 }
 
-std::string text_in(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// Nothing of what is no regular file, which may have no end, or is too large for a log or a deck.
+std::string content_of_file(const fs::path& file) {
+  auto content = read_input(file, {.largest_bytes = 256u << 20, .remedy = {}});
+  return content.ok() ? std::move(content).value() : std::string();
 }
 
 Faults missing_for_build() {
@@ -103,7 +103,7 @@ Result<fs::path> lammps_program(const std::string& given, const std::atomic<bool
   }
   const auto sources = lammps_style();
   if (!sources.ok()) return sources.faults();
-  std::string content = text_in(kLammpsHeaders / "version.h");
+  std::string content = content_of_file(kLammpsHeaders / "version.h");
   for (const ExportFile& file : sources.value()) content += file.name + file.content;
   const fs::path program = cache_folder() / ("lmp_pastefit-" + content_hash(content));
   if (!cache_folder().empty() && can_be_run(program)) return program;
@@ -117,15 +117,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string kLog = "log.lammps", kOutput = "output.txt";
-
-/// Nothing of what is no regular file, which may have no end, or is too large for a log or a deck.
-std::string content_of_file(const fs::path& file) {
-  constexpr std::uintmax_t largest = 256u << 20;
-  std::error_code error;
-  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > largest) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Whether this deck ran here to its end before.
 bool has_run(const ExportScene& scene, const std::vector<ExportFile>& deck, const fs::path& folder) {

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -14,6 +15,7 @@
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
+#include "calibrate/study/sheet_table.h"
 #include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/written_readings.h"
 
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 struct NewOptions {
   std::string folder = ".";
   std::string test = "slump";
+  std::string table;  ///< file of many sheets
   Sheet sheet;
   std::vector<std::string> readings;                         ///< "NAME=VALUES"
   std::vector<std::pair<std::string, std::string>> by_name;  ///< of options with a name of their own
@@ -142,28 +145,106 @@ Faults read_options(NewOptions& options) {
   return faults;
 }
 
-/// Writes both files and says what was understood and what comes next.
-int write_new(const NewOptions& options, const StartingFiles& files) {
-  const fs::path lab = fs::path(options.folder) / "lab.json", study = fs::path(options.folder) / "study.json";
+/// The files of one sheet and the folder that they go to.
+struct Start {
+  fs::path folder;
+  StartingFiles files;
+
+  std::string in_folder(const char* name) const {
+    return shell_word_if_needed(folder == "." ? name : (folder / name).string());
+  }
+};
+
+Faults write_files(const std::vector<Start>& starts, bool force) {
   std::error_code error;
-  fs::create_directories(options.folder, error);
   Faults faults;
-  for (const fs::path& file : {lab, study})
-    for (Fault& fault : output_file_faults(file.string(), file, options.force)) faults.push_back(std::move(fault));
-  if (!faults.empty()) return report(faults);
-  faults = write_atomically(lab, files.lab);
-  if (faults.empty()) faults = write_atomically(study, files.study);
-  if (!faults.empty()) return report(faults, kFailed);
-  print("wrote %s\nwrote %s\n", lab.c_str(), study.c_str());
-  if (const auto read = read_study(study); read.ok())
+  for (const Start& start : starts) fs::create_directories(start.folder, error);
+  for (const Start& start : starts)
+    for (const fs::path& file : {start.folder / "lab.json", start.folder / "study.json"})
+      for (Fault& fault : output_file_faults(file.string(), file, force)) faults.push_back(std::move(fault));
+  for (const Start& start : starts) {
+    if (!faults.empty()) return faults;
+    faults = write_atomically(start.folder / "lab.json", start.files.lab);
+    if (faults.empty()) faults = write_atomically(start.folder / "study.json", start.files.study);
+    if (faults.empty())
+      print("wrote %s\nwrote %s\n", (start.folder / "lab.json").c_str(), (start.folder / "study.json").c_str());
+  }
+  return faults;
+}
+
+/// Writes both files and says what was understood and what comes next.
+int write_one(const NewOptions& options, const Start& start) {
+  if (const Faults faults = write_files({start}, options.force); !faults.empty()) return report(faults);
+  if (const auto read = read_study(start.folder / "study.json"); read.ok())
     print("\n%s%s", understood(read.value()).c_str(), notes_on_readings(read.value()).c_str());
-  const auto in_folder = [&](const char* name) {
-    return shell_word_if_needed(options.folder == "." ? name : options.folder + "/" + name);
-  };
-  print("\nNext:\n  pastefit calibrate %s --out %s\n", in_folder("study.json").c_str(), in_folder("out").c_str());
+  print("\nNext:\n  pastefit calibrate %s --out %s\n", start.in_folder("study.json").c_str(),
+        start.in_folder("out").c_str());
   if (const auto laws = laws_for(options.sheet.target, options.sheet.law); laws && options.test == "slump")
-    print("  pastefit export %s --to %s --out %s\n", in_folder("out/card.json").c_str(),
-          std::string(laws->export_target).c_str(), in_folder(std::string(laws->target).c_str()).c_str());
+    print("  pastefit export %s --to %s --out %s\n", start.in_folder("out/card.json").c_str(),
+          std::string(laws->export_target).c_str(), start.in_folder(std::string(laws->target).c_str()).c_str());
+  return kDone;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) list += (i == 0 ? "" : ", ") + words[i];
+  return words.size() > most ? list + " and " + std::to_string(words.size() - most) + " more" : list;
+}
+
+/// What is wrong in the rows of a table: each fault once, with the lines that have it.
+Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
+  Faults faults;
+  std::vector<std::vector<std::string>> lines;
+  for (const auto& [line, fault] : found) {
+    const auto same = std::ranges::find_if(faults, [&](const Fault& other) {
+      return other.where == fault.where && other.what == fault.what && other.remedy == fault.remedy;
+    });
+    const auto at = static_cast<std::size_t>(same - faults.begin());
+    if (same == faults.end()) {
+      faults.push_back(fault);
+      lines.emplace_back();
+    }
+    lines[at].push_back(std::to_string(line));
+  }
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    faults[i].where = (lines[i].size() == 1 ? "line " : "lines ") + listed(lines[i]) + ": " + faults[i].where;
+  return faults;
+}
+
+/// Writes a study for each row of a table; that of a single one as if its sheet had been typed.
+int new_from_table(const NewOptions& options) {
+  Faults of_table;
+  const auto [rows, unused, without] = read_sheet_table(options.table, options.sheet, of_table);
+  std::vector<Start> starts;
+  std::vector<std::pair<std::size_t, Fault>> found;
+  for (const SheetRow& row : rows) {
+    Start start{rows.size() == 1 ? fs::path(options.folder) : fs::path(options.folder) / row.name, {}};
+    Faults faults = missing_options(row.sheet);
+    if (faults.empty()) {
+      auto files = starting_files(row.sheet, start.folder);
+      if (files.ok())
+        start.files = std::move(files).value();
+      else
+        faults = files.faults();
+    }
+    for (Fault& fault : faults) found.emplace_back(row.line, std::move(fault));
+    starts.push_back(std::move(start));
+  }
+  for (Fault& fault : in_file(in_lines(found), options.table)) of_table.push_back(std::move(fault));
+  if (!of_table.empty()) return report(of_table);
+  std::vector<std::string> lines;
+  for (const std::size_t line : without) lines.push_back(std::to_string(line));
+  if (!unused.empty()) print("Columns that are not used: %s\n", printable(listed(unused)).c_str());
+  if (!lines.empty()) print("Lines without a reading: %s\n", listed(lines).c_str());
+  if (starts.size() == 1) return write_one(options, starts[0]);
+  if (const Faults faults = write_files(starts, options.force); !faults.empty()) return report(faults);
+  for (const Start& start : starts)
+    if (const auto read = read_study(start.folder / "study.json"); read.ok())
+      if (const std::string notes = notes_on_readings(read.value()); !notes.empty())
+        print("\n%s:\n%s", start.folder.c_str(), notes.c_str());
+  const std::string folder = options.folder == "." ? "" : shell_word_if_needed(options.folder) + "/";
+  print("\nNext:\n  pastefit batch %s*/study.json --out %sout\n", folder.c_str(), folder.c_str());
   return kDone;
 }
 
@@ -172,9 +253,13 @@ int make_new(NewOptions options) {
   if (!faults.empty()) return report(faults);
   if (options.test != "slump") {
     const auto files = templates_of_kind(options.test);
-    return files.ok() ? write_new(options, files.value()) : report(files.faults());
+    return files.ok() ? write_one(options, {options.folder, files.value()}) : report(files.faults());
   }
   Sheet& sheet = options.sheet;
+  if (!options.table.empty()) {
+    if (sheet.target.empty()) sheet.target = target_laws().front().target;
+    return new_from_table(options);
+  }
   if (!missing_options(sheet).empty() && isatty(STDIN_FILENO) == 1) {
     if (!ask_sheet(sheet, options.folder))
       return report({{"standard input", "ended before every answer", "start again"}});
@@ -183,7 +268,7 @@ int make_new(NewOptions options) {
   if (faults = missing_options(sheet); !faults.empty()) return report(faults);
   if (sheet.target.empty()) sheet.target = target_laws().front().target;
   const auto files = starting_files(sheet, options.folder);
-  return files.ok() ? write_new(options, files.value()) : report(files.faults());
+  return files.ok() ? write_one(options, {options.folder, files.value()}) : report(files.faults());
 }
 
 }  // namespace
@@ -195,6 +280,11 @@ Command add_new(CLI::App& verb) {
   verb.add_option("DIR", options->folder, "folder for lab.json and study.json (.)");
   verb.add_option("--test", options->test, "slump, or drop, pellet, shear, whose commented starting files are written")
       ->type_name("KIND");
+  verb.add_option(
+          "--from", options->table,
+          "table of samples, saved as CSV: a row each, and a head such as \"sample;density (kg/m3);slump (mm)\"; "
+          "the options are for what it does not say")
+      ->type_name("TABLE.csv");
   verb.add_option("--title", sheet.title, "one line for people")->type_name("TEXT");
   verb.add_option("--mould", sheet.mould,
                   "a preset (abrams, haegermann, ...), or base/top/height: \"200/100/300\", \"8/4/12 in\"")

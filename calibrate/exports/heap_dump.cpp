@@ -4,12 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <vector>
 
+#include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "core/apparatus/slump/packing.h"
 #include "core/apparatus/slump/ruler.h"
@@ -160,20 +159,10 @@ Result<Particles> parse_dump(std::string_view text, const std::string& name) {
 }
 
 Result<Particles> read_dump(const std::filesystem::path& file) {
-  const std::string name = printable(file.string());
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return Fault{name, "there is no such file", "check the path"};
-  if (!std::filesystem::is_regular_file(status))
-    return Fault{name, "is no regular file", "a text dump of LAMMPS, LIGGGHTS or the Yade script"};
-  const auto size = std::filesystem::file_size(file, error);
-  if (error || size > kLargestDump)
-    return Fault{name, "is larger than " + std::to_string(kLargestDump >> 20) + " MB", "a dump of the last heap alone"};
-  std::ifstream in(file, std::ios::binary);
-  std::string text(size, '\0');
-  if (!in || !in.read(text.data(), static_cast<std::streamsize>(size)))
-    return Fault{name, "cannot be read", "check its permissions"};
-  return parse_dump(text, name);
+  const auto text =
+      read_input(file, {.largest_bytes = kLargestDump,
+                        .remedy = "a text dump of the last heap, of LAMMPS, LIGGGHTS or the Yade script"});
+  return text.ok() ? parse_dump(text.value(), printable(file.string())) : text.faults();
 }
 
 namespace {

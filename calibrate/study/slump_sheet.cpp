@@ -329,13 +329,15 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
     faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
   if (!faults.empty()) return faults;
 
-  ordered_json lab{{"format", "pastefit-lab-1"},
-                   {"title", one_line(sheet.title)},
-                   {"provenance", {{"source", kSourceToFillIn}}},
-                   {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
-                   {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
-                   {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
-                   {"measurements", measurements}};
+  ordered_json lab{
+      {"format", "pastefit-lab-1"},
+      {"title", one_line(sheet.title)},
+      {"provenance", {{"source", sheet.source.empty() ? std::string(kSourceToFillIn) : one_line(sheet.source)}}},
+      {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
+      {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
+      {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
+      {"measurements", measurements}};
+  for (const auto& [name, value] : sheet.mix) lab["mix"][name] = value;
   for (const std::string& place : sheet.confirmed) lab["confirmed"].push_back(one_line(place));
   note_assumptions(lab, sheet);
   if (!stresses_pa.empty()) add_yield_stress(lab, stresses_pa);

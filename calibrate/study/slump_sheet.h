@@ -17,10 +17,12 @@ namespace pastefit {
 /// What the sheet of a slump test says, as its user types it.
 struct Sheet {
   std::string title = "my paste";
+  std::string source;   ///< who measured it where, or where that stands; empty: to be filled in
   std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
   std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
   int drops = 0;        ///< of the preset's plate or table; 0: as the preset says
   std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
+  std::vector<std::pair<std::string, double>> mix;            ///< "water_kg_m3" and 180
   std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
   std::string target = "lammps";       ///< the program that the material is for
   std::string law;                     ///< word of the starting laws; empty: those that the program starts from

@@ -21,6 +21,7 @@
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/impact_json.h"
 #include "calibrate/study/lab.h"
+#include "calibrate/study/sheet_table.h"
 #include "calibrate/study/slump_sheet.h"
 #include "calibrate/study/tests.h"
 #include "calibrate/verify/case.h"
@@ -152,6 +153,22 @@ void sheet(const fs::path& file) {
     throw std::logic_error("a study that was made is refused: " + message_of(read.faults()));
 }
 
+/// A laboratory's table; the files of a row can be read.
+void table(std::string_view content) {
+  Faults faults;
+  Sheet defaults;
+  defaults.mould = "abrams";
+  defaults.density = "2300";
+  for (const SheetRow& row : sheet_table(content, defaults, faults).rows) {
+    if (row.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
+      throw std::logic_error("a name that is none of a folder: " + row.name);
+    const auto made = starting_files(row.sheet, kSource);
+    judge(made);
+    if (made.ok()) judge(read_lab(file_of(made.value().lab)));
+  }
+  if (!faults.empty()) judge(Result<int>(faults));
+}
+
 /// What `pastefit confirm` takes from a run goes to the card.
 void lammps_log(std::string_view content) {
   const LammpsLog log = read_lammps_log(content);
@@ -190,7 +207,7 @@ void slurm_folder(std::string_view content) {
   }
 }
 
-constexpr std::array<Reader, 10> kReaders{
+constexpr std::array<Reader, 11> kReaders{
     {{"lab", [](std::string_view content) { judge(read_lab(file_of(content))); }},
      {"apparatus", [](std::string_view content) { judge(read_apparatus_file(file_of(content))); }},
      {"study", [](std::string_view content) { study(file_of(content)); }},
@@ -199,6 +216,7 @@ constexpr std::array<Reader, 10> kReaders{
      {"impact", [](std::string_view content) { impact(file_of(content)); }},
      {"store", [](std::string_view content) { row(file_of(content)); }},
      {"sheet", [](std::string_view content) { sheet(file_of(content)); }},
+     {"table", table},
      {"lammps_log", lammps_log},
      {"slurm_folder", slurm_folder}}};
 
@@ -218,7 +236,8 @@ std::vector<fs::path> corpus_of(const Reader& reader) {
   for (const fs::path& folder : folders)
     if (fs::is_directory(folder))
       for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".json" || entry.path().extension() == ".txt") files.push_back(entry.path());
+        if (const auto ending = entry.path().extension(); ending == ".json" || ending == ".txt" || ending == ".csv")
+          files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }

@@ -21,8 +21,9 @@ constexpr std::string_view published_spread =
     "published for slump flows of 480 to 680 mm: 27 mm of one operator (ASTM C1611)";
 // Both are of an Abrams cone; taken in proportion for other moulds.
 constexpr double published_mould_mm = 300, published_height_mm = 7.5, published_spread_mm = 27;
-constexpr Lack no_plate{"the apparatus has no drop plate, so there is no step 2",
-                        "leave it out, or describe the plate in apparatus.drop_plate"};
+constexpr Lack no_plate{
+    "the apparatus has no plate or table that drops",
+    "leave it out, or describe the plate in apparatus.drop_plate; a width without drops is step1.spread_mm"};
 
 constexpr Lack no_sides{"the table falls upright, so that its heap has no free side",
                         "leave it out, or say that the plate is \"hinged\" in apparatus.drop_plate.motion"};

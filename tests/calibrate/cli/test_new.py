@@ -67,7 +67,7 @@ class New(Desk):
         self.assertIn("dropped 15 times by 10 mm, upright", said)
         refused = run("new", self.folder / "other", "--mould", "haegermann", "--density", "2100", "--flow", "163")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("no drop plate", refused.stderr)
+        self.assertIn("no plate or table that drops", refused.stderr)
 
     def test_a_flow_in_per_cent_of_the_base_is_a_width(self):
         mortar = ["--mould", "astm-c1437", "--density", "2100"]
@@ -260,6 +260,39 @@ class New(Desk):
         self.assertEqual(normal_of("--height", "90", "--spread", "510", "--for", "edem")[0], "jkr")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--law", "ebridge"), 2, "one of bridge, epa, jkr, sjkr")
+
+    def test_each_row_of_a_table_is_a_study_and_all_of_them_a_batch(self):
+        table = self.folder / "book.csv"
+        table.write_bytes("Probe;Form;Rohdichte (kg/dm\u00b3);Setzma\u00df (cm);Breite (mm);Wasser (kg/m\u00b3);Pr\u00fcfer\n"
+                          "A/12;;2,35;18,0;330;180,5;M\nA/13;;2,28;10,0;270;175;M\n;;;;;;\n".encode("cp1252"))
+        result = run("new", self.out, "--from", table, "--mould", "abrams")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("not used: Pr\u00fcfer", result.stdout)
+        self.assertIn(f"pastefit batch {self.out}/*/study.json --out {self.out}/out", result.stdout)
+        lab = document(self.out / "a-12" / "lab.json")
+        self.assertEqual(lab["title"], "A/12")
+        self.assertEqual(lab["provenance"]["source"], "book.csv, line 2")
+        self.assertEqual(lab["material"]["bulk_density_kg_m3"], 2350)
+        self.assertEqual(lab["measurements"]["step1.slump_mm"]["value"], 180)
+        self.assertEqual(lab["mix"], {"wasser_kg_m3": 180.5})
+        self.assertEqual(run("simulate", self.out / "a-13" / "study.json").returncode, 0)
+
+    def test_a_table_of_one_row_is_as_if_it_had_been_typed(self):
+        typed = self.files(*ABRAMS, "--title", "x")
+        table = self.folder / "book.csv"
+        table.write_text('sample,mould,density,slump,spread\nx,abrams,2350,"180, 175, 190",330\n')
+        read = self.files("--from", table, "--force")
+        read[0]["provenance"] = typed[0]["provenance"]
+        self.assertEqual(read[0], typed[0])
+        self.assertEqual(read[1], typed[1])
+
+    def test_faults_of_a_table_are_listed_with_their_lines_and_nothing_is_written(self):
+        table = self.folder / "book.csv"
+        table.write_text("sample;slump;spread\nx;180;abc\nx;170;330\ny;180;330\n")
+        result = run("new", self.out, "--from", table, "--mould", "abrams", "--density", "2350")
+        self.fails(result, 2, "book.csv: line 3", "as line 2 has", "line 2: reading spread", "abc")
+        self.fails(run("new", self.out, "--from", table, "--mould", "abrams"), 2, "lines 2, 3, 4: --density: is missing")
+        self.assertFalse(self.out.exists())
 
     def test_every_fault_is_named_and_nothing_is_written(self):
         self.fails(run("new", self.out, stdin=subprocess.DEVNULL), 2, "--mould: is missing", "--density: is missing",

@@ -1,0 +1,166 @@
+#include "calibrate/study/sheet_table.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "calibrate/base/text.h"
+#include "tests/calibrate/folder.h"
+
+namespace pastefit {
+namespace {
+
+using Typed = std::vector<std::pair<std::string, std::string>>;
+
+SheetTable read_without_faults(std::string_view text, const Sheet& defaults = {}) {
+  Faults faults;
+  SheetTable table = sheet_table(text, defaults, faults);
+  INFO(message_of(faults));
+  REQUIRE(faults.empty());
+  return table;
+}
+
+std::string message_for(std::string_view text) {
+  Faults faults;
+  sheet_table(text, {}, faults);
+  return message_of(faults);
+}
+
+const std::string kGerman =
+    "Prüfbuch 2026; Labor 3\n"
+    "Probe;Form;Rohdichte (kg/dm³);Setzmaß 1 (cm);Setzmaß 2 (cm);Breite [mm];Zement (kg/m³);Prüfer\n"
+    "A/12;abrams;2,35;18,0;17,5;330;310,5;Müller\n"
+    ";;;;;;;\n"
+    "A/13;abrams;2,28;-;;270;330;Müller\n";
+
+void check_german(const SheetTable& table) {
+  REQUIRE(table.rows.size() == 2);
+  const SheetRow& first = table.rows[0];
+  CHECK(first.name == "a-12");
+  CHECK(first.line == 3);
+  CHECK(first.sheet.title == "A/12");
+  CHECK(first.sheet.mould == "abrams");
+  CHECK(first.sheet.density == "2.35 kg/dm³");
+  CHECK(first.sheet.readings == Typed{{"slump", "18.0 cm; 17.5 cm"}, {"spread", "330 mm"}});
+  REQUIRE(first.sheet.mix.size() == 1);
+  CHECK(first.sheet.mix[0] == std::pair<std::string, double>("zement_kg_m3", 310.5));
+  CHECK(table.rows[1].sheet.readings == Typed{{"spread", "270 mm"}});
+  CHECK(table.unused == std::vector<std::string>{"Prüfer"});
+}
+
+/// Of code points below 0x800, as the text has.
+std::string in_utf_16(std::string_view utf8, bool big_endian) {
+  std::string out;
+  const auto add = [&](unsigned code) {
+    const char low = static_cast<char>(code & 255), high = static_cast<char>(code >> 8);
+    out += big_endian ? std::string{high, low} : std::string{low, high};
+  };
+  add(0xFEFF);
+  for (std::size_t i = 0; i < utf8.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(utf8[i]);
+    if (letter < 0x80)
+      add(letter);
+    else
+      add((letter & 31u) << 6 | (static_cast<unsigned char>(utf8[++i]) & 63u));
+  }
+  return out;
+}
+
+std::string in_windows_1252(std::string_view utf8) {
+  std::string out;
+  for (std::size_t i = 0; i < utf8.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(utf8[i]);
+    out +=
+        letter < 0x80 ? utf8[i] : static_cast<char>((letter & 3u) << 6 | (static_cast<unsigned char>(utf8[++i]) & 63u));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a German workbook's table is read in each encoding that it is saved in") {
+  check_german(read_without_faults(kGerman));
+  check_german(read_without_faults("\xEF\xBB\xBF" + kGerman));
+  check_german(read_without_faults(in_utf_16(kGerman, false)));
+  check_german(read_without_faults(in_utf_16(kGerman, true)));
+  check_german(read_without_faults(in_windows_1252(kGerman)));
+  std::string with_returns;
+  for (const char letter : kGerman) with_returns += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
+  check_german(read_without_faults(with_returns));
+}
+
+TEST_CASE("a table between commas has repeats, fractions of an inch and commas in quotes") {
+  const auto table = read_without_faults(
+      "Sample,Mold,Unit weight (lb/ft3),\"Slump, in\",Slump flow (in)\n"
+      "\"B1, wet\",abrams,146.7,7 1/4\",13\n"
+      "\"B \"\"2\"\"\",\"8/4/12 in\",146,\"7; 7.5\",\"13, 14\"\n");
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0].sheet.title == "B1, wet");
+  CHECK(table.rows[0].sheet.density == "146.7 lb/ft3");
+  CHECK(table.rows[0].sheet.readings == Typed{{"slump", "7 1/4\""}, {"spread", "13 in"}});
+  CHECK(table.rows[1].sheet.title == "B \"2\"");
+  CHECK(table.rows[1].sheet.readings == Typed{{"slump", "7; 7.5 in"}, {"spread", "13, 14 in"}});
+}
+
+TEST_CASE("a number behind a head is that of a repeat, and of a reading after the drop where none is the first") {
+  const auto repeats = read_without_faults("slump1,slump2,slump 3\n180,175,190\n");
+  CHECK(repeats.rows[0].sheet.readings == Typed{{"slump", "180; 175; 190"}});
+  const auto steps = read_without_faults("height,height2,h2\n118,90,91\n");
+  CHECK(steps.rows[0].sheet.readings == Typed{{"height", "118"}, {"height2", "90; 91"}});
+  const auto both = read_without_faults("h1;h2\n118;90\n");
+  CHECK(both.rows[0].sheet.readings == Typed{{"height", "118"}, {"height2", "90"}});
+}
+
+TEST_CASE("units may stand in the head, below it or in the cell") {
+  for (const char* text : {"density (t/m3)\tslump [cm]\n2.3\t18\n", "density\tslump\n(t/m3)\tcm\n2.3\t18\n",
+                           "density_t_m3\tslump_cm\n2.3\t18\n", "density\tslump\n2.3 t/m3\t18 cm\n"}) {
+    INFO(text);
+    const auto table = read_without_faults(text);
+    REQUIRE(table.rows.size() == 1);
+    CHECK(table.rows[0].sheet.density.starts_with("2.3 t"));
+    CHECK(table.rows[0].sheet.readings == Typed{{"slump", "18 cm"}});
+  }
+}
+
+TEST_CASE("what a row does not say is as the options have it") {
+  Sheet defaults;
+  defaults.mould = "abrams";
+  defaults.density = "2300";
+  defaults.readings = {{"spread", "330"}};
+  const auto table = read_without_faults("density,slump,spread\n,180,\n2400,170,350\n", defaults);
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0].sheet.density == "2300");
+  CHECK(table.rows[0].sheet.readings == Typed{{"slump", "180"}, {"spread", "330"}});
+  CHECK(table.rows[1].sheet.density == "2400");
+  CHECK(table.rows[1].sheet.readings == Typed{{"slump", "170"}, {"spread", "350"}});
+  CHECK(table.rows[0].name == "line-2");
+}
+
+TEST_CASE("every fault of a table has its line and head") {
+  const std::string twice = message_for("sample,slump\nx,180\nX,170\n");
+  CHECK_THAT(twice, Catch::Contains("line 3") && Catch::Contains("as line 2 has"));
+  const std::string heads = message_for("density,rohdichte,slump (furlongs)\n2300,2300,1\n");
+  CHECK_THAT(heads, Catch::Contains("\"rohdichte\"") && Catch::Contains("\"furlongs\", which is not known"));
+  CHECK_THAT(message_for("slump,drops,water (kg/m3)\n180,often,wet\n"),
+             Catch::Contains("line 2, \"drops\"") && Catch::Contains("line 2, \"water (kg/m3)\""));
+  CHECK_THAT(message_for("sample,date\nx,today\n"), Catch::Contains("no line that names a reading"));
+  CHECK_THAT(message_for("sample,slump\nx,n/a\n"), Catch::Contains("no row with a reading"));
+  CHECK_THAT(message_for(""), Catch::Contains("no line that names a reading"));
+}
+
+TEST_CASE("a row without a reading is named, not lost in silence") {
+  CHECK(read_without_faults("sample,slump\nx,180\ny,\nz,170\n").without == std::vector<std::size_t>{3});
+}
+
+TEST_CASE("a sheet of a table names the file and its line as its source, and a workbook is no table") {
+  const test::Folder folder;
+  Faults faults;
+  const auto table = read_sheet_table(folder.write("book.csv", "sample,slump\nx,180\n"), {}, faults);
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.rows[0].sheet.source == "book.csv, line 2");
+  CHECK(faults.empty());
+  read_sheet_table(folder.write("book.xlsx", "PK\x03\x04"), {}, faults);
+  REQUIRE(faults.size() == 1);
+  CHECK_THAT(faults[0].remedy, Catch::Contains("CSV"));
+}
+
+}  // namespace pastefit
