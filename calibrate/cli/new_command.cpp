@@ -30,8 +30,8 @@ struct NewOptions {
   std::string test = "slump";
   std::string table;  ///< file of many sheets
   Sheet sheet;
-  std::vector<std::string> readings;                         ///< "NAME=VALUES"
-  std::vector<std::pair<std::string, std::string>> by_name;  ///< of options with a name of their own
+  std::vector<std::string> readings, deviations, fixed, priors;  ///< "NAME=VALUES"
+  std::vector<std::pair<std::string, std::string>> by_name;      ///< of options with a name of their own
   bool force = false;
 };
 
@@ -131,17 +131,26 @@ Result<StartingFiles> templates_of_kind(const std::string& kind) {
   return StartingFiles{*lab, *study};
 }
 
-Faults read_options(NewOptions& options) {
-  Faults faults;
-  for (auto& [name, text] : options.by_name)
-    if (!text.empty()) options.sheet.readings.emplace_back(name, text);
-  for (const std::string& text : options.readings) {
+/// Texts "NAME=VALUES" of an option, parted.
+void part(const std::string& option, const std::vector<std::string>& texts, Sheet::Named& into, Faults& faults) {
+  for (const std::string& text : texts) {
     const auto sign = text.find('=');
     if (sign == std::string::npos || sign == 0)
-      faults.push_back({"--reading " + printable(text), "is not NAME=VALUES", "e.g. --reading \"spread=330, 335\""});
+      faults.push_back({option + " " + printable(text), "is not NAME=VALUE", "e.g. --reading \"spread=330, 335\""});
     else
-      options.sheet.readings.emplace_back(text.substr(0, sign), text.substr(sign + 1));
+      into.emplace_back(text.substr(0, sign), text.substr(sign + 1));
   }
+}
+
+Faults read_options(NewOptions& options) {
+  Faults faults;
+  Sheet& sheet = options.sheet;
+  for (auto& [name, text] : options.by_name)
+    if (!text.empty()) sheet.readings.emplace_back(name, text);
+  part("--reading", options.readings, sheet.readings, faults);
+  part("--sd", options.deviations, sheet.deviations, faults);
+  part("--fix", options.fixed, sheet.fixed, faults);
+  part("--prior", options.priors, sheet.priors, faults);
   return faults;
 }
 
@@ -306,6 +315,15 @@ Command add_new(CLI::App& verb) {
   verb.add_option("--reading", options->readings, "any other reading of a laboratory file; may be given again")
       ->type_name("NAME=VALUES")
       ->take_all();
+  verb.add_option("--sd", options->deviations,
+                  "standard deviation of a reading between tests, in its unit: slump=10; without it as published")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+  verb.add_option(
+          "--grains", sheet.grains,
+          "radius of the grains to simulate, in mm or with its unit: \"8\", or from \"6, 10\"; without it by the "
+          "mould")
+      ->type_name("RADII");
   verb.add_option("--yield-stress", sheet.yield_stress,
                   "of a vane or another rheometer, in Pa or with its unit; compared, and without any reading what it "
                   "predicts of the test is fitted")
@@ -315,6 +333,13 @@ Command add_new(CLI::App& verb) {
   verb.add_option("--law", sheet.law,
                   "law of attraction, in place of the one that the program starts from: " + names_of_laws())
       ->type_name("LAW");
+  verb.add_option("--fix", options->fixed, "value of a parameter that is known, and not searched: friction=0.2")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+  verb.add_option("--prior", options->priors,
+                  "what is known of a parameter before the test, with its standard deviation: friction=0.2+-0.05")
+      ->type_name("NAME=VALUE+-SD")
+      ->take_all();
   verb.add_option("--confirm", sheet.confirmed, "place that looks like a slip and is right, as the error names it")
       ->type_name("PLACE")
       ->take_all();

@@ -123,6 +123,22 @@ ordered_json grains_json(const Test& test, bool preset) {
           {"largest_mm", rounded(1.25 * radius_mm, 3)}};
 }
 
+/// Those of the sheet, or those of the mould.
+ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
+  if (sheet.grains.empty()) return grains_json(test, !lengths_in(sheet.mould));
+  const auto read = written_readings("grains", sheet.grains, "mm");
+  if (!read.ok()) {
+    faults.insert(faults.end(), read.faults().begin(), read.faults().end());
+    return {};
+  }
+  const std::vector<double>& radii = read.value();
+  if (radii.size() == 1) return {{"distribution", "mono"}, {"radius_mm", radii[0]}};
+  if (radii.size() == 2) return {{"distribution", "uniform"}, {"smallest_mm", radii[0]}, {"largest_mm", radii[1]}};
+  faults.push_back({"grains", "are " + std::to_string(radii.size()) + " numbers",
+                    "their radius, \"8\", or the smallest and the largest, \"6, 10\""});
+  return {};
+}
+
 /// The deviation of one reading: as published for this mould, else the share that is published for a height. Of an
 /// angle of repose nothing is published; 1.5 degrees is what calibrations of wheat assume (data/lab/wheat-repose.json).
 /// Of a time EN 12350-8 publishes a repeatability of 0.66 s, which is 2.8 deviations; a tenth of one that is longer.
@@ -187,6 +203,18 @@ Result<std::vector<double>> values_of_reading(const std::string& name, const std
   return written_readings(reading_fault_place(name), text, unit ? unit->key : "");
 }
 
+/// What the sheet says of a reading's deviation.
+std::optional<double> deviation_in(const Sheet& sheet, std::string_view key, Faults& faults) {
+  for (const auto& [name, text] : sheet.deviations) {
+    if (key_of_reading(name) != key) continue;
+    const auto unit = unit_of_key(key);
+    const auto read = written_readings("sd " + printable(name), text, unit ? unit->key : "");
+    if (read.ok() && read.value().size() == 1 && read.value()[0] > 0) return read.value()[0];
+    faults.push_back({"sd " + printable(name), "is " + in_quotes(text), "one number above 0, in the reading's unit"});
+  }
+  return std::nullopt;
+}
+
 /// "measurements": what the sheet says.
 ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
   auto out = ordered_json::object();
@@ -211,8 +239,13 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
       faults.insert(faults.end(), values.faults().begin(), values.faults().end());
       continue;
     }
-    out[std::string(key)] = reading_json(values.value(), deviation_of(*kind, test, values.value()[0]));
+    const auto stated = deviation_in(sheet, key, faults);
+    out[std::string(key)] =
+        reading_json(values.value(), stated ? *stated : deviation_of(*kind, test, values.value()[0]));
   }
+  for (const auto& [name, text] : sheet.deviations)
+    if (!out.contains(std::string(key_of_reading(name))))
+      faults.push_back({"sd " + printable(name), "is of a reading that is not given", "give the reading, too"});
   return out;
 }
 
@@ -290,6 +323,14 @@ void note_assumptions(ordered_json& lab, const Sheet& sheet) {
   }
 }
 
+/// The faults of a file that is not written yet, by their places in it.
+Faults of_no_file(Faults faults, const std::filesystem::path& file) {
+  const std::string before = printable(file.string()) + ": ";
+  for (Fault& fault : faults)
+    if (fault.where.starts_with(before)) fault.where.erase(0, before.size());
+  return faults;
+}
+
 std::string with_head(std::string_view head, const ordered_json& document) {
   return std::string(head) + "\n" + document.dump(2) + "\n";
 }
@@ -325,6 +366,8 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);
   if (density.ok())
     for (Fault& fault : doubtful_numbers(sheet, density.value())) faults.push_back(std::move(fault));
+  ordered_json grains;
+  if (test.ok()) grains = grains_json(sheet, test.value(), faults);
   if (test.ok() && sheet.readings.empty() && sheet.yield_stress.empty())
     faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
   if (!faults.empty()) return faults;
@@ -335,7 +378,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
       {"provenance", {{"source", sheet.source.empty() ? std::string(kSourceToFillIn) : one_line(sheet.source)}}},
       {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
       {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
-      {"grains", grains_json(test.value(), !lengths_in(sheet.mould))},
+      {"grains", grains},
       {"measurements", measurements}};
   for (const auto& [name, value] : sheet.mix) lab["mix"][name] = value;
   for (const std::string& place : sheet.confirmed) lab["confirmed"].push_back(one_line(place));
@@ -345,7 +388,13 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (!faults.empty()) return faults;
   const auto read = lab_from_json(json::parse(lab.dump()), folder);
   if (!read.ok()) return read.faults();
-  const StartingStudy study = starting_study(sheet, *laws, slump_of(test.value()), lab, read.value().measurements);
+  const StartingStudy study =
+      starting_study(sheet, *laws, slump_of(test.value()), lab, read.value().measurements, faults);
+  if (!faults.empty()) return faults;
+  json whole = json::parse(study.document.dump());
+  whole["lab"] = json::parse(lab.dump());
+  const auto made = study_from_json(std::move(whole), folder / "study.json");
+  if (!made.ok()) return of_no_file(made.faults(), folder / "study.json");
   return StartingFiles{
       with_head("// What the laboratory measured. Grains and deviations follow from the mould.", lab),
       with_head("// What is fitted to it: the laws are those of " + std::string(laws->target) + ". " + study.why + ".",

@@ -16,16 +16,21 @@ namespace pastefit {
 
 /// What the sheet of a slump test says, as its user types it.
 struct Sheet {
+  using Named = std::vector<std::pair<std::string, std::string>>;  ///< "slump" and "180, 175, 190 mm"
+
   std::string title = "my paste";
   std::string source;   ///< who measured it where, or where that stands; empty: to be filled in
   std::string mould;    ///< a preset, or "BASE/TOP/HEIGHT" with a unit if it is not mm
   std::string density;  ///< of the fresh material: "2350", "145 lb/ft3"
   int drops = 0;        ///< of the preset's plate or table; 0: as the preset says
-  std::vector<std::pair<std::string, std::string>> readings;  ///< "slump" and "180, 175, 190 mm"
-  std::vector<std::pair<std::string, double>> mix;            ///< "water_kg_m3" and 180
+  Named readings;       ///< by short name or key
+  Named deviations;     ///< of readings, in their unit; without one as published for the mould
+  std::string grains;   ///< their radius: "8", or the smallest and the largest, "6, 10 mm"; empty: by the mould
+  std::vector<std::pair<std::string, double>> mix;  ///< "water_kg_m3" and 180
   std::string yield_stress;            ///< of a vane or another rheometer: "520, 490 Pa"; empty: not measured
   std::string target = "lammps";       ///< the program that the material is for
   std::string law;                     ///< word of the starting laws; empty: those that the program starts from
+  Named fixed, priors;                 ///< of parameters: "friction" and "0.2", or "0.2 +- 0.05"
   std::vector<std::string> confirmed;  ///< places that look like a slip and are right
 };
 
@@ -56,9 +61,10 @@ struct StartingStudy {
 };
 
 /// The laws by what the sheet names or measured, the free parameters by what its readings tell of. `named`: the laws of
-/// the sheet's target. Requirement: `lab` is a laboratory file without faults, `measured` its measurements.
+/// the sheet's target. Faults: what the sheet knows of parameters is no number. Requirement: `lab` is a laboratory file
+/// without faults, `measured` its measurements.
 StartingStudy starting_study(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
-                             const nlohmann::ordered_json& lab, std::span<const Measurement> measured);
+                             const nlohmann::ordered_json& lab, std::span<const Measurement> measured, Faults& faults);
 
 /// The commented laboratory file of a slump test on this preset's apparatus, fit to be read as it is: its mould, speed,
 /// table and grains, and the readings that are customary with it, each with its usual value and deviation. Of a preset

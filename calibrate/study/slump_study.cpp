@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/base/text.h"
+#include "calibrate/base/units.h"
 #include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/slump_sheet.h"
 
@@ -102,26 +103,53 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
   return out;
 }
 
+/// What the sheet knows of parameters: values that are not searched, and priors of those that are.
+void add_knowledge(ordered_json& study, const Sheet& sheet, Faults& faults) {
+  ordered_json& parameters = study["parameters"];
+  for (const auto& [name, text] : sheet.fixed) {
+    if (const auto value = written_number(text); value && !value->unit)
+      parameters[name] = {{"value", value->value}};
+    else
+      faults.push_back({"fix " + printable(name), "is " + in_quotes(text), "a number, e.g. friction=0.2"});
+  }
+  for (const auto& [name, text] : sheet.priors) {
+    const std::size_t sign = text.find("+-");
+    const auto value = written_number(text.substr(0, sign));
+    const auto deviation = sign == std::string::npos ? std::nullopt : written_number(text.substr(sign + 2));
+    const bool free = parameters.contains(name) && parameters[name].contains("free");
+    if (!value || !deviation || value->unit || deviation->unit)
+      faults.push_back({"prior " + printable(name), "is " + in_quotes(text), "e.g. friction=0.2+-0.05"});
+    else if (!free)
+      faults.push_back(
+          {"prior " + printable(name), "is of a parameter that is not searched", "fix it, or leave it out"});
+    else
+      parameters[name]["prior"] = {{"value", value->value}, {"standard_deviation", deviation->value}};
+  }
+}
+
 }  // namespace
 
 StartingStudy starting_study(const Sheet& sheet, const TargetLaws& named, const SlumpTest& test,
-                             const ordered_json& lab, std::span<const Measurement> measured) {
-  const ordered_json& measurements = lab.at("measurements");
+                             const ordered_json& lab, std::span<const Measurement> measured, Faults& faults) {
+  const ordered_json &measurements = lab.at("measurements"), &grains = lab.at("grains");
   const ChosenLaws chosen = laws_of(sheet, named, test, measured);
-  return {{{"format", "pastefit-study-1"},
-           {"title", one_line(sheet.title)},
-           {"lab", "lab.json"},
-           {"contact", is_dry(measurements) ? dry_contact(named) : contact_of(chosen.laws)},
-           {"parameters",
-            parameters_for(chosen.laws, measurements, lab.at("grains").at("largest_mm"), width_of(test, measured))},
-           {"search",
-            {{"screening", 8},
-             {"budget_simulations", 150},
-             {"packings", 2},
-             {"confirmation_packings", 8},
-             {"examination_simulations", 12},
-             {"seed", 1}}}},
-          chosen.why};
+  StartingStudy study{{{"format", "pastefit-study-1"},
+                       {"title", one_line(sheet.title)},
+                       {"lab", "lab.json"},
+                       {"contact", is_dry(measurements) ? dry_contact(named) : contact_of(chosen.laws)},
+                       {"parameters", parameters_for(chosen.laws, measurements,
+                                                     grains.value("largest_mm", grains.value("radius_mm", 0.0)),
+                                                     width_of(test, measured))},
+                       {"search",
+                        {{"screening", 8},
+                         {"budget_simulations", 150},
+                         {"packings", 2},
+                         {"confirmation_packings", 8},
+                         {"examination_simulations", 12},
+                         {"seed", 1}}}},
+                      chosen.why};
+  add_knowledge(study.document, sheet, faults);
+  return study;
 }
 
 }  // namespace pastefit

@@ -261,6 +261,28 @@ class New(Desk):
         self.fails(run("new", self.folder / "other", *ABRAMS, "--for", "yade", "--law", "epa"), 2, "yade does not run", "one of bridge")
         self.fails(run("new", self.folder / "other", *ABRAMS, "--law", "ebridge"), 2, "one of bridge, epa, jkr, sjkr")
 
+    def test_what_is_known_of_deviations_grains_and_parameters_is_taken(self):
+        lab, study, said = self.files(*ABRAMS, "--sd", "spread=10", "--sd", "slump=0.5 cm", "--grains", "0.8, 1.2 cm", "--fix", "friction=0.2",
+                                      "--prior", "rolling_friction=0.2+-0.1")
+        self.assertEqual(lab["measurements"]["step1.spread_mm"], {"value": 330, "standard_deviation": 10})
+        self.assertEqual(lab["measurements"]["step1.slump_mm"]["standard_deviation"], 5)
+        self.assertEqual(lab["grains"], {"distribution": "uniform", "smallest_mm": 8, "largest_mm": 12})
+        self.assertEqual(study["parameters"]["friction"], {"value": 0.2})
+        self.assertEqual(study["parameters"]["rolling_friction"]["prior"], {"value": 0.2, "standard_deviation": 0.1})
+        lab, _, _ = self.files(*ABRAMS, "--grains", "9", "--force")
+        self.assertEqual(lab["grains"], {"distribution": "mono", "radius_mm": 9})
+
+    def test_what_cannot_be_known_of_them_is_refused_before_anything_is_written(self):
+        self.fails(run("new", self.folder / "none", *ABRAMS, "--sd", "flow=3", "--sd", "slump=-1", "--grains", "8, 9, 10"), 2,
+                   "sd flow", "sd slump", "grains: are 3 numbers")
+        self.fails(run("new", self.folder / "none", *ABRAMS, "--fix", "friction=much", "--prior", "friction=2", "--prior",
+                       "curvature=0.2+-0.1", "--sd", "slump"), 2, "--sd slump: is not NAME=VALUE")
+        self.fails(run("new", self.folder / "none", *ABRAMS, "--fix", "friction=much", "--prior", "friction=2", "--prior",
+                       "curvature=0.2+-0.1"), 2, "fix friction", "prior friction", "prior curvature: is of a parameter that is not searched")
+        self.fails(run("new", self.folder / "none", *ABRAMS, "--fix", "frction=0.2", "--fix", "friction=3"), 2,
+                   'did you mean "friction"?', "\nparameters.friction.value: is 3.0; must be 0 to 2")
+        self.assertFalse((self.folder / "none").exists())
+
     def test_each_row_of_a_table_is_a_study_and_all_of_them_a_batch(self):
         table = self.folder / "book.csv"
         table.write_bytes("Probe;Form;Rohdichte (kg/dm\u00b3);Setzma\u00df (cm);Breite (mm);Wasser (kg/m\u00b3);Pr\u00fcfer\n"
