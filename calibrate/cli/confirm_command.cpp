@@ -20,6 +20,7 @@
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
 #include "calibrate/cli/process.h"
+#include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/cost.h"
 #include "calibrate/report/summary.h"
@@ -88,7 +89,6 @@ Result<Asked> asked_for(const Card& card, const ConfirmOptions& options) {
   if (!has_deck(test.value().test))
     return Fault{test.value().name.empty() ? "the card's test" : "test " + test.value().name,
                  "has no deck: another program cannot run it", "choose another test with --test"};
-  if (Faults faults = validate_memory(test.value().test, 1); !faults.empty()) return faults;
   return Asked{std::move(with_grains), std::move(test).value()};
 }
 
@@ -116,11 +116,17 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
   out.engine = options.engine;
   for (int i = 0; i < options.packings; ++i) {
     const std::uint64_t packing = kFirstConfirmPacking + static_cast<std::uint64_t>(i);
-    const auto scene = export_scene(asked.card, asked.test, packing);
+    const Fault interrupted{"packing " + std::to_string(packing), "interrupted",
+                            "the same command with --runs goes on"};
+    std::optional<SignOfLife> sign(std::in_place);
+    const auto scene = export_scene(asked.card, asked.test, packing,
+                                    [&](const Snapshot& snapshot) { return sign->show(snapshot), !stop; });
+    sign.reset();
+    if (stop) return interrupted;
     if (!scene.ok()) return scene.faults();
     note("packing %d of %d: %zu grains\n", i + 1, options.packings, scene.value().packing.centres.size());
     auto heap = run_in_lammps(scene.value(), launch, folder.of(packing), stop);
-    if (stop) return Fault{"packing " + std::to_string(packing), "interrupted", "the same command with --runs goes on"};
+    if (stop) return interrupted;
     if (!heap.ok()) {
       Faults faults = heap.faults();
       for (Fault& fault : faults) fault.where = "packing " + std::to_string(packing) + ": " + fault.where;
@@ -182,6 +188,8 @@ int confirm(const ConfirmOptions& options) {
     return report({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
                     "set TMPDIR to a folder that can be written, or name one with --runs"}},
                   kFailed);
+  const double least_s = least_effort_s(asked.value().test.test);
+  note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
   const auto runs = run_all(asked.value(), {options.launch, program.value()}, folder, options, stop);
   if (!runs.ok()) return report(runs.faults(), kFailed);
   const int status =

@@ -6,6 +6,7 @@
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
+#include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/store/output_folder.h"
@@ -28,8 +29,11 @@ int export_to_folder(const ExportOptions& options) {
   if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
   for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
   if (!exporter.ok() || !card.ok()) return report(faults);
-  const auto written =
-      export_card(card.value(), exporter.value(), {options.card, options.test, options.packing, options.unconfirmed});
+  std::optional<SignOfLife> sign(std::in_place);
+  const auto written = export_card(card.value(), exporter.value(),
+                                   {options.card, options.test, options.packing, options.unconfirmed,
+                                    [&](const Snapshot& snapshot) { return sign->show(snapshot), true; }});
+  sign.reset();
   if (!written.ok()) faults.insert(faults.end(), written.faults().begin(), written.faults().end());
   if (!faults.empty()) return report(faults);
   const std::vector<ExportFile>& files = written.value().files;

@@ -12,6 +12,7 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
+#include "calibrate/evaluate/cost.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -82,7 +83,9 @@ bool has_deck(const Test& test) {
   return std::holds_alternative<SlumpTest>(test);
 }
 
-Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing) {
+Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing,
+                                 const FillPulse& pulse) {
+  if (Faults faults = validate_memory(test.test, 1); !faults.empty()) return faults;
   ExportScene scene;
   scene.title = title_of(card, test);
   scene.test = test.test;
@@ -92,8 +95,10 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   auto* const slump = std::get_if<SlumpTest>(&scene.test);
   if (!slump) return scene;
   slump->packing_seed = packing.value_or(slump->packing_seed);
-  const auto filled = fill_mould(*slump);
-  scene.packing = filled->failure ? *filled : full_mould(*slump, *filled);
+  RunOptions options;
+  options.pulse = pulse;
+  const auto filled = fill_mould(*slump, options);
+  scene.packing = filled->failure ? *filled : full_mould(*slump, *filled, options);
   if (const auto& failure = scene.packing.failure)
     return Fault{"packing " + std::to_string(slump->packing_seed), "the mould could not be filled: " + failure->message,
                  "take another seed with --packing, or finer grains with pastefit rescale"};
@@ -217,7 +222,7 @@ void mark_unconfirmed(const Card& card, Export& written) {
 Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request) {
   Faults faults = unconfirmed_faults(card, request.unconfirmed);
   const auto test = test_to_export(card, request.test);
-  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing) : test.faults();
+  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.pulse) : test.faults();
   auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
   if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
   if (!faults.empty()) return faults;

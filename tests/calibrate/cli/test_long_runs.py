@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import select
+import signal
 import subprocess
 import sys
 import time
@@ -56,6 +57,12 @@ class Progress(Desk):
                 process.kill()
         return lines, longest_s
 
+    def fine_card(self):
+        """The shipped card with grains so small that its mould takes minutes to fill."""
+        card = self.folder / "fine.json"
+        self.assertEqual(run("rescale", CARD, "--radius", "2", "--packings", "0", "--out", card).returncode, 0)
+        return card
+
     def test_no_verb_runs_longer_than_five_seconds_without_a_line(self):
         for words, pattern in (
                 (["simulate", APPARATUS, "--set", "grains.radius_mm=3"], r"\d"),
@@ -65,11 +72,25 @@ class Progress(Desk):
                 (["check", many_packings(self.folder), "--threads", 1], r"^\d+ of 50 simulations, \d+ s gone"),
                 (["rescale", CARD, "--radius", 8, "--packings", 40, "--threads", 1, "--out", self.folder / "card.json"],
                  r"^\d+ of 80 simulations, \d+ s gone"),
+                (["export", self.fine_card(), "--to", "csv", "--unconfirmed", "--out", self.folder / "csv"], r"^fill\.\w+ .* gone"),
+                (["confirm", CARD, "--radius", "2", "--program", "/bin/true", "--out", self.folder / "new.json"],
+                 r"^fill\.\w+ .* gone"),
                 (["verify"], r"^\d+ of \d+ points, \d+ s gone.*left$")):
             with self.subTest(words[0]):
                 lines, longest_s = self.said_by(*words, pattern=pattern)
                 self.assertTrue([line for line in lines if re.search(pattern, line)], lines)
                 self.assertLess(longest_s, 5)
+
+    def test_a_confirmation_that_fills_its_mould_can_be_interrupted_and_says_what_it_takes(self):
+        command = [PROGRAM, "confirm", str(CARD), "--radius", "2", "--program", "/bin/true", "--out", str(self.folder / "new.json")]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertRegex(process.stderr.readline(), r"4 packings, each of \d+ (s|min|h) of a core or more")
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            said = process.communicate(timeout=20)[1]
+        self.assertIn("interrupted", said)
+        self.assertEqual(process.returncode, 1)
+        self.assertFalse((self.folder / "new.json").exists())
 
     def test_an_impact_of_many_grains_says_within_seconds_how_far_it_is(self):
         grains = [{"radius_m": 0.001, "centre_m": [0.0025 * (i % 100), 0.0025 * (i // 100 % 100), 0.0025 * (i // 10000)],
