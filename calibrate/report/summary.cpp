@@ -127,6 +127,7 @@ std::string verdict_on_fitted(const Card& card) {
   const auto& confirmation = card.confirmation;
   const ErrorUnit unit = error_unit_of(card);
   const auto packings = confirmation.packings.size();
+  if (packings == 0) return "Not simulated. " + card.search.reason;
   std::size_t accepted = packings;
   for (const CardTest& test : card.tests)
     for (const CardReading& one : test.readings)

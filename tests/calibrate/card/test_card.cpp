@@ -179,6 +179,8 @@ TEST_CASE("the verdict says whether the material meets the laboratory, and wheth
   CHECK_THAT(verdict_of(material), Catch::Contains("does not meet"));
   material.confirmation.fresh = false;
   CHECK_THAT(verdict_of(material), Catch::Contains("Not confirmed"));
+  material.confirmation.packings.clear();  // carried over to other grains, and not simulated there
+  CHECK_THAT(verdict_of(material), Catch::StartsWith("Not simulated.") && !Catch::Contains("largest error"));
   CHECK_THAT(summary_of(material), Catch::Contains("Type this into") && Catch::Contains("strength_pa") &&
                                        Catch::Contains("2 failed (never_settled)") && Catch::Contains("twin"));
 }
