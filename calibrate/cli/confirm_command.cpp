@@ -89,6 +89,7 @@ Result<Asked> asked_for(const Card& card, const ConfirmOptions& options) {
   if (!has_deck(test.value().test))
     return Fault{test.value().name.empty() ? "the card's test" : "test " + test.value().name,
                  "has no deck: another program cannot run it", "choose another test with --test"};
+  if (Faults faults = validate_memory(test.value().test, 1); !faults.empty()) return faults;
   return Asked{std::move(with_grains), std::move(test).value()};
 }
 
@@ -189,7 +190,8 @@ int confirm(const ConfirmOptions& options) {
                     "set TMPDIR to a folder that can be written, or name one with --runs"}},
                   kFailed);
   const double least_s = least_effort_s(asked.value().test.test);
-  note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
+  if (least_s > 10)
+    note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
   const auto runs = run_all(asked.value(), {options.launch, program.value()}, folder, options, stop);
   if (!runs.ok()) return report(runs.faults(), kFailed);
   const int status =

@@ -5,6 +5,7 @@ usage: test_confirm.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -113,11 +114,20 @@ class Confirm(Desk):
     def test_a_log_without_end_or_with_impossible_numbers_leaves_a_card_that_can_be_read(self):
         self.assertEqual(self.confirm("impossible").returncode, 0)
         self.assertEqual(run("show", self.card).returncode, 0)
-        for log in self.runs.glob("packing-*/log.lammps"):
-            log.unlink()
-            log.symlink_to("/dev/zero")
-        self.assertEqual(self.confirm().returncode, 0)
-        self.assertEqual(run("show", self.card).returncode, 0)
+        for replace in (lambda log: log.symlink_to("/dev/zero"), os.mkfifo):
+            for log in self.runs.glob("packing-*/log.lammps"):
+                log.unlink()
+                replace(log)
+            self.assertEqual(self.confirm().returncode, 0)
+            self.assertEqual(run("show", self.card).returncode, 0)
+
+    def test_runs_that_nobody_named_are_in_a_new_folder_that_only_this_user_can_read(self):
+        for _ in range(2):
+            result = run("confirm", self.card, "--program", self.engine("lost"), "--packings", "2",
+                         env={**os.environ, "TMPDIR": str(self.folder)})
+            self.assertEqual(result.returncode, 1)
+        folders = [folder for folder in self.folder.iterdir() if folder.name.startswith("pastefit-")]
+        self.assertEqual([folder.stat().st_mode & 0o777 for folder in folders], [0o700] * 2)
 
     def test_two_confirmations_at_once_are_both_on_the_card(self):
         command = ["confirm", self.card, "--program", self.engine("slow"), "--packings", "2"]
@@ -153,7 +163,8 @@ class Confirm(Desk):
                                (["--program", self.folder / "none"], ["--program", "none"]),
                                (["--engine", "liggghts"], ["--engine", "liggghts"]),
                                (["--out", taken], ["--out", "--force"]), (["--radius", "60"], ["radius"]),
-                               (["--packings", "1"], ["--packings"]), (["--test", "other"], ["other"])]:
+                               (["--packings", "1"], ["--packings"]), (["--test", "other"], ["other"]),
+                               (["--radius", "0.05"], ["grains", "of memory"])]:
             with self.subTest(options=options):
                 program = [] if "--program" in options else ["--program", self.engine()]
                 self.fails(run("confirm", self.card, "--runs", self.runs, *program, *options), 2, *words)
@@ -170,14 +181,14 @@ class Confirm(Desk):
         result = run("confirm", self.card, env=environment)
         self.fails(result, 2, "mpicxx", "libopenmpi-dev", "--program")
 
-    def test_an_interrupt_ends_the_engine_too(self):
+    def test_an_engine_that_hangs_is_told_of_and_an_interrupt_ends_it_too(self):
         before = self.card.read_bytes()
         driver = subprocess.Popen([PROGRAM, "confirm", self.card, "--program", self.engine("hangs"), "--runs", self.runs],
                                   stderr=subprocess.PIPE, text=True)
-        while not list(self.runs.glob("packing-*/runs.txt")):
-            time.sleep(0.05)
+        said = [driver.stderr.readline() for _ in range(2)]  # the packing, and a sign of life
+        self.assertRegex(said[-1], r"s gone")
         driver.send_signal(signal.SIGINT)
-        _, said = driver.communicate(timeout=60)
+        said = driver.communicate(timeout=60)[1]
         self.assertEqual(driver.returncode, 1)
         self.assertIn("interrupted", said)
         self.assertEqual(self.card.read_bytes(), before)

@@ -161,6 +161,12 @@ class HostileInput(Desk):
                     self.assertLess(max(map(len, result.stderr.split("\n"))), 200)
         self.assertFalse(self.out.exists())
 
+    @unittest.skipUnless(shutil.which("taskset"), "no taskset")
+    def test_threads_are_no_more_than_the_processors_that_are_allowed(self):
+        one = str(min(os.sched_getaffinity(0)))
+        command = ["taskset", "-c", one, PROGRAM, "simulate", str(APPARATUS), "--set", "grains.radius_mm=14", "--threads", "2"]
+        self.assertIn("this machine has 1 processors", subprocess.run(command, capture_output=True, text=True).stderr)
+
     def test_a_budget_that_is_too_small_is_blamed_on_the_option(self):
         result = run("calibrate", STUDY, "--out", self.out, "--budget", "2")
         self.fails(result, 2, "--budget: 2; at least")
