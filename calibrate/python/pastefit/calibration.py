@@ -2,7 +2,6 @@
 
 import json
 import math
-import numbers
 import os
 import tempfile
 import uuid
@@ -13,7 +12,7 @@ import numpy as np
 from . import _core, html, interrupt, progress as progress_module
 from .card import Card, reading_table
 from .documents import number_of, table
-from .faults import InputError
+from .faults import InputError, threads_faults
 from .progress import Show
 from .study import Described, Study
 from .workers import WorkerDied, Workers
@@ -113,8 +112,7 @@ def _faults_of(resume: bool, force: bool, threads: int, wall_budget_s: float) ->
     faults = []
     if resume and force:
         faults.append(("resume", "is given with force=True, which would delete what is to be resumed", "one of both"))
-    if not isinstance(threads, numbers.Integral) or isinstance(threads, bool) or threads < 0:
-        faults.append(("threads", f"is {threads!r}", "a whole number, 0 for one of each core"))
+    faults += threads_faults(threads)
     if number_of(wall_budget_s) is None or not 0 <= wall_budget_s < math.inf:
         faults.append(("wall_budget_s", f"is {wall_budget_s!r}", "seconds, 0 for no limit"))
     return faults

@@ -9,8 +9,8 @@ import numpy as np
 
 from . import _core, interrupt
 from .card import Card
-from .documents import table
-from .faults import InputError
+from .documents import number_of, table
+from .faults import InputError, seed_faults, threads_faults
 
 CardOrPath = Union[Card, str, "os.PathLike[str]"]
 
@@ -42,6 +42,8 @@ def export(card: CardOrPath, *, to: str, out: Union[str, "os.PathLike[str]", Non
     unconfirmed: export a card that is not confirmed; every file then begins with why it is not.
     Errors: `InputError`.
     """
+    if faults := seed_faults("packing", packing):
+        raise InputError(faults)
     file = "card.json" if isinstance(card, Card) else os.fspath(card)
     text = _card_of(card)._text
     written = Export(**json.loads(interrupt.run(lambda: _core.export(text, to, file, test, packing, unconfirmed))))
@@ -73,8 +75,14 @@ def check(card: CardOrPath, *, against: Union[str, "os.PathLike[str]", None] = N
     """Simulates again what a card promises, or judges it by another laboratory file (`against`).
 
     quick: two packings of each test only. bits: other bits are a disagreement, whichever program made the card.
-    false_alarm: probability to call a card wrong although nothing changed. Errors: `InputError`.
+    false_alarm: probability to call a card wrong although nothing changed. threads: simulations at the same time, 0 for one
+    of each core. Errors: `InputError`.
     """
+    faults = threads_faults(threads)
+    if not 1e-9 <= (number_of(false_alarm) or 0) <= 0.5:
+        faults.append(("false_alarm", f"is {false_alarm!r:.60}", "a probability from 1e-9 to 0.5"))
+    if faults:
+        raise InputError(faults)
     stop, text = _core.Stop(), _card_of(card)._text
     lab = os.fspath(against) if against is not None else ""
     answer = json.loads(interrupt.run(lambda: _core.check(text, quick, false_alarm, bits, threads, lab, stop), stop))

@@ -32,7 +32,10 @@ def _faults_in(value: Any, place: str) -> Iterator[Tuple[str, str, str]]:
         value = _plain(value)
     if isinstance(value, Mapping):
         for key, one in value.items():
-            yield from _faults_in(one, f"{place}.{key}" if place else str(key))
+            if not isinstance(key, str) or printable(key) != key:
+                yield place or "a key", f"has the key {key!r:.60}", "keys that are text, without lone surrogates"
+                continue
+            yield from _faults_in(one, f"{place}.{key}" if place else key)
     elif isinstance(value, (list, tuple)):
         for number, one in enumerate(value):
             yield from _faults_in(one, f"{place}[{number}]")
@@ -49,7 +52,7 @@ def printable(text: str) -> str:
 
 
 def text_of(document: Any) -> str:
-    """The document as JSON. Errors: `InputError` for each number that is not finite, with its place."""
+    """The document as JSON. Errors: `InputError` for each number, text and key that JSON cannot hold, with its place."""
     faults = list(_faults_in(document, ""))
     if faults:
         raise InputError(faults)

@@ -1,7 +1,8 @@
 """What is wrong with an input: every fault at once."""
 
+import numbers
 import re
-from typing import Iterable, List, NamedTuple, Tuple
+from typing import Any, Iterable, List, NamedTuple, Tuple
 
 _SWITCHES = re.compile(r"--(resume|force|unconfirmed)\b")
 _OPTIONS = re.compile(r"--([a-z]+(?:-[a-z]+)*)")
@@ -35,3 +36,19 @@ class InputError(ValueError):
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.faults))
+
+
+def whole_number_faults(where: str, value: Any, most: int, remedy: str) -> List[Tuple[str, str, str]]:
+    """What is wrong with an option that is a whole number from 0 to `most`."""
+    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    return [] if whole and 0 <= value <= most else [(where, f"is {value!r:.60}", remedy)]
+
+
+def threads_faults(threads: Any) -> List[Tuple[str, str, str]]:
+    return whole_number_faults("threads", threads, 1_000_000, "a whole number, 0 for one of each core")
+
+
+def seed_faults(where: str, seed: Any) -> List[Tuple[str, str, str]]:
+    if seed is None:
+        return []
+    return whole_number_faults(where, seed, 2**64 - 1, "a whole number from 0 to 2**64 - 1")

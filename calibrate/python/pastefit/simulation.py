@@ -8,8 +8,10 @@ import numpy as np
 
 from . import _core, interrupt
 from .card import Card
-from .documents import text_of
+from .documents import number_of, text_of
+from .faults import InputError, seed_faults, threads_faults
 from .study import Study
+from .workers import processors
 
 Scene = Union[str, "os.PathLike[str]", Study, Card, Mapping[str, Any]]
 
@@ -94,14 +96,18 @@ def simulate(scene: Scene, *, seed: Optional[int] = None, set: Optional[Mapping[
     scene: a study (its free parameters in the middle of their bounds), a card, or the path or the content of a study,
     card, laboratory, apparatus or impact file. seed: of the random packing. set: changes of the content by path, e.g.
     `{"strength_pa": 3000, "grains.radius_mm": 6}`. test: which one of a study or card that has several. frames: simulated
-    time between two frames [s]; without it only the last moment is kept. threads: that share the grains; the result is
-    the same.
+    time between two frames [s]; without it only the last moment is kept. threads: that share the grains (0: one for each
+    core); the result is the same.
 
     A simulation that fails is a result (`failure`), not an error. Errors: `InputError`; KeyboardInterrupt at Ctrl-C.
     """
-    if frames is not None and not frames > 0:
-        raise ValueError(f"frames is {frames}; give a simulated time above 0 s, or None")
-    stop, options = _core.Stop(), (_settings(set or {}), test, seed, frames, threads)
+    faults = seed_faults("seed", seed) + threads_faults(threads)
+    if frames is not None and not (number_of(frames) or 0) > 0:
+        faults.append(("frames", f"is {frames!r:.60}", "a simulated time above 0 s, or None"))
+    if faults:
+        raise InputError(faults)
+    used = min(threads or processors(), processors())
+    stop, options = _core.Stop(), (_settings(set or {}), test, seed, frames, used)
     if isinstance(scene, (Study, Card)):
         path = scene.path if isinstance(scene, Study) else ""
         run = _core.SimulationRun.of_json(text_of(scene.content), path, *options, stop)

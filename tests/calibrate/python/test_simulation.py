@@ -61,6 +61,20 @@ class Simulation(Desk):
         self.assertIn("strength_pa", fault.remedy)
         self.assertNotIn("--", fault.where)
 
+    def test_every_option_that_is_wrong_is_told_with_its_remedy(self):
+        for wrong in ({"threads": -1}, {"threads": 1.5}, {"threads": True}, {"threads": 2**40}, {"seed": True}, {"seed": -1},
+                      {"seed": 2**70}, {"seed": 1.5}, {"seed": "4"}, {"frames": 0}, {"frames": "x"},
+                      {"frames": float("nan")}):
+            fault, = self.faults(pf.simulate, coarse_study(), **wrong)
+            self.assertEqual(fault.where, *wrong)
+            self.assertTrue(fault.remedy)
+        self.assertEqual(len(self.faults(pf.simulate, coarse_study(), seed=-1, threads=-1, frames=-1)), 3)
+
+    def test_the_threads_do_not_change_the_readings(self):
+        one = pf.simulate(coarse_study()).readings
+        for threads in (0, np.int64(2), 1000):
+            self.assertEqual(pf.simulate(coarse_study(), threads=threads).readings, one)
+
     def test_the_lock_of_the_interpreter_is_released(self):
         counted, ended = [0], threading.Event()
 

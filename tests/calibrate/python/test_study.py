@@ -39,6 +39,14 @@ class Study(Desk):
         self.assertIn("lab: material.bulk_density_kg_m3", places)
         self.assertTrue(all(fault.remedy for fault in faults))
 
+    def test_a_key_that_is_no_text_is_told_with_its_place(self):
+        for key in ("\ud800", 3, (1, 2)):
+            content = coarse_study()
+            content["parameters"][key] = {"value": 1}
+            fault, = self.faults(pf.Study, content)
+            self.assertEqual(fault.where, "parameters")
+            self.assertIn(repr(key), fault.what)
+
     def test_the_message_has_a_line_for_each_fault_and_survives_another_process(self):
         with self.assertRaises(pf.InputError) as raised:
             pf.Study.load(self.folder / "nowhere.json")
@@ -95,6 +103,14 @@ class Card(Desk):
         fault, = self.faults(pf.export, CARD, to="edem-notes", out=self.out)
         self.assertIn("force=True", fault.remedy)
         pf.export(CARD, to="edem-notes", out=self.out, force=True)
+
+    def test_every_option_of_a_check_or_export_that_is_wrong_is_told_with_its_remedy(self):
+        for call, wrong in ((pf.check, {"threads": -1}), (pf.check, {"threads": 1.5}), (pf.check, {"false_alarm": -3}),
+                            (pf.check, {"false_alarm": float("nan")}), (pf.export, {"to": "csv", "packing": -1}),
+                            (pf.export, {"to": "csv", "packing": True})):
+            fault, = self.faults(call, CARD, **wrong)
+            self.assertEqual(fault.where, list(wrong)[-1])
+            self.assertTrue(fault.remedy)
 
     def test_a_physics_case_holds(self):
         verified = pf.verify(["chung-ooi-1"])
