@@ -1,12 +1,10 @@
 #include "calibrate/python/custom_problem.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
@@ -73,13 +71,13 @@ std::vector<StudyReading> read_readings(ObjectReader& document) {
   return readings;
 }
 
-/// In a candidate and its answer all of these stand side by side, under their names.
-Faults clashing_names(const CustomProblem& problem) {
-  constexpr std::array<std::string_view, 4> own{"_id", "seed", "error", "traceback"};
+/// In a candidate, its answer and the table of evaluations all of these stand side by side, under their names.
+Faults clashing_names(const CustomProblem& problem, std::span<const std::string> own) {
   Faults faults;
   const auto check = [&](const std::string& place, const std::string& name) {
+    if (name.empty()) faults.push_back({place + ".\"\"", "is no name", "a name of at least one letter"});
     if (std::ranges::count(own, name) > 0)
-      faults.push_back({place + "." + name, "is a key of every candidate or answer", "another name"});
+      faults.push_back({place + "." + name, "is a key of every candidate, answer or evaluation", "another name"});
   };
   for (const Parameter& parameter : problem.parameters) check("parameters", parameter.name);
   for (const StudyReading& reading : problem.readings) {
@@ -92,7 +90,7 @@ Faults clashing_names(const CustomProblem& problem) {
 
 }  // namespace
 
-Result<CustomProblem> problem_from_json(const nlohmann::json& document) {
+Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own) {
   Faults faults;
   CustomProblem problem;
   problem.content = document.dump();
@@ -104,7 +102,7 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document) {
     problem.readings = read_readings(reader);
     read_search_options(reader, 1, problem.search);
   }
-  for (Fault& fault : clashing_names(problem)) faults.push_back(std::move(fault));
+  for (Fault& fault : clashing_names(problem, own)) faults.push_back(std::move(fault));
   if (faults.empty()) faults = validate(problem.search, static_cast<int>(problem.parameters.size()));
   if (!faults.empty()) return faults;
   return problem;

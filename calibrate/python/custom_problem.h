@@ -27,8 +27,8 @@ struct CustomProblem {
 /// Reads {"title", "parameters": {NAME: {"free", "scale", "prior"}}, "measurements": {NAME: {"value",
 /// "standard_deviation", "repeats"}}, "tolerances": {NAME: ...}, "weights": {NAME: ...}, "search"}, with the meaning
 /// that these have in laboratory and study files. A reading without a tolerance has its standard deviation as one.
-/// Errors: every fault, each with its place.
-Result<CustomProblem> problem_from_json(const nlohmann::json& document);
+/// Errors: every fault, each with its place; a name that candidates, answers or evaluations have themselves (`own`).
+Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own);
 
 /// The answers to a problem, in a store.
 class ProblemAnswers : public Answers {

@@ -51,7 +51,10 @@ std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
 void add_search(py::module_& module) {
   const py::call_guard<py::gil_scoped_release> unlocked;
   py::class_<CustomProblem, std::shared_ptr<CustomProblem>>(module, "Problem")
-      .def_static("from_json", [](const std::string& text) { return value_or_throw(problem_from_json(parsed(text))); })
+      .def_static("from_json",
+                  [](const std::string& text, const std::vector<std::string>& own_names) {
+                    return value_or_throw(problem_from_json(parsed(text), own_names));
+                  })
       .def_readonly("content", &CustomProblem::content)
       .def("description", [](const CustomProblem& problem) {
         return description_json(problem.title, problem.parameters, problem.readings, problem.search).dump();

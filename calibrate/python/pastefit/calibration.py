@@ -19,6 +19,10 @@ from .workers import WorkerDied, Workers
 
 _INTERVALS = [("parameter", object), ("recommended", float), ("lower", float), ("upper", float), ("lower_known", bool),
               ("upper_known", bool), ("bound_lower", float), ("bound_upper", float), ("uncertainty", float)]
+_BEFORE = [("number", int), ("packing", int)]  # columns of the evaluations, before and after parameters and readings
+_AFTER = [("failure", object), ("message", object), ("ended_early", bool), ("wall_s", float)]
+OWN_NAMES = ["_id", "seed", "error", "traceback", *(name for name, _ in _BEFORE + _AFTER)]
+"""Keys of candidates, answers and evaluations that no parameter or reading may have."""
 
 
 class CalibrationResult:
@@ -88,8 +92,7 @@ class CalibrationResult:
 
 def _evaluation_table(evaluations: List[Dict[str, Any]], study: Described) -> np.ndarray:
     readings = list(dict.fromkeys(name for one in evaluations for name in one["readings"]))
-    columns = [("number", int), ("packing", int), *((name, float) for name in [*study.free, *readings]),
-               ("failure", object), ("message", object), ("ended_early", bool), ("wall_s", float)]
+    columns = [*_BEFORE, *((name, float) for name in [*study.free, *readings]), *_AFTER]
     return table([{**one, **one["parameters"], **one["readings"]} for one in evaluations], columns)
 
 

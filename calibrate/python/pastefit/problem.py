@@ -4,6 +4,7 @@ import json
 from typing import Any, Dict, Mapping
 
 from . import _core
+from .calibration import OWN_NAMES
 from .documents import text_of
 from .study import Described
 
@@ -15,11 +16,11 @@ class Problem(Described):
     "measurements", each {"value", "standard_deviation", "repeats"}; and, if you like, "tolerances" (how far off a reading
     may be; without one its standard deviation), "weights" and "search", as in a study (data/schema/study.md).
 
-    Errors: `InputError` with every fault.
+    Errors: `InputError` with every fault: also a name that candidates, answers or evaluations use themselves, as "seed".
     """
 
     def __init__(self, content: Mapping[str, Any]) -> None:
-        self._problem = _core.Problem.from_json(text_of(content))
+        self._problem = _core.Problem.from_json(text_of(content), OWN_NAMES)
         self._description = json.loads(self._problem.description())
 
     @property

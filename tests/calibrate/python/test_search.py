@@ -108,12 +108,21 @@ class Problem(Desk):
         self.assertEqual(sorted(places), ["measurements.flow_time_s.standard_deviation", "measurments",
                                           "parameters.sliding.free"])
 
-    def test_names_that_a_candidate_has_itself_are_refused(self):
-        for name in ("seed", "_id", "error", "angle_deg"):
+    def test_names_that_candidates_answers_and_evaluations_have_themselves_are_refused(self):
+        search = pf.Search(pf.Problem(repose()))
+        candidate, = search.suggest(1)
+        search.stop()
+        names = {*candidate, *search.result().evaluations.dtype.names, "error", "traceback", ""}
+        self.assertLess({"seed", "packing", "wall_s"}, names)
+        for name in names - {*search.variables, *search.observables}:
             fault, = self.faults(pf.Problem, repose(parameters={name: {"free": [0, 1]}}))
-            self.assertIn(name, fault.where)
-        fault, = self.faults(pf.Problem, repose(measurements={"error": {"value": 1, "standard_deviation": 1}}, tolerances={}))
-        self.assertIn("measurements.error", fault.where)
+            self.assertIn(f"parameters.{name}", fault.where)
+            self.assertIn("name", fault.remedy)
+            measurements = {name: {"value": 1, "standard_deviation": 1}}
+            fault, = self.faults(pf.Problem, repose(measurements=measurements, tolerances={}))
+            self.assertIn(f"measurements.{name}", fault.where)
+        fault, = self.faults(pf.Problem, repose(parameters={"angle_deg": {"free": [0, 1]}}))
+        self.assertIn("angle_deg", fault.where)
 
     def test_whatever_a_store_holds_it_is_read_or_refused(self):
         problem, file = pf.Problem(repose()), self.folder / "answers.sqlite"
