@@ -1,10 +1,8 @@
 #include "calibrate/python/answers.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibrate/base/text.h"
 #include "calibrate/card/calibration_card.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/python/module.h"
@@ -13,20 +11,11 @@
 
 namespace pastefit::python {
 
-std::optional<Failure> failure_of(const EngineAnswer& answer, std::span<const std::string> readings) {
-  std::string why;
-  if (answer.error) why = answer.error->empty() ? "The simulator failed." : *answer.error;
-  for (const std::string& reading : readings) {
-    if (!why.empty()) break;
-    const double value = answer.readings.find(reading).value();
-    if (!std::isfinite(value)) why = "The simulator gave no number for " + reading + ".";
-    if (std::abs(value) > kLargestReading)
-      why = format("The simulator gave %.3g for ", value) + reading + ", which is no reading.";
-  }
-  if (why.empty()) return std::nullopt;
+std::optional<Failure> failure_of(const EngineAnswer& answer) {
+  if (!answer.error) return std::nullopt;
   Failure failure;
   failure.reason = FailureReason::engine_failed;
-  failure.message = why;
+  failure.message = *answer.error;
   return failure;
 }
 
@@ -105,7 +94,7 @@ StoredEvaluation StudyAnswers::evaluation_of(const Candidate& candidate, const E
   out.key = key_of(*study_, test, out.values, candidate.packing, store_.identity().program);
   out.point.assign(candidate.point.begin(), candidate.point.end());
   out.packing = candidate.packing;
-  out.failure = python::failure_of(answer, readings());
+  out.failure = python::failure_of(answer);
   if (!out.failure) out.readings = readings_of_test(study_->tests[test], answer.readings);
   return out;
 }

@@ -18,13 +18,12 @@ namespace pastefit::python {
 /// What somebody else's simulator answered to a candidate.
 struct EngineAnswer {
   std::size_t candidate = 0;
-  Readings readings;                 ///< under their names in the study; NaN: none
+  Readings readings;                 ///< under their names in the study, all finite
   std::optional<std::string> error;  ///< why there are none
 };
 
-/// Why an answer is a failed simulation; nothing if it has a number for each of these readings.
-/// Requirement: it has all of them, or an error.
-std::optional<Failure> failure_of(const EngineAnswer& answer, std::span<const std::string> readings);
+/// Why an answer is a failed simulation; nothing if it has its readings.
+std::optional<Failure> failure_of(const EngineAnswer& answer);
 
 /// What is asked, and every answer, kept before it is used.
 class Answers {

@@ -173,10 +173,9 @@ Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const Engine
   kept.point.assign(candidate.point.begin(), candidate.point.end());
   kept.values = default_values();
   kept.packing = candidate.packing;
-  const auto names = readings();
-  kept.failure = failure_of(answer, names);
+  kept.failure = failure_of(answer);
   if (!kept.failure)
-    for (const std::string& name : names) kept.readings.set(name, answer.readings.find(name).value());
+    for (const std::string& name : readings()) kept.readings.set(name, answer.readings.find(name).value());
   if (auto faults = store_.add(kept); !faults.empty()) return faults;
   return evaluation_of(kept);
 }

@@ -44,7 +44,7 @@ struct Stop {
 /// The document of a text that Python's json wrote.
 nlohmann::json parsed(const std::string& text);
 
-/// {"title", "parameters", "readings", "budget_simulations"}: what a study or a problem fits, and to what.
+/// {"title", "parameters", "readings", "budget_simulations", "screening"}: what a study or a problem fits, and to what.
 nlohmann::ordered_json description_json(const std::string& title, const std::vector<Parameter>& parameters,
                                         const std::vector<StudyReading>& readings, const SearchOptions& search);
 

@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -31,7 +30,7 @@ std::string candidates_json(const std::vector<Parameter>& parameters, const std:
   return out.dump();
 }
 
-/// [{"_id", "readings": {...}}, or {"_id", "error"}, ...]; null in place of a number: NaN.
+/// [{"_id", "readings": {...}}, or {"_id", "error"}, ...]
 std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
   std::vector<EngineAnswer> answers;
   for (const auto& given : document) {
@@ -39,8 +38,7 @@ std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
     answer.candidate = given.at("_id").get<std::size_t>();
     if (given.contains("error")) answer.error = given.at("error").get<std::string>();
     if (given.contains("readings"))
-      for (const auto& [name, value] : given.at("readings").items())
-        answer.readings.set(name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
+      for (const auto& [name, value] : given.at("readings").items()) answer.readings.set(name, value.get<double>());
     answers.push_back(std::move(answer));
   }
   return answers;
@@ -49,6 +47,7 @@ std::vector<EngineAnswer> answers_from(const nlohmann::json& document) {
 }  // namespace
 
 void add_search(py::module_& module) {
+  module.def("largest_reading", [] { return kLargestReading; });
   const py::call_guard<py::gil_scoped_release> unlocked;
   py::class_<CustomProblem, std::shared_ptr<CustomProblem>>(module, "Problem")
       .def_static("from_json",

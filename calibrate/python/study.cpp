@@ -49,6 +49,7 @@ ordered_json description_json(const std::string& title, const std::vector<Parame
     if (parameter.free || parameter.stated) out["parameters"].push_back(parameter_json(parameter));
   for (const StudyReading& reading : readings) out["readings"].push_back(reading_json(reading));
   out["budget_simulations"] = search.budget_simulations;
+  out["screening"] = search.screening;
   return out;
 }
 

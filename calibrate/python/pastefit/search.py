@@ -9,12 +9,12 @@ import shutil
 import tempfile
 import traceback
 import weakref
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core, progress as progress_module
-from .calibration import CalibrationResult
+from .calibration import OWN_NAMES, CalibrationResult
 from .documents import number_of, printable, text_of
-from .faults import InputError
+from .faults import InputError, whole_number_faults
 from .problem import Problem
 from .progress import Show
 from .study import Study
@@ -22,8 +22,7 @@ from .workers import WorkerDied, Workers
 
 Candidate = Dict[str, Any]
 Simulator = Callable[[Candidate], Mapping[str, float]]
-_OWN_KEYS = ("_id", "seed")
-_MOST_EQUAL_ERRORS = 3  # with which a simulator may begin
+_MOST_EXCEPTIONS = 3  # of one type, with which a simulator may begin
 
 
 class Search:
@@ -60,6 +59,7 @@ class Search:
             self._search = _core.Search.of_study(self.study._study, self.study.path, file, engine)
         self._asked: Dict[int, Candidate] = {}
         self._given_back: List[Candidate] = []  # by a run that was interrupted
+        self._beginning = _Beginning(self.study.screening)
 
     @property
     def variables(self) -> Dict[str, Tuple[float, float]]:
@@ -91,6 +91,8 @@ class Search:
         end.
         """
         count = 2**31 if num_points is None else num_points
+        if faults := whole_number_faults("num_points", count, 2**31, "a whole number, or None for all"):
+            raise InputError(faults)
         candidates, self._given_back = self._given_back[:count], self._given_back[count:]
         if candidates:
             return candidates
@@ -106,21 +108,21 @@ class Search:
         that is known already is ignored.
 
         Errors: `InputError` for every answer to what nobody asked for, or without a reading; nothing is then taken.
+        RuntimeError, once, when as many candidates as "screening" says have failed and none was answered otherwise; the
+        failures are taken.
         """
-        answers = []
-        for place, result in enumerate(results):
-            answer: Dict[str, Any] = {"_id": self._id_of(result, place), "readings": {}}
-            if result.get("error") is not None:
-                answer["error"] = printable(str(result["error"]))
-            own = {*_OWN_KEYS, *self.variables, "error"}
-            for name, value in result.items():
-                number = number_of(value)
-                if name in self.observables and number is None:
-                    answer.setdefault("error", printable(f"The simulator gave {value!r:.60} for {name}, which is no number."))
-                if name in self.observables or (name not in own and number is not None):
-                    answer["readings"][name] = number if number is not None and math.isfinite(number) else None
-            answers.append(answer)
+        answers = [self._answer_of(result, place) for place, result in enumerate(results)]
         self._search.ingest(text_of(answers))
+        self._beginning.see(answers)
+
+    def _answer_of(self, result: Mapping[str, Any], place: int) -> Dict[str, Any]:
+        answer: Dict[str, Any] = {"_id": self._id_of(result, place)}
+        error = _error_in(result, self.observables)
+        if error is not None:
+            return {**answer, "error": printable(error), "traceback": printable(str(result.get("traceback", "")))}
+        own = {"", *OWN_NAMES, *self.variables}
+        return {**answer, "readings": {name: number_of(value) for name, value in result.items()
+                                       if isinstance(name, str) and name not in own and _is_reading(number_of(value))}}
 
     def _id_of(self, result: Mapping[str, Any], place: int) -> int:
         given = result.get("_id")
@@ -150,11 +152,14 @@ class Search:
     def run(self, simulator: Simulator, *, executor: Any = None, progress: Show = None) -> CalibrationResult:
         """Has every candidate simulated, to the end.
 
-        simulator: a function that takes a candidate and returns its readings by name. An error in it is a failed
-        simulation with its message; three equal ones before any answer are a broken simulator, and raised as RuntimeError
-        with their traceback. executor: whatever has `submit` and gives futures, several simulations at a time; a
-        process pool needs a function of a module. A worker that dies is asked again; the third time it is a failed
-        simulation. progress: as `calibrate`. Ctrl-C: KeyboardInterrupt; what was answered is in the store.
+        simulator: a function that takes a candidate and returns its readings by name, or {"error": why there are none}.
+        An error in it is a failed simulation with its message, as is a reading that is missing or no number. executor:
+        whatever has `submit` and gives futures, several simulations at a time; a process pool needs a function of a
+        module. A worker that dies is asked again; the third time it is a failed simulation. progress: as `calibrate`.
+        Ctrl-C: KeyboardInterrupt; what was answered is in the store.
+
+        Errors: RuntimeError with the first messages, and nothing kept, for a broken simulator: before any answer, three
+        candidates end with an exception of the same type, or as many as "screening" says fail in whatever way.
         """
         workers = Workers(executor) if executor is not None else None
         show = progress_module.shown_by(progress)
@@ -170,51 +175,85 @@ class Search:
     def _drive(self, pool: futures.Executor, at_once: int, call: Callable[[Candidate], Dict[str, Any]],
                show: Callable[[Dict[str, Any]], None]) -> None:
         under_way: Dict[futures.Future, Candidate] = {}
-        first = _FirstErrors()
+        held: List[Dict[str, Any]] = []  # the failures with which it begins: a broken simulator leaves nothing in the store
+        beginning = _Beginning(self.study.screening)
         try:
             while True:
                 if len(under_way) < at_once:
                     under_way.update({pool.submit(call, one): one for one in self.suggest(at_once - len(under_way))})
-                if not under_way and first.kept:
-                    self.ingest(first.take())
-                    continue
-                if not under_way:
+                if not under_way and not held:
                     return
                 done = futures.wait(under_way, return_when=futures.FIRST_COMPLETED).done
-                self.ingest(first.without([one.result() for one in done]))
+                held += [self._answer_of({**dict.fromkeys(self.observables), **one.result()}, 0) for one in done]
                 for one in done:
                     del under_way[one]
+                beginning.see(held, [one["_id"] for one in under_way.values()])
+                if beginning.over or not done:  # or the search waits for them
+                    self._search.ingest(text_of(held))
+                    held = []
                 told = json.loads(self._search.progress())
                 show({**told, "budget": told["budget"] or self.study.budget_simulations})
         finally:
-            held = {answer["_id"]: dict(self._asked[answer["_id"]]) for answer in first.kept}
-            self._given_back += {**held, **{one["_id"]: one for one in under_way.values()}}.values()
+            waiting = {answer["_id"]: dict(self._asked[answer["_id"]]) for answer in held}
+            self._given_back += {**waiting, **{one["_id"]: one for one in under_way.values()}}.values()
 
 
-class _FirstErrors:
-    """The errors with which a simulator begins. They are held back until it has given another answer: a simulator that
-    cannot work at all leaves nothing in the store."""
+class _Beginning:
+    """The failures with which a simulator begins, before it has answered once.
 
-    def __init__(self) -> None:
-        self.kept: List[Dict[str, Any]] = []
-        self._over = False
+    screening: failures after which it is broken; three exceptions of one type are enough.
+    """
 
-    def take(self) -> List[Dict[str, Any]]:
-        kept, self.kept = self.kept, []
-        return kept
+    def __init__(self, screening: int) -> None:
+        self._most = max(screening, _MOST_EXCEPTIONS)
+        self._failures: Dict[int, Dict[str, Any]] = {}
+        self.over = False
 
-    def without(self, answers: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
-        """What of these and of those before is to be ingested now. Errors: RuntimeError for a broken simulator."""
-        for place, answer in enumerate(answers):
-            raised = "traceback" in answer and all(answer["error"] == one["error"] for one in self.kept)
-            if self._over or not raised:
-                self._over = True
-                return self.take() + answers[place:]
-            self.kept.append(answer)
-            if len(self.kept) == _MOST_EQUAL_ERRORS:
-                raise RuntimeError(f"The simulator failed {_MOST_EQUAL_ERRORS} times in the same way, and never answered:\n"
-                                   + answer["traceback"])
-        return []
+    def see(self, answers: Sequence[Dict[str, Any]], unanswered: Iterable[int] = ()) -> None:
+        """Judges the failures of candidates before those that are `unanswered`: failures may be quicker than readings.
+
+        Errors: RuntimeError for a broken simulator."""
+        self.over = self.over or any("error" not in one for one in answers)
+        if self.over:
+            return
+        self._failures.update({one["_id"]: one for one in answers})
+        first = min(unanswered, default=math.inf)
+        failures = [one for number, one in sorted(self._failures.items()) if number < first]
+        types = [one["error"].partition(":")[0] for one in failures if one["traceback"]]
+        if len(failures) >= self._most or any(types.count(one) >= _MOST_EXCEPTIONS for one in types):
+            self.over = True
+            raise RuntimeError(_broken(failures))
+
+
+def _broken(failures: Sequence[Dict[str, Any]]) -> str:
+    messages = list(dict.fromkeys(one["error"] for one in failures))[:_MOST_EXCEPTIONS]
+    shown = "".join(f"\n  {one:.500}" for one in messages)
+    traceback_of_first = next((one["traceback"] for one in failures if one["traceback"]), "")
+    return (f"The simulator failed {len(failures)} times and never answered. Try it on one candidate; where it cannot "
+            'simulate a part of the bounds, move them, or return {"error": why} there and raise "screening".'
+            f" Its messages:{shown}\n{traceback_of_first}").rstrip()
+
+
+def _is_reading(number: Optional[float]) -> bool:
+    return number is not None and abs(number) <= _core.largest_reading()
+
+
+def _error_in(result: Mapping[str, Any], observables: Sequence[str]) -> Optional[str]:
+    """Why an answer is a failed simulation; None if what it has of the readings are numbers."""
+    if result.get("error") is not None:
+        return str(result["error"]) or "The simulator failed."
+    for name in result:
+        if isinstance(name, str) and printable(name) != name:
+            return f"The simulator gave a reading with the name {name!r:.60}, which is no text."
+    for name, value in ((name, result[name]) for name in observables if name in result):
+        number = number_of(value)
+        if value is None or (number is not None and not math.isfinite(number)):
+            return f"The simulator gave no number for {name}."
+        if number is None:
+            return f"The simulator gave {value!r:.60} for {name}, which is no number."
+        if not _is_reading(number):
+            return f"The simulator gave {number:.3g} for {name}, which is no reading."
+    return None
 
 
 def _answer(simulator: Simulator, candidate: Candidate) -> Dict[str, Any]:

@@ -42,6 +42,11 @@ class Described:
         """Simulations that a calibration may spend in all."""
         return self._description["budget_simulations"]
 
+    @property
+    def screening(self) -> int:
+        """Candidates that are spread over the bounds to begin with."""
+        return self._description["screening"]
+
 
 class Study(Described):
     """The laboratory's tests of one material, its parameters free and fixed, and how to search for them.

@@ -8,6 +8,8 @@ import pathlib
 import os
 import random
 import sqlite3
+import threading
+import time
 
 import numpy as np
 from studies import Desk, coarse_study, height, main
@@ -170,11 +172,82 @@ class Problem(Desk):
             return {"angle_deg": undefined_name}  # noqa: F821
 
         search = pf.Search(pf.Problem(repose()), store=file, engine="drum")
-        with self.assertRaisesRegex(RuntimeError, "(?s)3 times in the same way.*undefined_name"):
+        with self.assertRaisesRegex(RuntimeError, "(?s)3 times and never answered.*Traceback.*undefined_name"):
             search.run(broken)
         self.assertEqual(len(calls), 3)
         self.assertEqual(len(rows_of(file)), 0)
         self.assertEqual(search.run(drum).status, "confirmed")
+
+    def test_a_simulator_that_never_answers_is_stopped_whatever_its_messages_say(self):
+        def varying(candidate):
+            raise FileNotFoundError(2, "no such file", f"/tmp/run-{candidate['seed']}-{candidate['_id']}/out.txt")
+
+        def alternating(candidate):
+            raise (ValueError if candidate["_id"] % 2 else KeyError)("mixed")
+
+        def giving(value):
+            return lambda _: {"angle_deg": value, "flow_time_s": value}
+
+        for number, (simulator, most, message) in enumerate((
+                (varying, 3, "(?s)run-.*run-.*run-.*Traceback"), (alternating, 5, "(?s)KeyError.*ValueError"),
+                (giving(math.nan), 8, "no number for angle_deg"), (giving(None), 8, "no number for angle_deg"),
+                (giving("31.2"), 8, "'31.2'"), (giving(1e300), 8, "1e.300"), (lambda _: {}, 8, "no number for angle_deg"),
+                (lambda _: {"error": "it flowed away"}, 8, "it flowed away"))):
+            calls, file = [], self.folder / f"answers {number}"
+            search = pf.Search(pf.Problem(repose()), store=file, engine="drum")
+            with self.assertRaisesRegex(RuntimeError, message):
+                search.run(lambda one: calls.append(1) or simulator(one))
+            self.assertEqual((len(calls), len(rows_of(file))), (most, 0), message)
+
+    def test_a_simulator_that_answers_the_last_candidate_of_the_screening_is_not_stopped(self):
+        found = pf.Search(pf.Problem(repose())).run(
+            lambda candidate: {"error": "it flowed away"} if candidate["_id"] < 7 else drum(candidate))
+        self.assertEqual(found.failures, {"engine_failed": 7})
+
+    def test_failures_that_are_quicker_than_the_first_answer_do_not_stop_the_search(self):
+        failures, enough = [], threading.Event()
+
+        def simulator(candidate):
+            if candidate["_id"] == 0:
+                enough.wait(20)
+                time.sleep(0.3)  # until the search has seen them
+            elif candidate["_id"] <= 3:
+                failures.append(1)
+                if len(failures) == 3:
+                    enough.set()
+                raise ValueError("it flowed away")
+            return drum(candidate)
+
+        with futures.ThreadPoolExecutor(4) as four:
+            found = pf.Search(pf.Problem(repose())).run(simulator, executor=four)
+        self.assertEqual(found.failures, {"engine_failed": 3})
+
+    def test_errors_alone_are_told_once_to_who_ingests_them_and_are_kept(self):
+        file = self.folder / "answers"
+        search = pf.Search(pf.Problem(repose()), store=file, engine="drum")
+        for count in range(8):
+            candidate, = search.suggest(1)
+            answer = {**candidate, "error": f"failed at {count}"}
+            if count < 7:
+                search.ingest([answer, answer])
+        with self.assertRaisesRegex(RuntimeError, "(?s)8 times.*failed at 0"):
+            search.ingest([answer])
+        self.assertEqual(len(rows_of(file)), 8)
+        candidate, = search.suggest(1)
+        search.ingest([{**candidate, "error": "failed again"}])
+
+    def test_an_answer_without_its_readings_or_with_a_key_that_is_no_text_is_a_failed_simulation(self):
+        for wrong, message in (({}, "angle_deg"), ({"angle_deg": 30}, "flow_time_s"),
+                               ({"angle_deg": 30, "flow_time_s": 4, "\ud800": 1}, "ud800")):
+            calls = []
+
+            def simulator(candidate):
+                calls.append(1)
+                return wrong if len(calls) == 3 else drum(candidate)
+
+            found = pf.Search(pf.Problem(repose()), engine="drum").run(simulator)
+            failed, = [one["message"] for one in found.evaluations if one["failure"]]
+            self.assertIn(message, failed)
 
     def test_what_is_no_number_is_a_failed_simulation_with_its_message(self):
         for value in (None, "", "18", [18], 10**400, True, "\ud800", math.nan):
@@ -334,6 +407,18 @@ class Search(Desk):
             self.assertIn(message, weak["message"][0])
             self.assertEqual(result.failures["engine_failed"], len(weak))
             self.assertTrue(result.confirmed, result.reason)
+
+    def test_what_a_simulator_gives_besides_the_readings_never_takes_the_place_of_a_column(self):
+        more = {"": 1.5, "packing": 1.5, "failure": 1.5, "number": 1.5, "wall_s": 1.5, "too_large": 1e300, "width_mm": 2.5}
+        result = self.search().run(lambda candidate: {**height(candidate), **more, ("no", "text"): 1.5})
+        self.assertEqual(result.evaluations.dtype.names, ("number", "packing", "strength_pa", "step1.height_mm", "width_mm",
+                                                          "failure", "message", "ended_early", "wall_s"))
+        self.assertEqual(result.parameters, self.search().run(height).parameters)
+
+    def test_a_number_of_points_is_a_whole_number(self):
+        for wrong in (-1, 1.5, True, "2"):
+            fault, = self.faults(self.search().suggest, wrong)
+            self.assertEqual(fault.where, "num_points")
 
     def test_a_search_goes_on_where_its_store_ends(self):
         store, asked = self.folder / "search.sqlite", []
