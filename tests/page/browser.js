@@ -91,3 +91,27 @@ export async function pixels(page) {
     return { colours: colours.size, drawn: 1 - ground / (data.length / 4), sum };
   });
 }
+
+/**
+ * What the program wrote into a page.
+ * @param {OpenedPage} page
+ * @returns {Promise<import("../../calibrate/report/page/source/content.js").CardContent>}
+ */
+export async function contentOf(page) {
+  return JSON.parse((await page.locator("#content").textContent()) ?? "");
+}
+
+/**
+ * Takes WebGL from a page that is not opened yet.
+ * @param {Page} page
+ */
+export const withoutWebGL = (page) =>
+  page.addInitScript(() => {
+    const contextOf = HTMLCanvasElement.prototype.getContext;
+    Object.assign(HTMLCanvasElement.prototype, {
+      /** @param {string} kind */
+      getContext(kind) {
+        return kind.startsWith("webgl") ? null : Reflect.apply(contextOf, this, arguments);
+      },
+    });
+  });

@@ -8,7 +8,7 @@ import assert from "node:assert/strict";
 import { copyFileSync, existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { drawn, filmIsThere, openBrowser, openPage, pixels } from "./browser.js";
+import { contentOf, drawn, filmIsThere, openBrowser, openPage, pixels, withoutWebGL } from "./browser.js";
 import { words } from "../../calibrate/report/page/source/names.js";
 import { drawTest, grow, processorSeconds, shareHidden } from "./grown.js";
 
@@ -27,14 +27,6 @@ let browser;
 /** @type {OpenedPage} */
 let page;
 
-/**
- * @param {OpenedPage} of
- * @returns {Promise<import("../../calibrate/report/page/source/content.js").CardContent>}
- */
-async function contentOf(of) {
-  return JSON.parse((await of.locator("#content").textContent()) ?? "");
-}
-
 before(async () => {
   browser = await openBrowser();
   page = await openPage(browser, file);
@@ -50,6 +42,14 @@ test("the page loads without a fault, and asks nothing of a network", async () =
     [page.own],
   );
   assert.equal(await page.locator(".notice").filter({ hasText: "could not be drawn" }).count(), 0);
+});
+
+test("without WebGL the page says so in place of the film, and shows the rest", async () => {
+  const other = await openPage(browser, file, {}, withoutWebGL);
+  await other.locator(".notice").filter({ hasText: "The film cannot be shown here" }).waitFor();
+  assert.equal(await other.locator("canvas.stage").count(), 0);
+  assert.ok((await other.locator(".readings tbody tr").count()) > 0);
+  await other.context().close();
 });
 
 test("a request that somebody puts into the page is refused", async () => {
