@@ -41,6 +41,11 @@ ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& a
 
 }  // namespace
 
+double ReadingPrediction::width_left() const {
+  const double between = sample_of(of_materials).standard_deviation;
+  return between > 0 ? of_test / std::hypot(of_test, between) : 1;
+}
+
 Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& asked,
                            std::span<const Measurement> measured, int count, int threads, const CheckEngine& engine) {
   std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
@@ -62,6 +67,7 @@ Result<Prediction> predict(const Card& card, std::span<const std::vector<double>
     if ((!kind.advised && !one) || column_of(standing.front(), std::string(kind.name)).empty()) continue;
     ReadingPrediction reading = reading_of(std::string(kind.name), standing);
     if (one) reading.measured = *one;
+    reading.of_test = std::max(kind.published_deviation, reading.of_heap);
     out.readings.push_back(std::move(reading));
   }
   return out;

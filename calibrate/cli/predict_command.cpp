@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
@@ -33,17 +34,19 @@ struct OtherTest {
   std::vector<Measurement> measured;
 };
 
-Result<OtherTest> other_test(const PredictOptions& options, const Card& card) {
-  if (!options.lab.empty()) {
-    auto lab = read_lab(options.lab);
-    if (!lab.ok()) return lab.faults();
-    return OtherTest{std::move(lab.value().test), std::move(lab.value().measurements)};
-  }
-  auto preset = find_preset(options.preset, ".");
+Result<OtherTest> test_of_preset(const std::string& name, const Card& card) {
+  auto preset = find_preset(name, ".");
   if (!preset.ok()) return preset.faults();
   OtherTest out{std::move(preset.value().test), {}};
   specimen_of(out.test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
   return out;
+}
+
+Result<OtherTest> other_test(const PredictOptions& options, const Card& card) {
+  if (options.lab.empty()) return test_of_preset(options.preset, card);
+  auto lab = read_lab(options.lab);
+  if (!lab.ok()) return lab.faults();
+  return OtherTest{std::move(lab.value().test), std::move(lab.value().measurements)};
 }
 
 std::string prediction_table(const Prediction& found, std::size_t materials) {
@@ -81,44 +84,130 @@ nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t mate
   return out;
 }
 
-int predict_other(const PredictOptions& options) {
-  if (options.lab.empty() == options.preset.empty())
-    return report({{"--lab, --preset", "name the test to predict", "give one of them"}});
-  const auto findings = read_findings(options.folder, kStore);
-  if (!findings.ok()) return report(findings.faults());
-  if (!findings.value().card || !findings.value().inference)
-    return report({{options.folder,
-                    "does not say which materials fit: " + (findings.value().missing.empty()
-                                                                ? std::string("there is no inference")
-                                                                : one_line(findings.value().missing.front())),
-                    "the folder of a calibration that ended with a material"}});
-  const Card& card = *findings.value().card;
-  const auto other = other_test(options, card);
-  if (!other.ok()) return report(other.faults());
+/// A reading of a preset that a laboratory could take next.
+struct NextReading {
+  std::string preset;
+  ReadingPrediction reading;
+};
+
+struct NextTests {
+  std::vector<NextReading> readings;                          ///< what tells the materials apart best first
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< presets, and why they were not predicted
+};
+
+constexpr double worth_taking = 0.7;  // width left above which a reading is not worth a test
+
+std::string next_table(const NextTests& next) {
+  std::string out = format("%-18s %-26s %17s %11s\n", "Measure next", "reading", "materials", "width left");
+  bool any = false;
+  for (const auto& [preset, one] : next.readings) {
+    if (one.width_left() > worth_taking) continue;
+    const auto [least, most] = std::ranges::minmax(one.of_materials);
+    out += format("%-18s %-26s %17s %9.0f %%\n", preset.c_str(), one.name.c_str(),
+                  (plain(least, 3) + " to " + plain(most, 3)).c_str(), 100 * one.width_left());
+    any = true;
+  }
+  if (!any) out = "No test of a preset tells the materials apart that fit: what is open of them does not show there.\n";
+  for (const auto& [preset, why] : next.left_out) out += "Not predicted: " + preset + ", " + why + ".\n";
+  return out;
+}
+
+nlohmann::ordered_json next_json(const NextTests& next) {
+  nlohmann::ordered_json out{{"readings", nlohmann::ordered_json::array()},
+                             {"left_out", nlohmann::ordered_json::object()}};
+  for (const auto& [preset, one] : next.readings)
+    out["readings"].push_back({{"preset", preset},
+                               {"reading", one.name},
+                               {"of_materials", one.of_materials},
+                               {"standard_deviation_of_test", one.of_test},
+                               {"width_left", one.width_left()}});
+  for (const auto& [preset, why] : next.left_out) out["left_out"][preset] = why;
+  return out;
+}
+
+/// A calibration and the materials that fit its readings.
+struct Family {
+  Card card;
   std::vector<std::vector<double>> materials;
-  for (const EquivalentMaterial& one : findings.value().inference->family)
-    materials.push_back(
-        values_at(*findings.value().study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
-  const int simulations = options.packings * static_cast<int>(materials.size());
-  const Test test = with_material_of(card, other.value().test);
-  if (const auto faults = validate(test); !faults.empty()) return report(faults);
-  if (const auto faults = validate_memory(test, options.threads); !faults.empty()) return report(faults);
-  if (const auto faults =
-          long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
-                          options.threads, options.force, "fewer --packings");
-      !faults.empty())
-    return report(faults);
-  WorkLine line("simulations", simulations);
-  const auto found = predict(card, materials, other.value().test, other.value().measured, options.packings,
-                             options.threads, counted(CheckEngine::ours(), line));
+
+  int simulations(const PredictOptions& options) const { return options.packings * static_cast<int>(materials.size()); }
+};
+
+Result<Family> family_of(const std::string& folder) {
+  const auto findings = read_findings(folder, kStore);
+  if (!findings.ok()) return findings.faults();
+  const auto& [missing, card, study, inference] =
+      std::tie(findings.value().missing, findings.value().card, findings.value().study, findings.value().inference);
+  if (!card || !inference)
+    return Fault{folder,
+                 "does not say which materials fit: " +
+                     (missing.empty() ? std::string("there is no inference") : one_line(missing.front())),
+                 "the folder of a calibration that ended with a material"};
+  Family family{*card, {}};
+  for (const EquivalentMaterial& one : inference->family)
+    family.materials.push_back(values_at(*study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
+  return family;
+}
+
+/// Why a test cannot be predicted, or takes too long.
+Faults unpredictable(const Family& family, const Test& other, const PredictOptions& options, int tests = 1) {
+  const Test test = with_material_of(family.card, other);
+  if (auto faults = validate(test); !faults.empty()) return faults;
+  if (auto faults = validate_memory(test, options.threads); !faults.empty()) return faults;
+  const int simulations = tests * family.simulations(options);
+  return long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
+                         options.threads, options.force, "fewer --packings");
+}
+
+/// What each preset would leave, and which of its readings tell the materials apart.
+int predict_presets(const Family& family, const PredictOptions& options) {
+  NextTests next;
+  std::vector<std::pair<std::string, Test>> tests;
+  for (const std::string& name : preset_names(".")) {
+    const auto other = test_of_preset(name, family.card);
+    if (!other.ok()) return report(other.faults());
+    if (const auto faults = validate(with_material_of(family.card, other.value().test)); !faults.empty())
+      next.left_out.emplace_back(name, faults.front().where + " " + faults.front().what);
+    else
+      tests.emplace_back(name, other.value().test);
+  }
+  const int count = static_cast<int>(tests.size());
+  for (const auto& [name, test] : tests)
+    if (const auto faults = unpredictable(family, test, options, count); !faults.empty()) return report(faults);
+  WorkLine line("simulations", count * family.simulations(options));
+  const CheckEngine engine = counted(CheckEngine::ours(), line);
+  for (const auto& [name, test] : tests) {
+    const auto found = predict(family.card, family.materials, test, {}, options.packings, options.threads, engine);
+    if (!found.ok()) next.left_out.emplace_back(name, found.faults().front().what);
+    if (!found.ok()) continue;
+    for (const ReadingPrediction& one : found.value().readings) next.readings.push_back({name, one});
+  }
+  line.clear();
+  std::ranges::stable_sort(next.readings, {}, [](const NextReading& one) { return one.reading.width_left(); });
+  print("%s", options.json ? json_text(next_json(next)).c_str() : wrapped(next_table(next)).c_str());
+  return kDone;
+}
+
+int predict_other(const PredictOptions& options) {
+  const auto found_family = family_of(options.folder);
+  if (!found_family.ok()) return report(found_family.faults());
+  const Family& family = found_family.value();
+  if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
+  const auto other = other_test(options, family.card);
+  if (!other.ok()) return report(other.faults());
+  if (const auto faults = unpredictable(family, other.value().test, options); !faults.empty()) return report(faults);
+  WorkLine line("simulations", family.simulations(options));
+  const auto found = predict(family.card, family.materials, other.value().test, other.value().measured,
+                             options.packings, options.threads, counted(CheckEngine::ours(), line));
   line.clear();
   if (!found.ok()) return report(found.faults(), kFailed);
+  const std::size_t materials = family.materials.size();
   if (options.json) {
-    print("%s", json_text(prediction_json(found.value(), materials.size())).c_str());
+    print("%s", json_text(prediction_json(found.value(), materials)).c_str());
   } else {
-    const std::string open = unconfirmed_line(card);
+    const std::string open = unconfirmed_line(family.card);
     print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(),
-          prediction_table(found.value(), materials.size()).c_str());
+          prediction_table(found.value(), materials).c_str());
   }
   return std::ranges::all_of(found.value().readings, &ReadingPrediction::is_within) ? kDone : kFailed;
 }
@@ -131,7 +220,9 @@ Command add_predict(CLI::App& verb) {
   auto* lab =
       verb.add_option("--lab", options->lab, "laboratory file of the test to predict; what it measured is compared")
           ->type_name("LAB");
-  verb.add_option("--preset", options->preset, "preset of the test to predict, e.g. hinged-plate")
+  verb.add_option("--preset", options->preset,
+                  "preset of the test to predict, e.g. hinged-plate; without it and --lab all of them, to see what to "
+                  "measure next")
       ->type_name("PRESET")
       ->excludes(lab);
   verb.add_option("--packings", options->packings, "heaps of each material")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -65,24 +66,33 @@ void describe_customary(Fields& reading, CustomaryReading& one, const Range& ran
 
 constexpr std::array not_simulated{"readings", "caution"};  // keys of apparatus files
 
-std::optional<Apparatus> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {
-  Faults& faults = apparatus.faults();
-  std::set<std::string, std::less<>> known;
+/// The files of presets by their names, of those of one name the first.
+std::map<std::string, fs::path> preset_files(const fs::path& folder) {
+  std::map<std::string, fs::path> files;
   for (const fs::path& candidate : apparatus_folders(folder)) {
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(candidate, error)) {
-      if (entry.path().extension() != ".json") continue;
-      if (entry.path().stem() == name) {
-        Result<Apparatus> found = read_apparatus_file(entry.path().lexically_normal());
-        if (found) return std::move(found).value();
-        faults.insert(faults.end(), found.faults().begin(), found.faults().end());
-        return std::nullopt;
-      }
-      known.insert(entry.path().stem().string());
-    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(candidate, error))
+      if (entry.path().extension() == ".json")
+        files.emplace(entry.path().stem().string(), entry.path().lexically_normal());
   }
+  return files;
+}
+
+std::optional<Apparatus> read_preset(const std::string& name, const fs::path& folder, ObjectReader& apparatus) {
+  const auto files = preset_files(folder);
+  if (const auto file = files.find(name); file != files.end()) {
+    Result<Apparatus> found = read_apparatus_file(file->second);
+    if (found) return std::move(found).value();
+    Faults& faults = apparatus.faults();
+    faults.insert(faults.end(), found.faults().begin(), found.faults().end());
+    return std::nullopt;
+  }
+  std::set<std::string, std::less<>> known;
   std::string list;
-  for (const std::string& word : known) list += (list.empty() ? "" : ", ") + word;
+  for (const auto& [word, file] : files) {
+    known.insert(word);
+    list += (list.empty() ? "" : ", ") + word;
+  }
   const std::optional<std::string> near = nearest(name, known);
   apparatus.fault("preset", "there is no preset " + json(name).dump(),
                   (near ? "did you mean \"" + *near + "\"? Presets: " : "presets: ") +
@@ -117,6 +127,12 @@ std::size_t readings_taken(const Test& test) {
 
 std::string caution_of(const Apparatus& preset, const Test& test) {
   return readings_taken(test) > readings_taken(preset.test) ? "" : preset.caution;
+}
+
+std::vector<std::string> preset_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : preset_files(folder)) names.push_back(name);
+  return names;
 }
 
 Result<Apparatus> find_preset(const std::string& name, const fs::path& folder) {

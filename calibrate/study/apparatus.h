@@ -43,6 +43,9 @@ std::string note_on_preset(const Apparatus& preset);
 /// The preset's caution, unless the test takes readings that the preset's own apparatus does not.
 std::string caution_of(const Apparatus& preset, const Test& test);
 
+/// Names of the presets that a file in `folder` may name.
+std::vector<std::string> preset_names(const std::filesystem::path& folder);
+
 /// The preset of this name, as a file in `folder` would name it. Error: there is none, or it is faulty.
 Result<Apparatus> find_preset(const std::string& name, const std::filesystem::path& folder);
 

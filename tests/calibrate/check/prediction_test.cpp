@@ -53,6 +53,13 @@ TEST_CASE("a predicted band reaches from the lowest to the highest material, wid
   CHECK(height.lower == Approx(110 - scatter).epsilon(1e-6));
   CHECK(height.upper == Approx(130 + scatter).epsilon(1e-6));
   CHECK(height.is_within());
+  // Of a normal distribution with the variance of both means, 200, after one test of a deviation of 7.5 mm, as
+  // published.
+  CHECK(height.of_test == Approx(7.5));
+  CHECK(height.width_left() == Approx(7.5 / std::sqrt(7.5 * 7.5 + 200)));
+  ReadingPrediction same;
+  same.of_materials = {3, 3};
+  CHECK(same.width_left() == 1);
   CHECK_FALSE(predicted(130 + 1.01 * scatter).is_within());
   CHECK_FALSE(predicted(110 - 1.01 * scatter).is_within());
 }

@@ -145,29 +145,6 @@ class CommandLine(Desk):
         self.assertIn(run("calibrate", study, "--quiet").returncode, (0, 1))
         self.assertTrue((study.with_suffix("") / "card.json").exists())
 
-    def test_the_materials_that_fit_predict_another_test_and_are_held_against_what_was_measured_there(self):
-        self.assertIn(run("calibrate", self.study(budget=16), "--out", self.out, "--quiet").returncode, (0, 1))
-        said = run("predict", self.out, "--preset", "hinged-plate", "--packings", "2", "--json", "--quiet")
-        self.assertEqual(said.returncode, 0, said.stderr)
-        found = json.loads(said.stdout)
-        self.assertEqual(found["heaps"], 2 * found["materials"])
-        self.assertEqual(found["level"], 0.9)
-        self.assertIn("step2.height_mm", found["readings"])
-        for name, row in found["readings"].items():
-            with self.subTest(name):
-                self.assertEqual(len(row["of_materials"]), found["materials"])
-                self.assertAlmostEqual(row["mean"], sum(row["of_materials"]) / found["materials"])
-                self.assertLessEqual(row["lower"], min(row["of_materials"]))
-                self.assertGreaterEqual(row["upper"], max(row["of_materials"]))
-        self.assertNotIn("step1.slump_mm", found["readings"])  # the height in another form
-        result = run("predict", self.out, "--lab", self.folder / "lab.json", "--packings", "2", "--quiet")
-        self.assertEqual(result.returncode, 1 if "x: measured outside" in result.stdout else 0, result.stdout + result.stderr)
-        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
-        self.assertRegex(result.stdout, r"step1.height_mm .* 150\b")
-        self.fails(run("predict", self.out), 2, "--lab, --preset", "give one of them")
-        self.fails(run("predict", self.folder, "--preset", "hinged-plate"), 2, "neither card.json nor evaluations.sqlite")
-        self.fails(run("predict", self.out, "--preset", "abram"), 2, "did you mean", "abrams")
-
     def test_calibrate_writes_a_card_that_simulate_reads_and_resume_repeats(self):
         result = self.calibrates(self.study(), "--threads", TWO)
         self.assertEqual(sorted(os.listdir(self.out)), ["card.json", "evaluations.sqlite", "report.html", "summary.txt", "views.json"])

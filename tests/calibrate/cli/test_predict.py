@@ -1,0 +1,53 @@
+"""`pastefit predict`: what the materials that fit a calibration leave in another test, and which test to measure next.
+
+usage: test_predict.py PROGRAM SOURCE_DIR [unittest options]
+"""
+
+import json
+import sys
+import unittest
+
+from desk import Desk, run
+
+
+class Predict(Desk):
+    def setUp(self):
+        super().setUp()
+        self.assertIn(run("calibrate", self.study(budget=16), "--out", self.out, "--quiet").returncode, (0, 1))
+
+    def test_the_materials_that_fit_predict_another_test_and_are_held_against_what_was_measured_there(self):
+        said = run("predict", self.out, "--preset", "hinged-plate", "--packings", "2", "--json", "--quiet")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        found = json.loads(said.stdout)
+        self.assertEqual(found["heaps"], 2 * found["materials"])
+        self.assertEqual(found["level"], 0.9)
+        self.assertIn("step2.height_mm", found["readings"])
+        for name, row in found["readings"].items():
+            with self.subTest(name):
+                self.assertEqual(len(row["of_materials"]), found["materials"])
+                self.assertAlmostEqual(row["mean"], sum(row["of_materials"]) / found["materials"])
+                self.assertLessEqual(row["lower"], min(row["of_materials"]))
+                self.assertGreaterEqual(row["upper"], max(row["of_materials"]))
+        self.assertNotIn("step1.slump_mm", found["readings"])  # the height in another form
+        result = run("predict", self.out, "--lab", self.folder / "lab.json", "--packings", "2", "--quiet")
+        self.assertEqual(result.returncode, 1 if "x: measured outside" in result.stdout else 0, result.stdout + result.stderr)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
+        self.assertRegex(result.stdout, r"step1.height_mm .* 150\b")
+        self.fails(run("predict", self.folder, "--preset", "hinged-plate"), 2, "neither card.json nor evaluations.sqlite")
+        self.fails(run("predict", self.out, "--preset", "abram"), 2, "did you mean", "abrams")
+
+    def test_without_a_test_the_readings_of_the_presets_are_ranked_by_what_they_would_tell(self):
+        said = run("predict", self.out, "--packings", "2", "--json", "--quiet")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        found = json.loads(said.stdout)
+        left = [one["width_left"] for one in found["readings"]]
+        self.assertEqual(left, sorted(left))
+        self.assertTrue(all(0 < one <= 1 for one in left))
+        presets = {one["preset"] for one in found["readings"]}
+        self.assertLessEqual({"abrams", "hinged-plate", "haegermann-table"}, presets | set(found["left_out"]))
+        self.assertIn("mini-cone", found["left_out"])  # its mould is three grains wide
+        self.assertIn("the mould is only", found["left_out"]["mini-cone"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
