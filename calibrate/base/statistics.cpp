@@ -15,8 +15,9 @@ double quantile(double freedom, double false_alarm) {
   return boost::math::quantile(boost::math::complement(distribution, false_alarm / 2));
 }
 
-double rounding(const Sample& first, const Sample& second) {
-  return 1e-9 * std::max({std::abs(first.mean), std::abs(second.mean), 1e-3});
+/// By how much the sums of two equal means may differ.
+double rounding(double first, double second) {
+  return 1e-9 * std::max(std::min(std::abs(first), std::abs(second)), 1e-3);
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ double band_of(const Sample& first, const Sample& second, double false_alarm) {
   const double squares = (n - 1) * first.standard_deviation * first.standard_deviation +
                          (m - 1) * second.standard_deviation * second.standard_deviation;
   const double band = quantile(freedom, false_alarm) * std::sqrt(squares / freedom * (1 / n + 1 / m));
-  return std::max(band, rounding(first, second));
+  return band > rounding(first.mean, second.mean) ? band : 0;
 }
 
 double typical_variance(std::vector<WeighedSquare> squares) {
@@ -74,7 +75,12 @@ double unequal_band_of(const Sample& first, const Sample& second, double false_a
   };
   const double variance = square(first) + square(second), shares = share(first) + share(second);
   const double freedom = shares > 0 ? variance * variance / shares : 1e6;
-  return std::max(quantile(freedom, false_alarm) * std::sqrt(variance), rounding(first, second));
+  const double band = quantile(freedom, false_alarm) * std::sqrt(variance);
+  return band > rounding(first.mean, second.mean) ? band : 0;
+}
+
+bool lie_within(double band, double first, double second) {
+  return std::abs(first - second) <= (band > 0 ? band : rounding(first, second));
 }
 
 }  // namespace pastefit

@@ -19,13 +19,17 @@ Sample sample_of(std::span<const double> values);
 ///     t(1 - false_alarm/2; n + m - 2) s sqrt(1/n + 1/m),   s^2 = ((n-1) s_1^2 + (m-1) s_2^2)/(n + m - 2),
 /// the two-sided t-interval for a difference of means with pooled variance (Student). Readings of the same packing are
 /// positively correlated, if at all, which makes false alarms rarer.
-/// Two samples without any scatter may differ by the rounding of sums only: 1e-9 of their size.
+/// 0: neither sample has any scatter but the rounding of sums.
 /// Requirement: n + m >= 3, n, m >= 1.
 double band_of(const Sample& first, const Sample& second, double false_alarm);
 
 /// The same for samples of different populations whose scatter need not be equal (Welch): here the simulation and the
 /// laboratory. The deviation of a sample of one reading counts as known.
 double unequal_band_of(const Sample& first, const Sample& second, double false_alarm);
+
+/// Whether two means lie no farther apart than their band; where it is 0, than the rounding of sums: 1e-9 of their
+/// size.
+bool lie_within(double band, double first, double second);
 
 struct WeighedSquare {
   double square = 0, weight = 1;

@@ -1,7 +1,6 @@
 #include "calibrate/card/calibration_card.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/statistics.h"
@@ -73,8 +72,7 @@ void judge(CardTest& test) {
     const Sample measured{reading->repeats, *reading->measured, reading->standard_deviation};
     const Sample simulated{reading->packings, reading->simulated, reading->simulated_standard_deviation};
     reading->band = unequal_band_of(measured, simulated, share);
-    const bool within = std::abs(reading->simulated - *reading->measured) <= *reading->band;
-    test.within_noise = *test.within_noise && within;
+    test.within_noise = *test.within_noise && lie_within(*reading->band, reading->simulated, *reading->measured);
   }
 }
 

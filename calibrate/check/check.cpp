@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -58,10 +57,9 @@ std::vector<CheckedReading> check_law(const Material& material, const CheckEngin
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const auto name = "pull" + std::to_string(i) + "_n";
     const auto got = outcome.readings.find(name);
-    readings.push_back({format("law.attraction_n at %.2f of the reach", shares[i]),
-                        attraction_n(material.contact, pair, -pull.pull_gaps_m[i]),
-                        got && !outcome.failure ? *got : std::numeric_limits<double>::infinity(), 1e-6 * at_touch, 1,
-                        1});
+    readings.push_back(
+        {format("law.attraction_n at %.2f d_c", shares[i]), attraction_n(material.contact, pair, -pull.pull_gaps_m[i]),
+         got && !outcome.failure ? *got : std::numeric_limits<double>::infinity(), 1e-6 * at_touch, 1, 1});
   }
   return readings;
 }
@@ -120,23 +118,11 @@ void keep_quick(std::vector<std::uint64_t>& packings) {
   if (std::ssize(packings) > kQuickPackings) packings.erase(packings.begin() + kQuickPackings, packings.end());
 }
 
-/// Runs as a baseline; the first failure instead, if there is one.
-std::optional<std::string> keep_runs(const std::vector<std::uint64_t>& packings, const std::vector<Outcome>& outcomes,
-                                     Baseline& baseline) {
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (const auto& failure = outcomes[i].failure)
-      return "Packing " + std::to_string(packings[i]) + " failed (" + std::string(name_of(failure->reason)) + " in " +
-             failure->phase + "): " + failure->message;
-    baseline.runs.push_back({packings[i], outcomes[i].readings});
-  }
-  return std::nullopt;
-}
-
-SameBits compare_bits(const Baseline& before, const Baseline& now) {
-  if (before.runs.empty()) return SameBits::not_comparable;
-  for (std::size_t i = 0; i < now.runs.size(); ++i)
-    for (const auto& [name, value] : before.runs[i].readings.all()) {
-      const auto again = now.runs[i].readings.find(name);
+SameBits compare_bits(const std::vector<Baseline::Run>& before, const std::vector<Baseline::Run>& now) {
+  if (before.empty()) return SameBits::not_comparable;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    for (const auto& [name, value] : before[i].readings.all()) {
+      const auto again = now[i].readings.find(name);
       if (!again || std::bit_cast<std::uint64_t>(*again) != std::bit_cast<std::uint64_t>(value)) return SameBits::other;
     }
   return SameBits::same;
@@ -149,17 +135,6 @@ SameBits all_of(const std::vector<SameBits>& bits) {
   return SameBits::same;
 }
 
-/// Simulates a test of the card in these packings; the first failure instead, if there is one.
-std::optional<std::string> run_test(const CardTest& test, const std::vector<std::uint64_t>& packings,
-                                    const CheckOptions& options, const CheckEngine& engine, int& simulations,
-                                    Baseline& now) {
-  const auto outcomes = run_packings(test.test, packings, engine, options.threads);
-  simulations += static_cast<int>(outcomes.size());
-  auto failure = keep_runs(packings, outcomes, now);
-  if (failure) *failure = heading_of(test) + *failure;
-  return failure;
-}
-
 /// The surface of this name in a test of the card; nothing if none has it.
 std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
   for (const CardTest& of_card : card.tests) {
@@ -168,6 +143,12 @@ std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
       if (surface.name == name) return surface.contact;
   }
   return std::nullopt;
+}
+
+CardCheck failed(CardCheck out, const std::string& reason) {
+  out.reason = reason;
+  out.verdict = CheckVerdict::disagrees;
+  return out;
 }
 
 void judge(CardCheck& out, const CheckOptions& options) {
@@ -204,7 +185,7 @@ std::string_view name_of(SameBits bits) {
 }
 
 bool CheckedReading::agrees() const {
-  return std::abs(got - expected) <= band;
+  return lie_within(band, got, expected);
 }
 
 Test with_material_of(const Card& card, Test test) {
@@ -258,23 +239,17 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
   for (const auto& test : card.tests) {
     auto packings = packings_of(card, test);
     if (options.quick) keep_quick(packings);
-    Baseline now;
-    if (auto failure = run_test(test, packings, options, engine, out.simulations, now)) {
-      out.reason = *failure;
-      out.verdict = CheckVerdict::disagrees;
-      return out;
-    }
+    const auto now = baseline_runs(test.test, heading_of(test), packings, engine, options.threads);
+    out.simulations += static_cast<int>(packings.size());
+    if (!now.ok()) return failed(std::move(out), message_of(now.faults()));
     for (const auto& [name, before] : promises_of(test)) {
-      const auto again = sample_of(column_of(now.runs, name));
-      if (again.count == 0) {
-        out.reason = "The engine does not give the reading " + reading_name(test, name) + ".";
-        out.verdict = CheckVerdict::disagrees;
-        return out;
-      }
+      const auto again = sample_of(column_of(now.value(), name));
+      if (again.count == 0)
+        return failed(std::move(out), "The engine does not give the reading " + reading_name(test, name) + ".");
       out.readings.push_back({reading_name(test, name), before.mean, again.mean, band_of(before, again, share),
                               before.count, again.count});
     }
-    bits.push_back(compare_bits(test.baseline, now));
+    bits.push_back(compare_bits(test.baseline.runs, now.value()));
   }
   for (auto& reading : check_law(card.material, engine)) out.readings.push_back(std::move(reading));
   out.bits = all_of(bits);
@@ -294,15 +269,10 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
   auto packings = packings_of(card);
   if (packings.size() < 2) packings = {specimen_of(test).packing_seed, specimen_of(test).packing_seed + 1};
   if (options.quick) keep_quick(packings);
-  const auto outcomes = run_packings(test, packings, engine, options.threads);
-  out.simulations = static_cast<int>(outcomes.size());
-  Baseline now;
-  if (auto failure = keep_runs(packings, outcomes, now)) {
-    out.reason = *failure;
-    out.verdict = CheckVerdict::disagrees;
-    return out;
-  }
-  const auto runs = accepted(test, now.runs);
+  const auto now = baseline_runs(test, "", packings, engine, options.threads);
+  out.simulations = static_cast<int>(packings.size());
+  if (!now.ok()) return failed(std::move(out), message_of(now.faults()));
+  const auto runs = accepted(test, now.value());
   const double share = options.false_alarm / static_cast<double>(lab.measurements.size());
   for (const auto& measurement : lab.measurements) {
     const auto read = sample_of(column_of(runs, measurement.reading));
@@ -328,13 +298,12 @@ Result<Card> rebaselined(Card card, const std::string& why, int count, const Che
   }
   Rebaseline change{why, program_of(card), engine.program, {}};
   for (CardTest& test : card.tests) {
-    Baseline now{engine.program, engine.machine, {}};
-    int simulations = 0;
-    if (auto failure = run_test(test, packings, options, engine, simulations, now))
-      return Fault{card.title, "has no new baseline: " + *failure, "calibrate the material again"};
+    auto now = baseline_runs(test.test, heading_of(test), packings, engine, options.threads);
+    if (!now.ok())
+      return Fault{card.title, "has no new baseline: " + message_of(now.faults()), "calibrate the material again"};
     for (const auto& [name, before] : promises_of(test))
-      change.moved.push_back({reading_name(test, name), before.mean, sample_of(column_of(now.runs, name)).mean});
-    test.baseline = std::move(now);
+      change.moved.push_back({reading_name(test, name), before.mean, sample_of(column_of(now.value(), name)).mean});
+    test.baseline = {engine.program, engine.machine, std::move(now).value()};
   }
   card.rebaselined.push_back(std::move(change));
   return card;

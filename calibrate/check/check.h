@@ -46,9 +46,9 @@ std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
 
 /// One comparison.
 struct CheckedReading {
-  std::string name;  ///< a reading, with the name of its test if it has one, or "law.attraction_n" at some gap
+  std::string name;  ///< a reading, with the name of its test if it has one, or "law.attraction_n at 0.25 d_c"
   double expected = 0, got = 0;  ///< means
-  double band = 0;               ///< |got - expected| must not exceed it
+  double band = 0;               ///< |got - expected| must not exceed it; 0: a reading without noise
   int expected_count = 0, got_count = 0;
   bool agrees() const;
 };

@@ -15,16 +15,23 @@ auto count_of(const std::vector<CheckedFile>& checked, CheckVerdict verdict) {
   return std::ranges::count_if(checked, [&](const auto& one) { return one.check.verdict == verdict; });
 }
 
+/// A line of the table; of a test with a long name the numbers stand on the next.
+std::string table_row(const CheckedReading& reading) {
+  const std::string below = reading.name.size() > 34 ? "\n" + std::string(36, ' ') : "";
+  const std::string band = reading.band > 0 ? format("%.3g", reading.band) : "none";
+  return format("%s %-34s%s %10.5g %10.5g %+10.3g %8s\n", reading.agrees() ? " " : "x", reading.name.c_str(),
+                below.c_str(), reading.expected, reading.got, reading.got - reading.expected, band.c_str());
+}
+
 }  // namespace
 
 std::string text_of(const CheckedFile& checked) {
   const auto& check = checked.check;
   std::string out = checked.file.string() + ": " + one_line(check.card) + "\n";
   if (!check.readings.empty())
-    out += format("  %-26s %10s %10s %10s %10s\n", "reading", "card", "now", "difference", "band");
-  for (const auto& reading : check.readings)
-    out += format("  %-26s %10.6g %10.6g %+10.3g %10.3g%s\n", reading.name.c_str(), reading.expected, reading.got,
-                  reading.got - reading.expected, reading.band, reading.agrees() ? "" : " outside");
+    out += format("  %-34s %10s %10s %10s %8s\n", "reading", "card", "now", "difference", "band");
+  for (const auto& reading : check.readings) out += table_row(reading);
+  if (!std::ranges::all_of(check.readings, &CheckedReading::agrees)) out += "  x: outside the band\n";
   if (check.simulations > 0)
     out += format("  %d simulations; bits: %s; false alarm rate %g over all readings of the card\n", check.simulations,
                   std::string(name_of(check.bits)).c_str(), check.false_alarm);

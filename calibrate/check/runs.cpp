@@ -7,6 +7,8 @@
 
 namespace pastefit {
 
+namespace {
+
 std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
                                   const CheckEngine& engine, int threads) {
   std::vector<Outcome> outcomes(packings.size());
@@ -24,6 +26,8 @@ std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint6
   return outcomes;
 }
 
+}  // namespace
+
 Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
                                                  const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
                                                  int threads) {
@@ -32,7 +36,8 @@ Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::st
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (const auto& failure = outcomes[i].failure)
       return Fault{heading + "packing " + std::to_string(packings[i]),
-                   "failed: " + std::string(name_of(failure->reason)), failure->message};
+                   "failed (" + std::string(name_of(failure->reason)) + " in " + failure->phase + ")",
+                   failure->message};
     runs.push_back({packings[i], outcomes[i].readings});
   }
   return runs;

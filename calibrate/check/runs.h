@@ -7,11 +7,8 @@
 
 namespace pastefit {
 
-/// Runs `test` in each packing; in parallel, answers in order.
-std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
-                                  const CheckEngine& engine, int threads);
-
-/// The same as runs of a baseline. `heading`: what a fault begins with (`heading_of`). Error: a simulation fails.
+/// Runs `test` in each packing; in parallel, answers in order. `heading`: what a fault begins with (`heading_of`).
+/// Error: a simulation fails.
 Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
                                                  const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
                                                  int threads);

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "calibrate/base/statistics.h"
@@ -55,8 +56,13 @@ TEST_CASE("readings that are all the same have no deviation, however many they a
 
 TEST_CASE("readings without scatter may differ by rounding only") {
   const Sample fixed{4, 12.5, 0};
-  CHECK(band_of(fixed, {4, 12.5 + 1e-10, 0}, 1e-3) > 1e-10);
-  CHECK(band_of(fixed, {4, 12.5, 0}, 1e-3) < 1e-6);
+  CHECK(band_of(fixed, {4, 12.5, 0}, 1e-3) == 0);
+  CHECK(band_of(fixed, {4, 12.5, 1e-15}, 1e-3) == 0);
+  CHECK(unequal_band_of(fixed, {4, 12.5, 0}, 1e-3) == 0);
+  CHECK(lie_within(0, 12.5, 12.5 + 1e-10));
+  CHECK_FALSE(lie_within(0, 12.5, 12.5 + 1e-7));
+  CHECK_FALSE(lie_within(0, 12.5, std::numeric_limits<double>::infinity()));
+  CHECK(lie_within(2, 12.5, 14));
 }
 
 TEST_CASE("an interval of a share holds the truth in 95 of 100 samples or more, whatever the share") {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
@@ -252,7 +254,7 @@ TEST_CASE("a simulation that fails is a disagreement that names packing and reas
   });
   const auto checked = check(card, {}, engine);
   CHECK(checked.verdict == CheckVerdict::disagrees);
-  CHECK_THAT(checked.reason, Catch::Contains("Packing 11") && Catch::Contains("It burst."));
+  CHECK_THAT(checked.reason, Catch::Contains("packing 11") && Catch::Contains("It burst."));
 }
 
 TEST_CASE("a new baseline keeps the packings, adds fresh ones, and records why and what moved") {
@@ -344,6 +346,39 @@ TEST_CASE("a card for other grains is judged as in a search: by its readings, an
   CHECK_FALSE(judged(62, 0).refuted);
 }
 
+TEST_CASE("a reading has one line of 80 columns, whatever card and whether it agrees") {
+  const std::string source = PASTEFIT_SOURCE_DIR;
+  std::vector<std::filesystem::path> files{source + "/tests/calibrate/card/several_tests.json"};
+  for (const auto& entry : std::filesystem::directory_iterator(source + "/data/cards"))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  REQUIRE(files.size() >= 4);
+  for (const auto& file : files)
+    for (const double off : {0.0, 100.0}) {
+      const Card card = read_card(file).value();
+      CheckEngine engine = quick_engine("here", {});
+      engine.run = of_slump([&](const SlumpTest& test, const RunOptions&) {
+        Outcome outcome;
+        for (const auto& run : card.tests[0].baseline.runs)
+          if (run.packing == test.packing_seed)
+            for (const auto& [name, value] : run.readings.all()) outcome.readings.set(name, value + off);
+        return outcome;
+      });
+      const CardCheck answer = check(card, {.quick = true}, engine);
+      REQUIRE(answer.readings.size() > 6);
+      std::istringstream text(text_of({file, answer}));
+      std::string line;
+      while (std::getline(text, line) && !line.starts_with("  reading ")) continue;
+      CHECK(line.size() <= 80);
+      for (const CheckedReading& reading : answer.readings) {
+        std::getline(text, line);
+        INFO(line);
+        CHECK(line.substr(2).starts_with(reading.name + " "));
+        CHECK(line.size() <= 80);
+        CHECK(line.ends_with(reading.band > 0 ? format("%.3g", reading.band) : " none"));
+      }
+    }
+}
+
 TEST_CASE("the answers are text, JSON and JUnit, with what a card is called escaped") {
   CardCheck good, bad, unread;
   good.card = "good";
@@ -353,7 +388,7 @@ TEST_CASE("the answers are text, JSON and JUnit, with what a card is called esca
   bad.reason = "3 < 5 & \"so\"";
   bad.readings = {{"step1.height_axis_mm", 100, 120, 5, 4, 4}};
   unread.reason = "there is no such file";
-  const std::vector<CheckedFile> all{{"a.json", good}, {"b<.json", bad}, {"c.json", unread}};
+  const std::vector<CheckedFile> all{{"a.json", good, 1.5}, {"b<.json", bad, 0.25}, {"c.json", unread}};
   const auto json = to_json(all);
   CHECK(json["agree"] == 1);
   CHECK(json["disagree"] == 1);
@@ -362,5 +397,6 @@ TEST_CASE("the answers are text, JSON and JUnit, with what a card is called esca
   const auto xml = junit_of(all);
   CHECK_THAT(xml, Catch::Contains("tests=\"3\" failures=\"1\" errors=\"1\"") && Catch::Contains("b&lt;.json") &&
                       Catch::Contains("3 &lt; 5 &amp; &quot;so&quot;") && Catch::Contains("<error"));
+  CHECK_THAT(xml, Catch::Contains("\"pastefit check\" time=\"1.750\"") && Catch::Contains("a.json\" time=\"1.500\""));
   CHECK_THAT(text_of(all[1]), Catch::Contains("outside") && Catch::Contains("disagrees"));
 }
