@@ -33,6 +33,16 @@ std::string heading_of(const CardTest& test) {
   return test.name.empty() ? "" : "Test " + test.name + ": ";
 }
 
+std::string packings_in_words(const Card& card, const CardTest& test) {
+  const auto packings = static_cast<int>(card.confirmation.packings.size());
+  int accepted = packings;
+  for (const CardReading& one : test.readings) accepted = std::min(accepted, one.packings);
+  if (packings <= 1) return packings == 1 ? "one packing, error unknown" : "";
+  const std::string of =
+      (accepted < packings ? format("%d of ", accepted) : "") + format("the card's %d packings", packings);
+  return accepted == 1 ? of + ", error unknown" : "mean +- standard deviation of " + of;
+}
+
 ErrorUnit error_unit_of(const Card& card) {
   std::vector<std::pair<std::string_view, double>> fitted;
   for (const auto& test : card.tests) {

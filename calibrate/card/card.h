@@ -81,6 +81,11 @@ std::string reading_name(const CardTest& test, std::string_view reading);
 /// "Test slow: ", for people; nothing if the test has no name.
 std::string heading_of(const CardTest& test);
 
+/// What the simulated readings of a test are: "mean +- standard deviation of the card's 8 packings", or "of 3 of the
+/// card's 8 packings" where a laboratory would not accept the other heaps, or "one packing, error unknown"; empty
+/// if the card has none.
+std::string packings_in_words(const Card& card, const CardTest& test);
+
 /// How well the calibrated material was confirmed.
 struct Confirmation {
   std::vector<std::uint64_t> packings;  ///< seeds of the packings that the simulated readings are means over

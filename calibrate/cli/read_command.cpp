@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -34,9 +33,10 @@ struct HeapReading {
   std::string name;
   double read = 0;
   const CardReading* of_card = nullptr;  ///< null: the card does not have it
-  std::optional<double> band;            ///< of |read - simulated| by the noise of packings; none: it is unknown
+  std::optional<double> band;            ///< of |read - simulated| by the noise of packings; nothing: it is unknown
 
-  bool agrees() const { return !band || std::abs(read - of_card->simulated) <= *band; }
+  bool is_compared() const { return band.has_value(); }
+  bool differs() const { return band && !lie_within(*band, read, of_card->simulated); }
 };
 
 std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& test) {
@@ -55,11 +55,12 @@ std::vector<HeapReading> beside_card(const Readings& readings, const CardTest& t
   return out;
 }
 
-std::string reading_table(const std::vector<HeapReading>& readings, std::size_t packings) {
+std::string reading_table(const std::vector<HeapReading>& readings, const std::string& packings) {
   std::string out = format("%-27s %10s %17s %17s %10s %8s\n", "Reading", "dump", "card +- scatter", "laboratory +- sd",
                            "difference", "noise");
-  for (const auto& [name, read, card, band] : readings) {
-    out += format("%-27s %10.5g", name.c_str(), read);
+  for (const HeapReading& one : readings) {
+    const CardReading* const card = one.of_card;
+    out += format("%-27s %10.5g", one.name.c_str(), one.read);
     if (!card) {
       out += format(" %17s\n", "not on the card");
       continue;
@@ -68,25 +69,20 @@ std::string reading_table(const std::vector<HeapReading>& readings, std::size_t 
     out += format(" %17s", (format("%.5g", card->simulated) + scatter).c_str());
     out += format(" %17s", card->measured ? format("%.5g +- %.2g", *card->measured, card->standard_deviation).c_str()
                                           : "not measured");
-    out += format(" %+10.3g %8s", read - card->simulated, band ? format("%.3g", *band).c_str() : "unknown");
-    out += band && std::abs(read - card->simulated) > *band ? "  differs\n" : "\n";
+    const std::string noise = !one.band ? "unknown" : *one.band > 0 ? format("%.3g", *one.band) : "none";
+    out += format(" %+10.3g %8s", one.read - card->simulated, noise.c_str()) + (one.differs() ? "  differs\n" : "\n");
   }
-  std::size_t accepted = packings;
-  for (const HeapReading& one : readings)
-    if (one.of_card) accepted = std::min(accepted, static_cast<std::size_t>(one.of_card->packings));
-  if (packings == 1) return out + "Card: one packing, error unknown.\n";
-  if (packings < 1) return out;
-  const std::string of =
-      accepted < packings ? format("%zu of the card's %zu", accepted, packings) : format("the card's %zu", packings);
-  return out + format(
-                   "Scatter: standard deviation over %s packings. Noise: a heap of the\n"
-                   "card's material in another packing differs by less 95 times in 100.\n",
-                   of.c_str());
+  if (!packings.empty()) out += "Card: " + packings + ".\n";
+  if (std::ranges::any_of(readings, &HeapReading::is_compared))
+    out += "Noise: in 95 of 100 packings of the card's material a heap differs by less.\n";
+  return out;
 }
 
-nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings, bool agrees) {
+/// `status`: that of the command; without anything to compare with, "agrees" is null.
+nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings, int status) {
   nlohmann::ordered_json out{
-      {"packings", packings}, {"agrees", agrees}, {"readings", nlohmann::ordered_json::object()}};
+      {"packings", packings}, {"agrees", status == kDone}, {"readings", nlohmann::ordered_json::object()}};
+  if (status == kBadInput) out["agrees"] = nullptr;
   for (const HeapReading& one : readings) {
     nlohmann::ordered_json& row = out["readings"][one.name];
     row["read"] = one.read;
@@ -98,8 +94,9 @@ nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::si
       row["standard_deviation"] = one.of_card->standard_deviation;
     }
     row["difference"] = one.read - one.of_card->simulated;
-    if (one.band) row["noise"] = *one.band;
-    row["agrees"] = one.agrees();
+    if (!one.band) continue;
+    row["noise"] = *one.band;
+    row["agrees"] = !one.differs();
   }
   return out;
 }
@@ -135,19 +132,19 @@ int read_heap_of(const ReadOptions& options) {
   const std::size_t packings = card.value().confirmation.packings.size();
   const auto readings = beside_card(read.value(), test.value());
   const bool rejected = is_rejected(test.value().test, read.value());
-  const bool agrees = !rejected && std::ranges::all_of(readings, &HeapReading::agrees);
+  const bool differs = rejected || std::ranges::any_of(readings, &HeapReading::differs);
+  const int status = differs ? kFailed : std::ranges::any_of(readings, &HeapReading::is_compared) ? kDone : kBadInput;
   if (options.json) {
-    print("%s", json_text(json_of(readings, packings, agrees)).c_str());
+    print("%s", json_text(json_of(readings, packings, status)).c_str());
   } else {
-    print("%s", reading_table(readings, packings).c_str());
-    const bool compared = std::ranges::any_of(readings, [](const HeapReading& one) { return one.band.has_value(); });
+    print("%s", reading_table(readings, packings_in_words(card.value(), test.value())).c_str());
     if (rejected) print("%s.\n", remarks_on(test.value().test, {&read.value(), 1}).c_str());
-    print(rejected    ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
-          : !compared ? "The card has no readings of three packings or more to compare with.\n"
-          : agrees    ? "The heap agrees with the card.\n"
-                      : "The heap differs from the card's by more than the noise.\n");
+    print(rejected              ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
+          : differs             ? "The heap differs from the card's by more than the noise.\n"
+          : status == kBadInput ? "Not compared: the card has no readings of three packings or more.\n"
+                                : "The heap agrees with the card.\n");
   }
-  return agrees ? kDone : kFailed;
+  return status;
 }
 
 }  // namespace

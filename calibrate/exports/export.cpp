@@ -157,12 +157,9 @@ std::string choice_text(const Card& card, const CardTest& chosen) {
 std::string comparison_text(const ExportRequest& request, const Card& card, const CardTest& test,
                             const std::string& heap, bool other_law) {
   std::string out;
-  const auto packings = card.confirmation.packings.size();
-  if (packings >= 1 && !test.readings.empty()) {
+  if (const auto packings = packings_in_words(card, test); !packings.empty() && !test.readings.empty()) {
     const std::string heap_of = other_law ? "The card's heap, which this law does not leave" : "The heap to expect";
-    out += packings == 1
-               ? "\n" + heap_of + " (one packing, error unknown):\n"
-               : "\n" + heap_of + format(" (mean +- standard deviation of the card's %zu packings):\n", packings);
+    out += "\n" + heap_of + " (" + packings + "):\n";
     for (const CardReading& reading : test.readings)
       out += format("    %-28s %10.5g", reading.name.c_str(), reading.simulated) +
              (reading.packings == 1 ? "\n" : format(" +- %.2g\n", reading.simulated_standard_deviation));

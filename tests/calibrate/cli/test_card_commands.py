@@ -4,8 +4,10 @@ usage: test_card_commands.py PROGRAM SOURCE_DIR [unittest options]
 """
 
 import json
+import pathlib
 import re
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
@@ -95,19 +97,42 @@ class CardCommands(Desk):
         self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
         self.assertFalse((self.folder / "x").exists())
 
+    def filled(self, card):
+        """The grains of the card's mould: x, y, z, radius."""
+        deck = pathlib.Path(tempfile.mkdtemp(dir=self.folder)) / "deck"
+        result = run("export", card, "--to", "csv", "--out", deck, "--unconfirmed")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = (deck / "grains.csv").read_text().splitlines()
+        return [[float(number) for number in row.split(",")] for row in rows if not row.startswith(("#", "x_m"))]
+
+    def dump(self, name, rows, scale=1):
+        lines = [f"{i} {' '.join(str(scale * number) for number in row)}\n" for i, row in enumerate(rows, 1)]
+        (self.folder / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" + "".join(lines))
+        return self.folder / name
+
+    def test_the_card_of_few_accepted_heaps_says_of_how_many_its_readings_are(self):
+        for packings in (3, 2):
+            card = self.sheared(packings)
+            words = f"mean +- standard deviation of {packings} of the card's 8 packings"
+            for target, of in (("lammps", "The heap to expect"), ("liggghts", "The card's heap, which this law does not leave")):
+                out = self.folder / f"{target}{packings}"
+                result = run("export", card, "--to", target, "--out", out, "--unconfirmed")
+                for text in (result.stdout, (out / "NOTES.txt").read_text()):
+                    self.assertIn(f"{of} ({words}):", text)
+        heap = self.dump("filled.dump", self.filled(card))  # as high as the mould
+        result = run("read", heap, "--card", card)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertIn(f"Card: {words}.\nNot compared: the card has no readings of three packings or more.", result.stdout)
+        self.assertRegex(result.stdout, r"step1.height_mm .* unknown\n")
+        answer = json.loads(run("read", heap, "--card", card, "--json").stdout)
+        self.assertIsNone(answer["agrees"])
+        self.assertNotIn("agrees", answer["readings"]["step1.height_mm"])
+
     def test_the_heap_of_a_deck_is_read_beside_the_card(self):
-        out = self.folder / "deck"
-        self.assertEqual(run("export", CARD, "--to", "csv", "--out", out).returncode, 0)
-        rows = [row.split(",") for row in (out / "grains.csv").read_text().split()[1:]]
-
-        def dump(name, rows):
-            lines = [f"{i} {' '.join(row)}\n" for i, row in enumerate(rows, 1)]
-            (out / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" + "".join(lines))
-            return out / name
-
-        standing = dump("heap.dump", rows)
+        rows = self.filled(CARD)
+        standing = self.dump("heap.dump", rows)
         self.fails(run("read", standing, "--card", CARD), 2, "filled.dump", "--filled")
-        dump("filled.dump", rows)
+        self.dump("filled.dump", rows)
         self.fails(run("read", standing, "--card", coarse_card()), 2, "grains, that of the card")  # another card's
         result = run("read", standing, "--card", CARD, "--json")
         self.assertEqual(result.returncode, 1, result.stderr)  # it did not slump
@@ -122,9 +147,9 @@ class CardCommands(Desk):
         text = run("read", standing, "--card", CARD).stdout
         self.assertIn("differs", text)
         self.assertLessEqual(max(map(len, text.splitlines())), 110)
-        bad = dump("bad.dump", [["nan", *rows[0][1:]], *rows[1:]])
+        bad = self.dump("bad.dump", [[float("nan"), *rows[0][1:]], *rows[1:]])
         self.fails(run("read", bad, "--card", self.folder / "none.json"), 2, "bad.dump line 4", "none.json")
-        self.fails(run("read", dump("short.dump", rows[1:]), "--card", CARD), 2, "grains")
+        self.fails(run("read", self.dump("short.dump", rows[1:]), "--card", CARD), 2, "grains")
 
     def test_of_several_tests_the_one_that_is_named_is_exported_and_simulated(self):
         first, named = self.folder / "first", self.folder / "named"
@@ -152,10 +177,12 @@ class CardCommands(Desk):
             self.fails(run("simulate", card, "--set", f"{place}=-1"), 2, place, "-1")
             self.fails(run("simulate", card, "--set", "tests[9].test.lift_velocity_m_s=1"), 2, "does not lead to a place")
 
-    def sheared(self):
-        """A card whose readings are met by heaps of which five of eight sheared off."""
+    def sheared(self, packings=3):
+        """A card whose readings are met by heaps of which five of eight sheared off, or more."""
         card = json.loads((SOURCE / "data/cards/concrete-mix-20.json").read_text())
         card["confirmation"]["rejected_share"] = 0.2
+        for reading in card["tests"][0]["readings"].values():
+            reading["packings"] = packings
         file = self.folder / "sheared.json"
         file.write_text(json.dumps(card))
         return file
@@ -213,16 +240,11 @@ class CardCommands(Desk):
 
     def test_a_card_of_one_packing_shows_that_its_error_is_unknown_wherever_it_is_shown(self):
         self.calibrates(self.study())  # which confirms on one packing
-        card, deck = self.out / "card.json", self.folder / "deck"
-        self.assertEqual(run("export", "--unconfirmed", card, "--to", "csv", "--out", deck).returncode, 0)
-        rows = [row.replace(",", " ") for row in (deck / "grains.csv").read_text().splitlines()
-                if not row.startswith(("#", "x_m"))]
-        for name in ("heap.dump", "filled.dump"):
-            (deck / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" +
-                                     "".join(f"{i} {row}\n" for i, row in enumerate(rows, 1)))
+        card = self.out / "card.json"
+        filled = self.dump("filled.dump", self.filled(card))
         page = (self.out / "report.html").read_text().split('id="content">')[1].split("</script>")[0]
         for text in ((self.out / "summary.txt").read_text(), run("show", card).stdout, run("simulate", card).stdout, page,
-                     run("read", deck / "heap.dump", "--card", card).stdout):
+                     run("read", filled, "--card", card).stdout):
             self.assertIn("ne packing, error unknown", text)
             self.assertNotRegex(text, r"\+- ?0\b(?!\.)")
         self.assertNotIn("standard_error", json.loads(card.read_text())["tests"][0]["readings"]["step1.height_mm"])
@@ -234,6 +256,7 @@ class CardCommands(Desk):
         answer = json.loads(result.stdout)["cards"][0]
         self.assertEqual((answer["verdict"], answer["bits"]), ("agrees", "same"))
         self.assertEqual(xml.parse(report).getroot().get("failures"), "0")
+        self.assertGreater(float(xml.parse(report).find("testcase").get("time")), 0)
 
         changed = json.loads(card.read_text())
         baseline = changed["tests"][0]["baseline"]
