@@ -167,31 +167,23 @@ Result<Particles> read_dump(const std::filesystem::path& file) {
 
 namespace {
 
-double mean_radius_m(const Particles& grains) {
-  double sum = 0;
-  for (std::int32_t i = 0; i < grains.count(); ++i) sum += grains.motion[i].radius;
-  return sum / std::max(grains.count(), 1);
-}
-
-/// Grains of another size or unit than the card's, and heaps that do not lie on the table.
-Faults misplaced(const Particles& filled, std::span<const Particles> heaps, const Packing& packing) {
+/// Grains of another size or unit than the card's, or a dump of grains that do not lie on the table.
+Faults misplaced(const std::string& dump, const Particles& grains, const Packing& packing) {
   constexpr double size_room = 0.05, height_room = 2;  // of the mean radius
-  Faults faults;
-  double expected_m = 0;
+  double expected_m = 0, radius_m = 0, lowest_m = 1e300;
   for (const double radius : packing.radii) expected_m += radius / static_cast<double>(packing.radii.size());
-  const double factor = mean_radius_m(filled) / expected_m;
-  if (std::abs(factor - 1) > size_room)
-    faults.push_back({"the grains of the dump", "are " + shown(factor) + " times as large as the card's",
-                      "dumps in metres, of a deck that was exported from this card"});
-  for (const Particles& heap : heaps) {
-    double lowest = 1e300;
-    for (std::int32_t i = 0; i < heap.count(); ++i)
-      lowest = std::min(lowest, heap.motion[i].position.z - heap.motion[i].radius);
-    if (faults.empty() && lowest > height_room * expected_m)
-      faults.push_back({"the heap", "begins " + shown(1e3 * lowest) + " mm above the table",
-                        "z upwards from the table, in metres, without grains that have fallen off"});
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    radius_m += grains.motion[i].radius / grains.count();
+    lowest_m = std::min(lowest_m, grains.motion[i].position.z - grains.motion[i].radius);
   }
-  return faults;
+  const double factor = radius_m / expected_m;
+  if (std::abs(factor - 1) > size_room)
+    return {{dump, "has grains about " + plain(factor, 2) + " times as large as the card's",
+             "a dump in metres, of a deck that was exported from this card"}};
+  if (lowest_m > height_room * expected_m)
+    return {{dump, "begins " + shown(1e3 * lowest_m) + " mm above the table",
+             "z upwards from the table, in metres, without grains that have fallen off"}};
+  return {};
 }
 
 }  // namespace
@@ -216,7 +208,11 @@ Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packi
   if (!packing->failure && std::abs(count - expected) > 0.1 * expected)
     faults.push_back({"the filled mould", "holds " + shown(count) + " grains, that of the card " + shown(expected),
                       "give the card from which the deck was exported"});
-  if (faults.empty()) faults = misplaced(filled, heaps, *packing);
+  if (!faults.empty()) return faults;
+  faults = misplaced("the filled mould", filled, *packing);
+  for (std::size_t step = 0; step < heaps.size(); ++step)
+    for (Fault& fault : misplaced("the heap of step " + std::to_string(step + 1), heaps[step], *packing))
+      faults.push_back(std::move(fault));
   if (!faults.empty()) return faults;
   const Ruler ruler(exported, packing->roughness_m, filled);
   Readings readings;

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
-from desk import coarse_card, SOURCE, Desk, run
+from desk import CARD as SHIPPED, coarse_card, SOURCE, Desk, run
 
 CARD = SOURCE / "tests/calibrate/card/card.json"
 SEVERAL = CARD.with_name("several_tests.json")
@@ -109,6 +109,31 @@ class CardCommands(Desk):
         lines = [f"{i} {' '.join(str(scale * number) for number in row)}\n" for i, row in enumerate(rows, 1)]
         (self.folder / name).write_text(f"ITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: ATOMS id x y z radius\n" + "".join(lines))
         return self.folder / name
+
+    def test_a_heap_is_accepted_rejected_or_refused(self):
+        filled = self.filled(SHIPPED)
+        self.dump("filled.dump", filled)
+        # the mould pressed flat to a heap of the card's height and width
+        heap = [[(1.58 + 1.3 * z) * x + 0.05 * z, (1.58 + 1.3 * z) * y, r + 0.45 * (z - r), r] for x, y, z, r in filled]
+
+        def read(rows, scale=1, *options):
+            return run("read", self.dump("heap.dump", rows, scale), "--card", SHIPPED, *options)
+
+        result = read(heap)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("The heap agrees with the card.", result.stdout)
+        self.assertRegex(result.stdout, r"spilled_share .* none\n")  # it does not vary
+        self.assertEqual(json.loads(read(heap, 1, "--json").stdout)["readings"]["step1.spilled_share"]["noise"], 0)
+        result = read([[x + 0.2 * z, *rest, z, r] for x, *rest, z, r in heap])
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("the heap sheared off", result.stdout)
+        self.assertIn("It is not the card's heap", result.stdout)
+        self.fails(read([[*at, 1.5 * r] for *at, r in heap]), 2, "1 error", "the heap of step 1", "about 1.5 times")
+        self.fails(read(heap, 100), 2, "1 error", "the heap of step 1", "about 99 times")
+        self.fails(read([[x, y, z + 1, r] for x, y, z, r in heap]), 2, "the heap of step 1", "mm above the table")
+        self.dump("filled.dump", filled, 100)
+        self.fails(read(heap, 100), 2, "the filled mould", "the heap of step 1", "about 99 times")
+        self.fails(read(heap), 2, "1 error", "the filled mould", "about 99 times")
 
     def test_the_card_of_few_accepted_heaps_says_of_how_many_its_readings_are(self):
         for packings in (3, 2):
