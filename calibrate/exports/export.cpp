@@ -139,6 +139,8 @@ const std::string kStyleFolder = "style/";  // sources of LAMMPS: the same for e
 std::string marked(const ExportFile& file, const std::string& line) {
   if (file.name.ends_with(".txt")) return line + "\n\n" + file.content;
   const std::string comment = deck_comment(line);
+  if (file.name.ends_with(".stl"))  // "solid NAME" is what its reader expects
+    return std::string(file.content).insert(file.content.find('\n'), "; " + comment.substr(2, comment.size() - 3));
   if (file.name.ends_with(".data")) return comment.substr(0, comment.size() - 1) + "; " + file.content;
   return comment + file.content;
 }
@@ -208,10 +210,8 @@ Faults unconfirmed_faults(const Card& card, bool accepted) {
 void mark_unconfirmed(const Card& card, Export& written) {
   const std::string line = one_line(unconfirmed_line(card));
   if (line.empty()) return;
-  for (ExportFile& file : written.files) {
-    const bool mesh = file.name.ends_with(".stl");
-    if (!mesh && !file.name.starts_with(kStyleFolder)) file.content = marked(file, line);
-  }
+  for (ExportFile& file : written.files)
+    if (!file.name.starts_with(kStyleFolder)) file.content = marked(file, line);
 }
 
 }  // namespace

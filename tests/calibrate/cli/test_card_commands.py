@@ -225,7 +225,7 @@ class CardCommands(Desk):
             self.assertFalse(out.exists())
             result = run("export", coarse, "--to", target, "--out", out, "--unconfirmed")
             self.assertEqual(result.returncode, 0, result.stderr)
-            files = [file for file in out.glob("*") if file.is_file() and file.suffix != ".stl"]
+            files = [file for file in out.glob("*") if file.is_file()]
             self.assertGreater(len(files), 1)
             for file in files:
                 with self.subTest(file=file.name):
