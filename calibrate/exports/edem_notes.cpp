@@ -11,14 +11,9 @@ namespace pastefit {
 
 namespace {
 
-double shear_modulus_pa(double youngs_modulus, double poissons_ratio) {
-  return youngs_modulus / (2 * (1 + poissons_ratio));
-}
-
 std::string grains_in_edem(const ContactModel& contact) {
   return format("shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g,\n   static friction %.6g",
-                1e-6 * shear_modulus_pa(contact.youngs_modulus_pa, contact.poissons_ratio), contact.poissons_ratio,
-                contact.restitution, contact.friction);
+                1e-6 * shear_modulus_pa(contact), contact.poissons_ratio, contact.restitution, contact.friction);
 }
 
 std::string rolling_in_edem(const ContactModel& contact) {
@@ -38,8 +33,8 @@ std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
     out += format(
         "   %s: shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g, static friction %.6g,\n"
         "   rolling friction %.6g, surface energy %.6g J/m2\n",
-        name.c_str(), 1e-6 * shear_modulus_pa(wall.youngs_modulus_pa, wall.poissons_ratio), wall.poissons_ratio,
-        wall.restitution, wall.friction, wall.rolling_friction, wall.cohesion_factor * surface_energy);
+        name.c_str(), 1e-6 * shear_modulus_pa(wall), wall.poissons_ratio, wall.restitution, wall.friction,
+        wall.rolling_friction, wall.cohesion_factor * surface_energy);
   return out;
 }
 

@@ -91,10 +91,10 @@ std::string drop_deck(const DropPlate& drop) {
 
 double deck_time_step_s(const ExportScene& scene) {
   const auto& contact = scene.contact();
-  const double shear = contact.youngs_modulus_pa / (2 * (1 + contact.poissons_ratio));
   double smallest = std::ranges::min(scene.sizes.radii_m);
   if (!scene.slump() && scene.grains().distribution != SizeDistribution::mono) smallest = scene.grains().smallest_m;
-  const double rayleigh = std::numbers::pi * smallest * std::sqrt(scene.grain_density_kg_m3 / shear) /
+  const double rayleigh = std::numbers::pi * smallest *
+                          std::sqrt(scene.grain_density_kg_m3 / shear_modulus_pa(contact)) /
                           (0.1631 * contact.poissons_ratio + 0.8766);
   const double mass = 4.0 / 3 * std::numbers::pi * std::pow(smallest, 3) * scene.grain_density_kg_m3;
   const PairConstants pair = grain_pair(contact, scene.radius_m());

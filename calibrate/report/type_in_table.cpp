@@ -14,10 +14,6 @@ namespace {
 
 constexpr double mega = 1e-6, milli = 1e3;
 
-double shear_modulus(double youngs_modulus, double poissons_ratio) {
-  return youngs_modulus / (2 * (1 + poissons_ratio));
-}
-
 std::string name_for_people(NormalLaw law) {
   switch (law) {
     case NormalLaw::hertz:
@@ -53,8 +49,7 @@ TypeInGroup grains_to_type(const Material& material) {
     group.rows.push_back({"density of a grain", *material.grain_density_kg_m3, "kg/m3",
                           "for a bulk of " + typed(material.bulk_density_kg_m3) + " kg/m3"});
   group.rows.push_back({"Young's modulus", mega * contact.youngs_modulus_pa, "MPa", ""});
-  group.rows.push_back(
-      {"shear modulus", mega * shear_modulus(contact.youngs_modulus_pa, contact.poissons_ratio), "MPa", ""});
+  group.rows.push_back({"shear modulus", mega * shear_modulus_pa(contact), "MPa", ""});
   group.rows.push_back({"Poisson's ratio", contact.poissons_ratio, "", ""});
   return group;
 }
@@ -134,6 +129,17 @@ TypeInGroup attraction_of(const Material& material) {
   return group;
 }
 
+/// Of every pair of surfaces, each with its restitution e.
+std::string damping_lines(NormalLaw law) {
+  const std::string contact_radius = law == NormalLaw::jkr      ? "a the contact radius"
+                                     : law == NormalLaw::luding ? "a = 2/3 R*"
+                                                                : "a = sqrt(R* d)";
+  return "  Damping of each pair: force 2 sqrt(5/6) beta sqrt(S m*) times the speed\n"
+         "    beta = -ln e/sqrt(ln^2 e + pi^2), e the restitution of the pair\n"
+         "    S = 2 E* a normal and 8 G* a tangential, " +
+         contact_radius + "\n";
+}
+
 }  // namespace
 
 std::string typed(double value) {
@@ -173,7 +179,7 @@ std::string type_in_lines(const Card& card) {
       out += remark + "\n";
     }
   }
-  return out;
+  return out + damping_lines(card.material.contact.normal);
 }
 
 }  // namespace pastefit

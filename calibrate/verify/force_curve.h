@@ -16,6 +16,11 @@ struct GrainPair {
   double size_scale() const { return 2 * effective_radius_m() / reference_radius_m; }
 };
 
+/// Of the grains or of a wall: E/(2 (1 + nu)).
+double shear_modulus_pa(const auto& surface) {
+  return surface.youngs_modulus_pa / (2 * (1 + surface.poissons_ratio));
+}
+
 /// Attraction of a bridge between two reference grains at overlap -rupture gap <= d <= 0 [N], in closed form:
 /// polynomial a d^2 + b d + c; linear c (1 + d/|d_c|); exponential c exp(3 d/|d_c|); capillary as Willett et al. 2000.
 /// The formulas stand here apart from the engine's, so that `check` and `verify` hold the engine against them; a shape

@@ -228,6 +228,25 @@ TEST_CASE("the notes for EDEM give numbers: shear modulus, and the surface energ
   CHECK(sticking_of(jkr, 0.5 * kRadius).at_touch_n == Approx(attraction_n(material.contact, kPair, 0)).epsilon(1e-4));
 }
 
+TEST_CASE("the notes for EDEM name its rolling model, and everything that its dialogues and a plug-in ask for") {
+  SlumpTest material = slump_of_paste();
+  material.grains = {SizeDistribution::uniform, kRadius, 0, 0.006, 0.01};
+  material.contact.rolling_friction = 0.2;
+  material.contact.friction_basis = FrictionBasis::elastic;
+  const auto notes = [&](RollingModel model) {
+    material.contact.rolling = model;
+    return text_of(export_edem_notes(scene(material)).value());
+  };
+  CHECK_THAT(notes(RollingModel::constant_torque), Catch::Contains("rolling model \"RVD\""));
+  const std::string text = notes(RollingModel::spring_dashpot);
+  for (const char* words :
+       {"rolling model \"Type C\"", "Not \"Standard Rolling Friction\"", "lever R* = r1 r2/(r1 + r2)",
+        "\n  formation_gap_m ", "lever over effective radius", "friction of the elastic normal force", "s = 2 R*/R",
+        "scaled by s for other pairs of sizes", "\n  smallest_radius_m                       0.006",
+        "\n  largest_radius_m                         0.01"})
+    CHECK_THAT(text, Catch::Contains(words));
+}
+
 TEST_CASE("liquid and surface energy become parameters by the formulas of the manual") {
   const double tension = 0.072, volume = 2e-9, root = std::cbrt(volume);
   SlumpTest material = slump_of_paste();

@@ -84,8 +84,19 @@ TEST_CASE("numbers have the digits that a person types") {
 }
 
 TEST_CASE("a terminal of 80 columns holds every line of what is typed in") {
-  std::string lines = type_in_lines(shipped("concrete-mix-79"));
-  for (std::size_t end; (end = lines.find('\n')) != std::string::npos; lines.erase(0, end + 1)) CHECK(end <= 80);
+  Card card = shipped("concrete-mix-79");
+  for (const NormalLaw law : {NormalLaw::hertz, NormalLaw::jkr, NormalLaw::luding}) {
+    card.material.contact.normal = law;
+    std::string lines = type_in_lines(card);
+    for (std::size_t end; (end = lines.find('\n')) != std::string::npos; lines.erase(0, end + 1)) CHECK(end <= 80);
+  }
+}
+
+TEST_CASE("what a person types in has the law of the damping") {
+  Card card = shipped("concrete-mix-79");
+  CHECK_THAT(type_in_lines(card), Catch::Contains("2 sqrt(5/6) beta sqrt(S m*)") && Catch::Contains("a = sqrt(R* d)"));
+  card.material.contact.normal = NormalLaw::luding;
+  CHECK_THAT(type_in_lines(card), Catch::Contains("S = 2 E* a") && Catch::Contains("a = 2/3 R*"));
 }
 
 TEST_CASE("a verdict has no reservation where nothing speaks against the card") {
