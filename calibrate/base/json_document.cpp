@@ -13,7 +13,7 @@ namespace pastefit {
 namespace {
 
 using nlohmann::json;
-constexpr std::size_t deepest_nesting = 32;      // our files need 4; the bound keeps recursive writers safe
+constexpr std::size_t deepest_nesting = 32;  // our files need 4; the bound keeps recursive writers safe
 
 std::string line_and_column(std::string_view text, std::size_t bytes_read) {
   const std::string_view read = text.substr(0, bytes_read);
@@ -59,6 +59,21 @@ std::optional<Fault> utf_16(std::string_view text) {
   const bool brace = text.starts_with(std::string_view("{\0", 2)) || text.starts_with(std::string_view("\0{", 2));
   if (!marked && !brace) return std::nullopt;
   return Fault{"", "is in the encoding UTF-16", std::string(save_as_utf8)};
+}
+
+/// The fault of a workbook, or of a table: two lines with separators that begin like no JSON.
+std::optional<Fault> spreadsheet(std::string_view bytes, const std::filesystem::path& file) {
+  const std::string rows = " makes a study of each of its rows";
+  if (bytes.starts_with("PK"))
+    return Fault{"", "is a workbook", "save its sheet as CSV; pastefit new --from TABLE.csv" + rows};
+  const std::string text = trimmed(text_in_utf8(bytes).value_or(""));
+  const std::size_t end = text.find('\n');
+  if (end == text.npos || text.find_first_of("{[/") == 0 || text.find("\":") < end) return std::nullopt;
+  const std::string row = text.substr(end + 1, text.find('\n', end + 1) - end);
+  for (const char separator : {'\t', ';', ','})
+    if (text.find(separator) < end && row.find(separator) != row.npos)
+      return Fault{"", "is a table", "pastefit new --from " + shell_word_if_needed(file.string()) + rows};
+  return std::nullopt;
 }
 
 /// Why the parser stopped after so many bytes, in the words of who typed the text; nothing if the parser knows best.
@@ -185,6 +200,8 @@ std::optional<json> read_json(const std::filesystem::path& file, Faults& faults)
   }
   Faults found;
   std::optional<json> document = parse_json(text.value(), found);
+  if (!document)
+    if (std::optional<Fault> other = spreadsheet(text.value(), file)) found = {std::move(*other)};
   for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
   return document;
 }

@@ -129,6 +129,12 @@ double cone_width_mm(const SlumpTest& test, double height_mm) {
   return 2 * std::sqrt(3e9 * volume_m3(test.mould) / (std::numbers::pi * height_mm));
 }
 
+bool gives_flow_in_percent(const SlumpTest& test) {
+  constexpr double drop_mm = 12.7;
+  return test.drop && test.drop->motion == TableMotion::vertical &&
+         std::abs(mm * test.drop->lift_height_m - drop_mm) < 0.1;
+}
+
 namespace {
 
 /// A slump that hardly is one may be in inches or centimetres.
@@ -165,6 +171,35 @@ void check_angle(std::span<const Measurement> measurements, ReadingCheck& check)
                                                    : "an angle of repose in degrees"});
 }
 
+/// A heap that ends narrower than a circle never filled it.
+void check_time(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
+  const Measurement* time = first_of(measurements, {"step1.t500_s"});
+  const Measurement* width = first_of(measurements, {"step1.spread_mm", "step1.spread_orthogonal_mm"});
+  const double circle_mm = test.reading.flow ? mm * test.reading.flow->diameter_m : 0;
+  if (!time || !width || width->value + error_of(*width) >= circle_mm) return;
+  check.faults.push_back({"measurements",
+                          time->reading + format(" (%.4g) contradicts ", time->value) + width->reading +
+                              format(" (%.4g): this heap is never %.4g mm wide", width->value, circle_mm),
+                          "leave out the time, or look for a misread width, of the heap or of the time "
+                          "(apparatus.reading.flow.diameter_mm)"});
+}
+
+/// What may be taken for the flow of a table with several drops, and for a width.
+void check_flow(const SlumpTest& test, std::span<const Measurement> measurements, ReadingCheck& check) {
+  const Measurement* flow = first_of(measurements, {"after_drops.spread_mm"});
+  const double meant_mm = flow ? width_of_flow_mm(test, flow->value) : 0;
+  if (flow && gives_flow_in_percent(test) && meant_mm <= mm * test.table_length_m)
+    check.notes.push_back(
+        format("after_drops.spread_mm is taken for a width, %.4g mm; a flow of %.4g %% is a width of %.4g mm",
+               flow->value, flow->value, meant_mm));
+  for (const Measurement& one : measurements)
+    if (!flow && test.drop && test.drop->drops > 1 && one.reading.starts_with("step2."))
+      check.notes.push_back(one.reading +
+                            format(" is of the heap after the first of %d drops; the width after all of them is "
+                                   "after_drops.spread_mm (--flow of pastefit new)",
+                                   test.drop->drops));
+}
+
 /// Cakes that are no thicker than a few grains are as thick as these.
 void check_cake(const SlumpTest& test, const Measurement& width, ReadingCheck& check) {
   constexpr double grains_thick = 1.5;
@@ -184,6 +219,8 @@ ReadingCheck check_readings(const SlumpTest& test, std::span<const Measurement> 
   check_curves(test, check);
   check_mass(test, measurements, check);
   check_angle(measurements, check);
+  check_time(test, measurements, check);
+  check_flow(test, measurements, check);
   for (const std::string step : {"step1.", "step2.", "after_drops."}) {
     const Measurement* height =
         first_of(measurements, {step + "height_max_mm", step + "height_mm", step + "height_axis_mm"});

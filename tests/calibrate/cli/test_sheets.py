@@ -6,6 +6,7 @@ usage: test_sheets.py PROGRAM SOURCE_DIR [unittest options]
 
 import json
 import sys
+import time
 import unittest
 
 from desk import Desk, run
@@ -207,6 +208,46 @@ class Sheets(Desk):
     def test_times_that_are_not_read_are_refused_with_those_that_are(self):
         lab = self.lab({"step1.spread_mm": {"value": 700, "standard_deviation": 25}, "step1.t50": {"value": 2.6}})
         self.refused(lab, "measurements.step1.t50: is a time", "step1.t500_s")
+
+    def test_a_time_to_a_width_that_the_heap_does_not_reach_is_refused(self):
+        times = {"step1.t500_s": {"value": 2.1, "standard_deviation": 0.3}}
+        lab = self.lab({**times, "step1.spread_mm": {"value": 450, "standard_deviation": 25}})
+        self.refused(lab, "measurements: step1.t500_s (2.1) contradicts step1.spread_mm (450)", "never 500 mm wide")
+        lab = self.lab({**times, "step1.spread_mm": {"value": 450, "standard_deviation": 25}},
+                       apparatus={"preset": "abrams", "reading": {"flow": {"diameter_mm": 400}}})
+        self.assertEqual(run("simulate", lab).returncode, 0)
+
+    def test_a_flow_that_may_be_in_per_cent_is_named_before_anything_runs(self):
+        for preset, width_mm, named in (("astm-c1437", 110, True), ("astm-c1437", 205, False), ("haegermann-table", 150, False)):
+            with self.subTest(preset=preset, width_mm=width_mm):
+                lab = self.lab({"after_drops.spread_mm": {"value": width_mm, "standard_deviation": 5}}, 2100, preset, radius_mm=4)
+                result = run("simulate", lab)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual("a flow of 110 % is a width of 210 mm" in " ".join(result.stderr.split()), named, result.stderr)
+
+    def test_a_table_or_a_workbook_in_place_of_a_study_is_named(self):
+        table, workbook, text = (self.folder / name for name in ("q.csv", "q.xlsx", "q.txt"))
+        workbook.write_bytes(b"PK\x03\x04\x14\0\x06\0")
+        for content in (b"a,b\n1,2\n", b"\xef\xbb\xbfa;b\r\n1;2\r\n", "a\tb\n1\t2\n".encode("utf-16"), b"Pr\xfcfbuch; 3\nProbe;Breite;x\n"):
+            table.write_bytes(content)
+            for verb in (["calibrate", table, "--out", self.out], ["simulate", table], ["show", table]):
+                with self.subTest(content=content, verb=verb[0]):
+                    self.fails(run(*verb), 2, f"is a table; pastefit new --from {table} makes a study of each of its rows")
+        for verb in (["calibrate", workbook, "--out", self.out], ["simulate", workbook], ["show", workbook]):
+            self.fails(run(*verb), 2, "is a workbook; save its sheet as CSV", "pastefit new --from")
+        for content in ("{a, b\n1, 2\n}", "// a, b\n1, 2", "a\nb\n", '"title": "a",\n"lab": "b",\n', ""):
+            text.write_text(content)
+            self.fails(run("simulate", text), 2, "not JSON")
+
+    def test_a_laboratory_file_in_place_of_its_study_is_named(self):
+        lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}})
+        self.fails(run("calibrate", lab, "--out", self.out), 2, "give the study of this laboratory file")
+
+    def test_a_laboratory_file_of_20000_unknown_readings_is_read_in_seconds(self):
+        lab = self.lab({f"step1.extra_{k}_mm": {"value": 160, "standard_deviation": 7.5} for k in range(20000)})
+        start = time.monotonic()
+        self.refused(lab, "step1.extra_19999_mm")
+        self.assertLess(time.monotonic() - start, 10)
 
     def test_texts_of_windows_programs_are_read_or_named(self):
         lab = self.lab({"step1.slump_mm": {"value": 160, "standard_deviation": 7.5}}, title="M\u00f6rtel")
