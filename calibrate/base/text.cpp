@@ -111,13 +111,20 @@ std::string shown(double number) {
   return text.data();
 }
 
+std::string small_letters(std::string_view text) {
+  std::string out(text);
+  for (char& letter : out)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return out;
+}
+
 std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates) {
   constexpr std::size_t longest = 200;  // a longer word is no slip of the pen, and the distance is quadratic
   if (word.size() > longest) return std::nullopt;
   const std::string* best = nullptr;
   std::size_t best_distance = 0;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distance(small_letters(word), small_letters(candidate));
     if (!best || distance < best_distance) {
       best = &candidate;
       best_distance = distance;

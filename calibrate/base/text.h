@@ -63,7 +63,11 @@ std::string message_of(const Faults& faults);
 /// A number as it is shown to people, at most six digits.
 std::string shown(double number);
 
-/// The candidate with the smallest edit distance to `word`, if it is near enough to be a slip of the pen.
+/// The text in small letters, as far as they are ASCII.
+std::string small_letters(std::string_view text);
+
+/// The candidate with the smallest edit distance to `word`, whatever the case of its letters, if it is near enough to
+/// be a slip of the pen.
 std::optional<std::string> nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates);
 
 /// A word of the user's in quotes, cut if long; control characters, which could drive a terminal, are escaped.

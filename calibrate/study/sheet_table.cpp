@@ -12,6 +12,7 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 namespace {
@@ -111,7 +112,7 @@ std::pair<std::string, std::string> parted(const std::string& head) {
   std::smatch found;
   static const std::regex in_brackets(R"(^(.*?)[(\[]([^)\]]*)[)\]](.*)$)");
   if (std::regex_match(head, found, in_brackets))
-    return {found[1].str() + " " + found[3].str(), trimmed(found[2].str())};
+    return {found[1].str() + " " + found[3].str(), with_percent_sign(trimmed(found[2].str()))};
   std::string unit;
   std::size_t end = std::string::npos;
   for (std::size_t i = head.size(); i-- > 1;) {

@@ -8,10 +8,12 @@
 #include <numeric>
 #include <set>
 
+#include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
 #include "calibrate/base/template_lines.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/laboratory/heap_shape.h"
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/lab.h"
 #include "calibrate/study/written_readings.h"
@@ -47,34 +49,17 @@ std::string reading_fault_place(std::string_view name) {
   return "reading " + printable(name);
 }
 
-/// Three lengths in mm from "200/100/300" or "8/4/12 in": a unit at the end is that of all, otherwise each has its own.
-/// Nothing if it is none.
-std::optional<std::array<double, 3>> lengths_in(const std::string& text) {
-  std::array<double, 3> out{};
-  std::array<std::optional<Unit>, 3> units;
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::size_t end = i + 1 < out.size() ? text.find('/', start) : text.size();
-    if (end == std::string::npos) return std::nullopt;
-    const auto number = written_number(std::string_view(text).substr(start, end - start));
-    if (!number) return std::nullopt;
-    out[i] = number->value;
-    units[i] = number->unit;
-    start = end + 1;
-  }
-  const auto with_unit = std::ranges::count_if(units, [](const auto& unit) { return unit.has_value(); });
-  if (with_unit > 0 && with_unit < 3 && !(with_unit == 1 && units[2])) return std::nullopt;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::optional<Unit>& unit = units[i] ? units[i] : units[2];
-    if (unit && unit->key != "mm") return std::nullopt;
-    out[i] = rounded(out[i] * (unit ? unit->factor : 1), 6);
-  }
-  return out;
+/// Base, top and height of a mould [mm], "200/100/300" or "8/4/12 in". Nothing if it is none.
+std::optional<std::vector<double>> lengths_in(std::string mould) {
+  const bool three = std::ranges::count(mould, '/') == 2;
+  std::ranges::replace(mould, '/', ';');
+  const auto read = written_readings("mould", mould, "mm");
+  return three && read.ok() && read.value().size() == 3 ? std::optional(read.value()) : std::nullopt;
 }
 
 /// A mould of one's own on a table that its heap does not leave, lifted in 3 s but no slower than 50 mm/s.
-ordered_json own_apparatus(const std::array<double, 3>& mould) {
-  const auto [base, top, height] = mould;
+ordered_json own_apparatus(const std::vector<double>& mould) {
+  const double base = mould[0], top = mould[1], height = mould[2];
   const double wider = std::max(base, top);
   return {{"mould", {{"base_diameter_mm", base}, {"top_diameter_mm", top}, {"height_mm", height}}},
           {"table_length_mm", rounded(std::max(4.5 * wider, 3 * height), 3)},
@@ -86,7 +71,7 @@ ordered_json own_apparatus(const std::array<double, 3>& mould) {
 /// "apparatus" of a laboratory file.
 ordered_json apparatus_json(const std::string& mould) {
   if (const auto own = lengths_in(mould)) return own_apparatus(*own);
-  return {{"preset", mould}};
+  return {{"preset", trimmed(mould)}};
 }
 
 /// The same with the sheet's drops, and on a table that the heap does not leave: that of a preset is an assumption.
@@ -168,20 +153,14 @@ void add_note(ordered_json& lab, const std::string& note) {
   lab["provenance"]["notes"] = notes + (notes.empty() ? "" : "; ") + note;
 }
 
-/// Whether a flow is given in per cent: the increase of the width, over the mould's base.
-bool gives_flow_in_percent(const std::string& mould) {
-  return mould == "astm-c1437";
-}
-
 /// A flow after the drops of a table [mm], which may be given in per cent of the mould's base.
-Result<std::vector<double>> flow_mm(const std::string& where, const std::string& text, const Sheet& sheet,
-                                    const SlumpTest& test) {
-  const double base_mm = 2 * mm * test.mould.base_radius_m;
-  const auto of_percent = [&](double percent) { return rounded(base_mm * (1 + percent / 100), 6); };
+Result<std::vector<double>> flow_mm(const std::string& where, const std::string& typed, const SlumpTest& test) {
+  const std::string text = with_percent_sign(typed);
+  const auto of_percent = [&](double percent) { return rounded(width_of_flow_mm(test, percent), 6); };
   if (text.find('%') == std::string::npos) {
     auto lengths = written_readings(where, text, "mm");
     const bool unit = std::ranges::any_of(text, [](unsigned char letter) { return std::isalpha(letter) != 0; });
-    if (!lengths.ok() || unit || !gives_flow_in_percent(sheet.mould)) return lengths;
+    if (!lengths.ok() || unit || !gives_flow_in_percent(test)) return lengths;
     const std::string one = shown(lengths.value()[0]);
     return Fault{
         where, "has no unit, and ASTM C1437 gives a flow in per cent of the mould's base",
@@ -197,8 +176,8 @@ Result<std::vector<double>> flow_mm(const std::string& where, const std::string&
 }
 
 Result<std::vector<double>> values_of_reading(const std::string& name, const std::string& text, std::string_view key,
-                                              const Sheet& sheet, const SlumpTest& test) {
-  if (key == "after_drops.spread_mm") return flow_mm(reading_fault_place(name), text, sheet, test);
+                                              const SlumpTest& test) {
+  if (key == "after_drops.spread_mm") return flow_mm(reading_fault_place(name), text, test);
   const auto unit = unit_of_key(key);
   return written_readings(reading_fault_place(name), text, unit ? unit->key : "");
 }
@@ -215,17 +194,26 @@ std::optional<double> deviation_in(const Sheet& sheet, std::string_view key, Fau
   return std::nullopt;
 }
 
+/// The reading that a name which is none may mean: one whose key ends with it, or one that is spelled nearly so.
+std::optional<std::string> meant_reading(std::string_view name, std::span<const ReadingKind> of_test) {
+  const std::string end = "." + small_letters(name);
+  for (const ReadingKind& kind : of_test)
+    if (!kind.from_outline && (kind.key.ends_with(end) || kind.key.substr(0, kind.key.rfind('_')).ends_with(end)))
+      return std::string(kind.key);
+  std::set<std::string, std::less<>> names;
+  for (const ShortReading& one : shorts) names.emplace(one.name);
+  return nearest(name, names);
+}
+
 /// "measurements": what the sheet says.
 ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& faults) {
   auto out = ordered_json::object();
   const auto of_test = reading_kinds(test);
-  std::set<std::string, std::less<>> names;
-  for (const ShortReading& one : shorts) names.emplace(one.name);
   for (const auto& [name, text] : sheet.readings) {
     const std::string_view key = key_of_reading(name);
     const auto kind = std::ranges::find(of_test, key, &ReadingKind::key);
     if (kind == of_test.end() || kind->key.empty() || kind->from_outline) {
-      const auto near = nearest(name, names);
+      const auto near = meant_reading(name, of_test);
       faults.push_back({reading_fault_place(name), "is no reading of a slump test",
                         near ? "did you mean " + *near + "?" : "e.g. slump=180 or spread=330"});
       continue;
@@ -234,7 +222,7 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
       faults.push_back({reading_fault_place(name), "is given twice", "once, repeats as \"180, 175, 190\""});
       continue;
     }
-    const auto values = values_of_reading(name, text, key, sheet, slump_of(test));
+    const auto values = values_of_reading(name, text, key, slump_of(test));
     if (!values.ok()) {
       faults.insert(faults.end(), values.faults().begin(), values.faults().end());
       continue;
@@ -349,6 +337,12 @@ Result<Test> apparatus_of(const std::string& mould, const std::filesystem::path&
     ObjectReader reader(document, "", faults);
     read_apparatus(reader, test, folder);
   }
+  const bool digit = mould.find_first_of("0123456789") == mould.find_first_not_of(' ');
+  const bool no_preset = faults.size() == 1 && faults[0].where == "apparatus.preset";
+  if (no_preset && digit)
+    return Fault{"mould",
+                 "is " + in_quotes(mould) + ": no preset, and no three lengths in one unit or with a unit each",
+                 "BASE/TOP/HEIGHT in mm, \"200/100/300\", or \"8/4/12 in\", \"8 in/100 mm/300 mm\""};
   if (!faults.empty()) return faults;
   return test;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -118,8 +117,7 @@ std::span<const TargetLaws> target_laws() {
 }
 
 std::optional<TargetLaws> laws_for(std::string_view given, std::string_view law) {
-  std::string target(given);  // programs write their names in capitals, too
-  std::ranges::transform(target, target.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  const std::string target = small_letters(given);  // programs write their names in capitals, too
   const auto found = std::ranges::find_if(known_targets, [&](const TargetLaws& laws) {
     return (laws.target == target || laws.export_target == target) && (law.empty() || laws.law == law);
   });

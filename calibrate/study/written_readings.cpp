@@ -1,8 +1,10 @@
 #include "calibrate/study/written_readings.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <regex>
+#include <utility>
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
@@ -10,30 +12,45 @@
 namespace pastefit {
 namespace {
 
-/// "7 1/4" as 7.25.
-std::string with_decimals(const std::string& text) {
-  static const std::regex mixed(R"((\d{1,6}) (\d{1,6})/(\d{1,6}))");
+/// "7 1/4", "7-1/4" and "7¼" as 7.25, and of inches "1/4" as 0.25: "18/19 cm" are two readings.
+std::string with_decimals(std::string text) {
+  static const std::regex fraction(R"((?:(\d{1,6})[ -])?\b(\d{1,2})/(\d{1,2})\b)");
+  static const std::array<std::pair<std::regex, const char*>, 3> signs{
+      {{std::regex(" ?¼"), " 1/4"}, {std::regex(" ?½"), " 1/2"}, {std::regex(" ?¾"), " 3/4"}}};
+  for (const auto& [sign, written] : signs) text = std::regex_replace(text, sign, written);
+  const std::size_t last = text.find_last_of("0123456789");
+  const auto unit = last == std::string::npos ? std::nullopt : unit_of_word(text.substr(last + 1));
   std::string out;
   auto from = text.cbegin();
-  for (std::sregex_iterator found(text.begin(), text.end(), mixed), end; found != end; ++found) {
+  for (std::sregex_iterator found(text.cbegin(), text.cend(), fraction), end; found != end; ++found) {
     const std::smatch& match = *found;
-    const double divisor = std::stod(match[3]);
-    if (divisor == 0) continue;
+    const double numerator = std::stod(match[2]), denominator = std::stod(match[3]);
+    const bool whole = match[1].matched, inches = unit && unit->name == "in";
+    if (numerator >= denominator || (!whole && !inches)) continue;
     out.append(from, match[0].first);
-    out += shown(std::stod(match[1]) + std::stod(match[2]) / divisor);
+    out += shown((whole ? std::stod(match[1]) : 0) + numerator / denominator);
     from = match[0].second;
   }
   return out.append(from, text.cend());
 }
 
 /// What to write in the place of a text that is no number, where it is known what was meant.
-std::string meant_by(std::string_view text) {
-  const auto holds = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
-  if (holds(">") || holds("<")) return "a number: of a limit it is only known that the reading lies beyond it";
-  if (holds("+-") || holds("+/-") || holds("±"))
-    return R"(the value alone; its deviation is "standard_deviation" of the reading in lab.json)";
-  if (holds("x") || holds("×")) return "the mean of both widths, or both as \"500, 510\"";
-  if (std::ranges::count(text, ',') > 0) return "a space after each comma between numbers: \"180, 175, 190\"";
+std::string_view meant_by(const std::string& text) {
+  constexpr std::size_t longest = 100;  // std::regex recurses with the length
+  static const std::array<std::pair<std::regex, std::string_view>, 6> meanings{{
+      {std::regex(R"([<>]|≥|≤|\+ *$|\b(at (least|most)|(more|less) than|over|under|above|below|min|max)\b)"),
+       "a number: of a limit it is only known that the reading lies beyond it"},
+      {std::regex(R"(\+/?-|±|~|≈|\b(about|around|approx|ca|circa)\b)"),
+       "the value alone; its deviation is --sd of pastefit new, \"standard_deviation\" of the reading in lab.json"},
+      {std::regex("%"), "a number with its unit; a flow in per cent is --flow \"110 %\""},
+      {std::regex(R"(\d\D*(-|–|\bto\b|\band\b)\D*\d)"), "both ends of the range as two readings: \"180, 190\""},
+      {std::regex(R"(\d\D*([x*/]|×|\bby\b)\D*\d)"),
+       "the mean of both widths, or both as \"500, 510\"; a fraction is one of inches: \"7 1/4 in\""},
+      {std::regex(","), "a space after each comma between numbers: \"180, 175, 190\""},
+  }};
+  const std::string start = small_letters(text.substr(0, longest));
+  for (const auto& [written, meant] : meanings)
+    if (std::regex_search(start, written)) return meant;
   return "";
 }
 
@@ -57,6 +74,11 @@ std::vector<std::string_view> parts_of(std::string_view text) {
 
 }  // namespace
 
+std::string with_percent_sign(const std::string& text) {
+  static const std::regex word("per ?cent", std::regex::icase);
+  return std::regex_replace(text, word, "%");
+}
+
 Result<std::vector<double>> written_readings(const std::string& where, const std::string& text,
                                              std::string_view unit_key) {
   const auto unit_now = unit_of_word(unit_key);
@@ -69,7 +91,7 @@ Result<std::vector<double>> written_readings(const std::string& where, const std
   for (const std::string_view part : parts_of(decimal)) {
     const auto number = written_number(part);
     if (!number) {
-      const std::string meant = meant_by(text);
+      const std::string meant(meant_by(with_percent_sign(decimal)));
       if (!meant.empty()) return Fault{where, "holds " + in_quotes(text) + ", which is no number", meant};
       return wrong("holds " + in_quotes(part) + ", which is no number");
     }
@@ -80,6 +102,13 @@ Result<std::vector<double>> written_readings(const std::string& where, const std
   }
   if (numbers.empty()) return wrong("is empty");
   const std::optional<Unit> last = numbers.back().unit;
+  const auto is_bare = [](const WrittenNumber& number) { return !number.unit; };
+  const auto is_other = [&](const WrittenNumber& number) {
+    return number.unit && number.unit->factor != (last ? last->factor : 1);
+  };
+  if (std::ranges::any_of(numbers, is_bare) && std::ranges::any_of(numbers, is_other))
+    return Fault{where, "holds " + in_quotes(text) + ", with a unit for some numbers",
+                 "one unit at the end, or one for each number"};
   std::vector<double> out;
   for (const WrittenNumber& number : numbers) {
     const std::optional<Unit> unit = number.unit ? number.unit : last;

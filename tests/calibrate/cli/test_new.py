@@ -72,8 +72,13 @@ class New(Desk):
     def test_a_flow_in_per_cent_of_the_base_is_a_width(self):
         mortar = ["--mould", "astm-c1437", "--density", "2100"]
         self.fails(run("new", self.out, *mortar, "--flow", "110"), 2, "per cent of the mould's base", "210 mm", '"110 mm"')
-        lab, _, _ = self.files(*mortar, "--flow", "110 %, 112 %")
-        self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["repeats"], [210, 212])
+        for flow in ("110 %, 112 %", "110, 112 percent", "110 Per cent; 112 per cent"):
+            lab, _, _ = self.files(*mortar, "--flow", flow, "--force")
+            self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["repeats"], [210, 212])
+        table = self.folder / "book.csv"
+        table.write_text("sample;flow (per cent)\nx;110\n")
+        lab, _, _ = self.files(*mortar, "--from", table, "--force")
+        self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["value"], 210)
         lab, _, _ = self.files(*mortar, "--flow", "205 mm", "--force")
         self.assertEqual(lab["measurements"]["after_drops.spread_mm"]["value"], 205)
 
@@ -86,6 +91,10 @@ class New(Desk):
         self.assertEqual(lab["apparatus"]["drop_plate"], {"drops": 15})
         self.assertIn("dropped 15 times", said)
         self.assertNotIn("drops its plate once", said)
+        self.assertNotIn("the first of", said)
+        _, _, said = self.files(*table, "--spread2", "400", "--drops", "15", "--force")
+        self.assertIn("step2.spread_mm is of the heap after the first of 15 drops", " ".join(said.split()))
+        self.assertIn("--flow", said)
 
     def test_the_rig_that_drops_once_has_a_name_of_its_own(self):
         for mould, words in (("hinged-plate", "drops its plate once"), ("en12350-5", "is now called hinged-plate")):
@@ -106,13 +115,42 @@ class New(Desk):
         cone = ["--density", "2350"]
         for arguments, words in ((["--slump", "180,175,190"], '"180, 175, 190"'), (["--spread", "500 x 510"], '"500, 510"'),
                                  (["--slump", "180 +- 10"], '"standard_deviation"'),
-                                 (["--slump", "> 250"], "of a limit it is only known that the reading lies beyond it"),
+                                 (["--spread", "500*510"], '"500, 510"'), (["--spread", "500 by 510"], '"500, 510"'),
+                                 (["--spread", "500/510"], '"500, 510"'), (["--slump", "~180"], "--sd"),
+                                 (["--slump", "about 180 mm"], "--sd"), (["--slump", "180-190"], '"180, 190"'),
+                                 (["--slump", "180 to 190 mm"], '"180, 190"'), (["--slump", "18/19 cm"], '"7 1/4 in"'),
+                                 (["--spread", "110 %"], "--flow"), (["--spread", "110 percent"], "--flow"), (["--slump", "\u00bd"], '"7 1/4 in"'),
+                                 (["--slump", "18 cm, 17.5, 19"], "a unit for some numbers"), (["--slump", "At least 250"], "of a limit"),
+                                 *((["--slump", limit], "of a limit it is only known that the reading lies beyond it")
+                                   for limit in ("> 250", "at least 250", "\u2265 250", "250+", "max 250 mm")),
                                  (["--slump", "180", "--mould", "Abrams"], 'did you mean "abrams"?')):
             with self.subTest(arguments=arguments):
                 mould = [] if "--mould" in arguments else ["--mould", "abrams"]
                 self.fails(run("new", self.folder / "x", *cone, *mould, *arguments), 2, words)
-        lab, _, _ = self.files(*cone, "--mould", "abrams", "--slump", "7 1/4 in", "--force")
-        self.assertEqual(lab["measurements"]["step1.slump_mm"]["value"], 184.15)
+        for text, mm in (("7 1/4 in", 184.15), ("7-1/4 in", 184.15), ("7\u00bc in", 184.15), ("7 \u00bc\"", 184.15), ("1/4 in", 6.35)):
+            with self.subTest(text=text):
+                lab, _, _ = self.files(*cone, "--mould", "abrams", "--slump", text, "--force")
+                self.assertEqual(lab["measurements"]["step1.slump_mm"]["value"], mm)
+
+    def test_the_end_of_a_reading_s_key_is_answered_with_the_key(self):
+        for name, key in (("t500", "step1.t500_s"), ("T500", "step1.t500_s"), ("t500_s", "step1.t500_s"),
+                          ("angle_of_repose_deg", "step1.angle_of_repose_deg"), ("Slump", "step1.slump_mm"), ("sprad", "spread")):
+            with self.subTest(name=name):
+                self.fails(run("new", self.out, *ABRAMS, "--reading", f"{name}=2.1"), 2, f"did you mean {key}?")
+
+    def test_a_mould_as_people_write_it_is_known_or_answered_with_what_to_write(self):
+        cone = ["--density", "2350", "--slump", "180"]
+        self.files(*cone, "--mould", "abrams ")
+        for mould, *words in (("ABRAMS", 'did you mean "abrams"?'), ("8 in/100/300 mm", "no three lengths in one unit or with a unit each"),
+                              ("200x100x300", "no preset, and no three lengths", '"200/100/300"'), ("200/100", '"200/100/300"')):
+            with self.subTest(mould=mould):
+                self.fails(run("new", self.folder / "x", *cone, "--mould", mould), 2, *words)
+
+    def test_a_time_to_a_width_that_the_heap_does_not_reach_is_refused(self):
+        flow = ["--mould", "abrams", "--density", "2350", "--reading", "step1.t500_s=2.1"]
+        self.fails(run("new", self.out, *flow, "--spread", "450"), 2, "step1.t500_s (2.1) contradicts step1.spread_mm (450)",
+                   "never 500 mm wide")
+        self.files(*flow, "--spread", "490")
 
     def test_a_title_that_is_no_utf_8_is_one_all_the_same(self):
         for verb in (["new", self.out, "--mould", "abrams", "--density", "2350", "--slump", "180", "--title", b"caf\xe9"],):
