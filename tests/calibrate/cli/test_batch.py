@@ -234,11 +234,27 @@ class Batch(Desk):
     def test_no_cell_of_the_table_is_a_formula(self):
         study, = write_studies(self.folder, 1)
         content = json.loads(study.read_text())
-        content["title"] = "=HYPERLINK(0)"
-        study.write_text(json.dumps(content))
-        run("batch", study, "--out", self.out, "--table")
-        row, = csv.DictReader((self.out / "batch.csv").read_text().splitlines())
-        self.assertEqual(row["title"], "'=HYPERLINK(0)")
+        for title in ("=HYPERLINK(0)", "+1", "-1", "@SUM(1)"):
+            study.write_text(json.dumps({**content, "title": title}))
+            run("batch", study, "--out", self.out, "--table")
+            row, = self.table()
+            self.assertEqual(row["title"], "'" + title)
+
+    def test_a_study_with_a_name_that_is_no_folder_s_is_refused(self):
+        file, = write_studies(self.folder, 1)
+        dots = file.rename(self.folder / "...json")
+        self.fails(self.batch(dots), 2, "...json")
+        self.assertFalse(self.out.exists())
+
+    def test_a_file_in_place_of_a_study_s_folder_fails_this_study_alone(self):
+        studies = write_studies(self.folder, 2)
+        self.out.mkdir()
+        (self.out / "mix-00").write_text("precious")
+        result = self.batch(*studies)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual((self.out / "mix-00").read_text(), "precious")
+        self.assertIn("mix-00", result.stderr)
+        self.assertTrue(self.table()[1]["strength_pa"])
 
 
 if __name__ == "__main__":

@@ -94,7 +94,8 @@ class CardCommands(Desk):
             if target in ("lammps", "liggghts", "yade"):
                 self.assertIn(f"pastefit read heap.dump --card {coarse_card()}\n", result.stdout)
             self.fails(run("export", "--unconfirmed", coarse_card(), "--to", target, "--out", out), 2, "earlier result")
-        self.fails(run("export", CARD, "--to", "lamps", "--out", self.folder / "x"), 2, "did you mean 'lammps'")
+        for word, meant in (("lamps", "lammps"), ("EDEM", "edem-notes")):
+            self.fails(run("export", CARD, "--to", word, "--out", self.folder / "x"), 2, f"did you mean '{meant}'")
         self.assertFalse((self.folder / "x").exists())
 
     def filled(self, card):
