@@ -65,7 +65,7 @@ TEST_CASE("readings after drops need a table, and one that drops more than once;
   json document = lab_on("haegermann");
   document["measurements"]["after_drops.spread_mm"] = {{"value", 160}, {"standard_deviation", 5}};
   CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"),
-                   "no drop plate"));
+                   "no plate or table that drops"));
   document = lab_on("en12350-5");
   document["measurements"] = {{"after_drops.spread_mm", {{"value", 400}, {"standard_deviation", 15}}}};
   CHECK(test::says(test::at(lab_from_json(document, ".").faults(), "measurements.after_drops.spread_mm"),
@@ -119,7 +119,7 @@ TEST_CASE("a faulty customary reading of a preset is a fault of its place") {
   document["readings"]["step1.spread_mm"] = {{"value", 1300}, {"standard_deviation", 5}};
   document["readings"]["step1.width_mm"] = {{"value", 130}, {"standard_deviation", 5}};
   const Faults faults = apparatus_from_json(document).faults();
-  CHECK(test::says(test::at(faults, "readings.after_drops.spread_mm"), "no drop plate"));
+  CHECK(test::says(test::at(faults, "readings.after_drops.spread_mm"), "no plate or table that drops"));
   CHECK(test::says(test::at(faults, "readings.step1.spread_mm.value"), "1300"));
   CHECK_FALSE(test::at(faults, "readings.step1.width_mm").what.empty());
 }

@@ -84,7 +84,7 @@ TEST_CASE("step 2 without a drop plate is a fault") {
   const Faults faults = faults_of(document);
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].where == "measurements.step2.plateau_sag_mm");
-  CHECK(says(faults[0], "no drop plate"));
+  CHECK(says(faults[0], "no plate or table that drops"));
 }
 
 TEST_CASE("readings that contradict each other beyond their deviations are a fault") {
