@@ -120,8 +120,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
     const Fault interrupted{"packing " + std::to_string(packing), "interrupted",
                             "the same command with --runs goes on"};
     std::optional<SignOfLife> sign(std::in_place);
-    const auto scene = export_scene(asked.card, asked.test, packing,
-                                    [&](const Snapshot& snapshot) { return sign->show(snapshot), !stop; });
+    const auto scene = export_scene(asked.card, asked.test, packing, shown_by(*sign, stop));
     sign.reset();
     if (stop) return interrupted;
     if (!scene.ok()) return scene.faults();

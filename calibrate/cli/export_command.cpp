@@ -30,9 +30,10 @@ int export_to_folder(const ExportOptions& options) {
   for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
   if (!exporter.ok() || !card.ok()) return report(faults);
   std::optional<SignOfLife> sign(std::in_place);
-  const auto written = export_card(card.value(), exporter.value(),
-                                   {options.card, options.test, options.packing, options.unconfirmed,
-                                    [&](const Snapshot& snapshot) { return sign->show(snapshot), true; }});
+  const std::atomic<bool> never = false;
+  const auto written =
+      export_card(card.value(), exporter.value(),
+                  {options.card, options.test, options.packing, options.unconfirmed, shown_by(*sign, never)});
   sign.reset();
   if (!written.ok()) faults.insert(faults.end(), written.faults().begin(), written.faults().end());
   if (!faults.empty()) return report(faults);

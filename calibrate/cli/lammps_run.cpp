@@ -169,14 +169,15 @@ Faults ill_end(const ChildEnd& end, const fs::path& folder) {
   return {};
 }
 
-Result<LammpsHeap> read_heap(const ExportScene& scene, const fs::path& folder) {
+Result<LammpsHeap> read_heap(const ExportScene& scene, const fs::path& folder, const std::atomic<bool>& stop) {
   std::vector<Particles> grains;
   for (const auto& name : lammps_dumps(scene)) {
     auto dump = read_dump(folder / name);
     if (!dump.ok()) return dump.faults();
     grains.push_back(std::move(dump).value());
   }
-  auto readings = read_heaps(scene.test, std::nullopt, grains[0], std::span(grains).subspan(1));
+  SignOfLife sign;
+  auto readings = read_heaps(scene.test, std::nullopt, grains[0], std::span(grains).subspan(1), shown_by(sign, stop));
   if (!readings.ok()) return readings.faults();
   return LammpsHeap{std::move(readings).value(), read_lammps_log(content_of_file(folder / kLog))};
 }
@@ -189,7 +190,7 @@ Result<LammpsHeap> run_in_lammps(const ExportScene& scene, const LammpsLaunch& l
   if (!deck.ok()) return deck.faults();
   std::error_code error;
   if (has_run(scene, deck.value(), folder))
-    if (auto heap = read_heap(scene, folder); heap.ok()) return heap;
+    if (auto heap = read_heap(scene, folder, stop); heap.ok()) return heap;
   fs::create_directories(folder, error);
   auto stale = lammps_dumps(scene);
   stale.push_back(kLog);
@@ -208,7 +209,7 @@ Result<LammpsHeap> run_in_lammps(const ExportScene& scene, const LammpsLaunch& l
   } catch (const std::system_error& failed) {
     return Fault{"LAMMPS", std::string("could not be started: ") + failed.what(), "check memory and disk"};
   }
-  return read_heap(scene, folder);
+  return read_heap(scene, folder, stop);
 }
 
 }  // namespace pastefit

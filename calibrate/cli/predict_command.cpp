@@ -133,7 +133,7 @@ struct Family {
   int simulations(const PredictOptions& options) const { return options.packings * static_cast<int>(materials.size()); }
 };
 
-Result<Family> family_of(const std::string& folder) {
+Result<Family> fitting_materials(const std::string& folder) {
   const auto findings = read_findings(folder, kStore);
   if (!findings.ok()) return findings.faults();
   const auto& [missing, card, study, inference] =
@@ -189,9 +189,9 @@ int predict_presets(const Family& family, const PredictOptions& options) {
 }
 
 int predict_other(const PredictOptions& options) {
-  const auto found_family = family_of(options.folder);
-  if (!found_family.ok()) return report(found_family.faults());
-  const Family& family = found_family.value();
+  const auto found_materials = fitting_materials(options.folder);
+  if (!found_materials.ok()) return report(found_materials.faults());
+  const Family& family = found_materials.value();
   if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
   const auto other = other_test(options, family.card);
   if (!other.ok()) return report(other.faults());

@@ -63,6 +63,15 @@ void SignOfLife::show(const Snapshot& snapshot) {
               format("step %lld", static_cast<long long>(snapshot.step)), format("%.0f s gone", line_.gone_s())}));
 }
 
+RunOptions shown_by(SignOfLife& sign, const std::atomic<bool>& stop) {
+  RunOptions options;
+  options.pulse = [&](const Snapshot& snapshot) {
+    sign.show(snapshot);
+    return !stop;
+  };
+  return options;
+}
+
 WorkLine::WorkLine(std::string pieces, int total) : pieces_(std::move(pieces)), total_(total) {}
 
 WorkLine::~WorkLine() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -55,6 +56,9 @@ class SignOfLife {
   double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // simulated, the second
   double last_s_ = 0;
 };
+
+/// Options of a run that shows where it is, and ends when `stop` becomes true. Both have to outlive it.
+RunOptions shown_by(SignOfLife& sign, const std::atomic<bool>& stop);
 
 /// Tells how many of some pieces of work are done and what is left of them, once they have taken two seconds
 /// (`StatusLine`). Thread-safe.

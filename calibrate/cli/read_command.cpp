@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
+#include "calibrate/cli/progress.h"
 #include "calibrate/cli/terminal.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/heap_dump.h"
@@ -126,7 +128,10 @@ int read_heap_of(const ReadOptions& options) {
 
   const auto test = test_to_export(card.value(), options.test);
   if (!test.ok()) return report(test.faults());
-  const auto read = read_heaps(test.value().test, options.packing, filled.value(), heaps);
+  std::optional<SignOfLife> sign(std::in_place);
+  const std::atomic<bool> never = false;
+  const auto read = read_heaps(test.value().test, options.packing, filled.value(), heaps, shown_by(*sign, never));
+  sign.reset();
   if (!read.ok()) return report(read.faults());
 
   const std::size_t packings = card.value().confirmation.packings.size();

@@ -84,7 +84,7 @@ bool has_deck(const Test& test) {
 }
 
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing,
-                                 const FillPulse& pulse) {
+                                 const RunOptions& fill) {
   if (Faults faults = validate_memory(test.test, 1); !faults.empty()) return faults;
   ExportScene scene;
   scene.title = title_of(card, test);
@@ -95,10 +95,8 @@ Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::op
   auto* const slump = std::get_if<SlumpTest>(&scene.test);
   if (!slump) return scene;
   slump->packing_seed = packing.value_or(slump->packing_seed);
-  RunOptions options;
-  options.pulse = pulse;
-  const auto filled = fill_mould(*slump, options);
-  scene.packing = filled->failure ? *filled : full_mould(*slump, *filled, options);
+  const auto filled = fill_mould(*slump, fill);
+  scene.packing = filled->failure ? *filled : full_mould(*slump, *filled, fill);
   if (const auto& failure = scene.packing.failure)
     return Fault{"packing " + std::to_string(slump->packing_seed), "the mould could not be filled: " + failure->message,
                  "take another seed with --packing, or finer grains with pastefit rescale"};
@@ -219,7 +217,7 @@ void mark_unconfirmed(const Card& card, Export& written) {
 Result<Export> export_card(const Card& card, const Exporter& exporter, const ExportRequest& request) {
   Faults faults = unconfirmed_faults(card, request.unconfirmed);
   const auto test = test_to_export(card, request.test);
-  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.pulse) : test.faults();
+  const auto scene = test.ok() ? export_scene(card, test.value(), request.packing, request.fill) : test.faults();
   auto answer = scene.ok() ? exporter.write(scene.value()) : scene.faults();
   if (!answer.ok()) faults.insert(faults.end(), answer.faults().begin(), answer.faults().end());
   if (!faults.empty()) return faults;

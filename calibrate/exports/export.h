@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,13 +91,10 @@ Result<CardTest> test_to_export(const Card& card, const std::string& name);
 /// Whether there are decks of the whole test, not only of two grains.
 bool has_deck(const Test& test);
 
-/// Called now and then while a mould is filled; false stops that.
-using FillPulse = std::function<bool(const Snapshot&)>;
-
 /// A card's test for any target, a slump test with the mould filled by this packing, or by the test's own. Errors: the
-/// mould cannot be filled, or its grains do not fit into the memory.
+/// mould cannot be filled, or its grains do not fit into the memory. `fill`: how it is filled.
 Result<ExportScene> export_scene(const Card& card, const CardTest& test, std::optional<std::uint64_t> packing,
-                                 const FillPulse& pulse = {});
+                                 const RunOptions& fill = {});
 
 /// Every exporter. To add one: a file in this folder that ends with a function of that kind, and a row in export.cpp.
 std::span<const Exporter> exporters();
@@ -121,7 +117,7 @@ struct ExportRequest {
   std::string test;                      ///< name; empty: the card's own choice
   std::optional<std::uint64_t> packing;  ///< empty: the test's own
   bool unconfirmed = false;              ///< a card that is not confirmed is accepted
-  FillPulse pulse = {};
+  RunOptions fill = {};                  ///< how the mould is filled
 };
 
 /// The card in the words of a target, with notes for a person as the last file: what is lost, how to run it, the heap

@@ -189,7 +189,7 @@ Faults misplaced(const std::string& dump, const Particles& grains, const Packing
 }  // namespace
 
 Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing_seed, const Particles& filled,
-                            std::span<const Particles> heaps) {
+                            std::span<const Particles> heaps, const RunOptions& fill) {
   const auto* const slump = std::get_if<SlumpTest>(&test);
   if (!slump) return Fault{"the card's test", "is no slump test: there is no heap to read", "a slump test with --test"};
   SlumpTest exported = *slump;
@@ -201,7 +201,7 @@ Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packi
                         "hold " + std::to_string(filled.count()) + " grains in the mould and " +
                             std::to_string(heap.count()) + " in the heap",
                         "give the dump of the same run with --filled; grains must not be lost"});
-  const auto packing = fill_mould(exported);
+  const auto packing = fill_mould(exported, fill);
   if (packing->failure) faults.push_back({"the mould of the card", packing->failure->message, "another --packing"});
   const auto expected = static_cast<double>(packing->centres.size());
   const auto count = static_cast<double>(filled.count());

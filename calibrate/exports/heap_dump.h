@@ -10,6 +10,7 @@
 #include "calibrate/laboratory/test.h"
 #include "core/observe/readings.h"
 #include "core/result.h"
+#include "core/step/run.h"
 #include "core/world/particles.h"
 
 namespace pastefit {
@@ -28,10 +29,10 @@ Result<Particles> read_dump(const std::filesystem::path& file);
 
 /// What a ruler reads of heaps that another program left: readings of step 1 and, where there is a second heap, of
 /// step 2. `filled` are the same grains in the mould before it was lifted, `packing` the seed that was exported;
-/// without it the test's own. Errors: the test is no slump test; the dumps hold other grains than each other, or than
-/// the card's mould (by a tenth of their number, or 5 % of their mean radius, as in another unit), or none near the
-/// table.
+/// without it the test's own; `fill`: how its mould is filled for the comparison. Errors: the test is no slump test;
+/// the dumps hold other grains than each other, or than the card's mould (by a tenth of their number, or 5 % of their
+/// mean radius, as in another unit), or none near the table.
 Result<Readings> read_heaps(const Test& test, std::optional<std::uint64_t> packing, const Particles& filled,
-                            std::span<const Particles> heaps);
+                            std::span<const Particles> heaps, const RunOptions& fill = {});
 
 }  // namespace pastefit

@@ -16,7 +16,8 @@ struct Reader {
 };
 
 /// lab, apparatus, study, card, physics_case, impact, store, a row of the store, sheet, what is typed into
-/// `pastefit new`, table, a laboratory's CSV file, lammps_log, what `pastefit confirm` reads of a run, and slurm_folder, the folder of a batch.
+/// `pastefit new`, table, a laboratory's CSV file, lammps_log, what `pastefit confirm` reads of a run, and
+/// slurm_folder, the folder of a batch.
 std::span<const Reader> readers();
 
 /// What the attack on a reader starts from: the shipped files that it reads (corpus/shipped.json), and those that it
