@@ -15,6 +15,24 @@ namespace {
 
 using Runs = std::vector<Baseline::Run>;
 
+/// Takes the readings of a stage, "step2.", from a run in which more than a tenth of its grains left the table, as
+/// where a heap slides off a plate. True if there was one.
+bool take_out_spilled(Baseline::Run& run) {
+  constexpr double most = 0.1;
+  constexpr std::string_view share = "spilled_share";
+  std::vector<std::string> stages;
+  for (const Reading& one : run.readings.all())
+    if (one.name.ends_with(share) && one.value > most)
+      stages.push_back(one.name.substr(0, one.name.size() - share.size()));
+  if (stages.empty()) return false;
+  Readings left;
+  for (const Reading& one : run.readings.all())
+    if (std::ranges::none_of(stages, [&](const std::string& stage) { return one.name.starts_with(stage); }))
+      left.set(one.name, one.value);
+  run.readings = std::move(left);
+  return true;
+}
+
 /// `accepted`: the runs of each material that a laboratory would accept.
 ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& accepted) {
   ReadingPrediction out;
@@ -61,10 +79,12 @@ Result<Prediction> predict(const Card& card, std::span<const std::vector<double>
     out.heaps += count;
     for (const Baseline::Run& run : runs.value()) out.rejected += is_rejected(candidate, run.readings) ? 1 : 0;
     standing.push_back(accepted(candidate, runs.value()));
+    for (Baseline::Run& run : standing.back()) out.spilled += take_out_spilled(run) ? 1 : 0;
   }
   for (const ReadingKind& kind : reading_kinds(test)) {
     const auto* one = find_measurement(measured, kind.name);
-    if ((!kind.advised && !one) || column_of(standing.front(), std::string(kind.name)).empty()) continue;
+    const auto has_it = [&](const Runs& runs) { return !column_of(runs, std::string(kind.name)).empty(); };
+    if ((!kind.advised && !one) || std::ranges::none_of(standing, has_it)) continue;
     ReadingPrediction reading = reading_of(std::string(kind.name), standing);
     if (one) reading.measured = *one;
     reading.of_test = std::max(kind.published_deviation, reading.of_heap);

@@ -29,7 +29,9 @@ struct ReadingPrediction {
 
 struct Prediction {
   std::vector<ReadingPrediction> readings;  ///< that a laboratory would take, or took
-  int heaps = 0, rejected = 0;  ///< simulated; of them such as a laboratory would repeat, which are left out
+  int heaps = 0;                            ///< simulated
+  int rejected = 0;                         ///< of them such as a laboratory would repeat, which are left out
+  int spilled = 0;  ///< of them such as slid off the table, by a tenth of their grains or more, whose readings then end
 };
 
 /// The probability that a band is meant to have.

@@ -61,17 +61,16 @@ std::string prediction_table(const Prediction& found, std::size_t materials) {
   }
   if (!std::ranges::all_of(found.readings, &ReadingPrediction::is_within)) out += "x: measured outside of the band.\n";
   out += format("%zu materials that fit the readings of the calibration, %d heaps", materials, found.heaps);
-  return out + (found.rejected > 0
-                    ? format("\n(%d of them left out: a laboratory would repeat such a test).\n", found.rejected)
-                    : ".\n");
+  if (found.rejected > 0)
+    out += format("; %d of them, such as a laboratory would repeat, are left out", found.rejected);
+  if (found.spilled > 0) out += format("; %d slid off the table and are left out", found.spilled);
+  return wrapped(out + ".\n");
 }
 
 nlohmann::ordered_json prediction_json(const Prediction& found, std::size_t materials) {
-  nlohmann::ordered_json out{{"materials", materials},
-                             {"heaps", found.heaps},
-                             {"rejected", found.rejected},
-                             {"level", prediction_level},
-                             {"readings", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json out{{"materials", materials},     {"heaps", found.heaps},
+                             {"rejected", found.rejected}, {"spilled", found.spilled},
+                             {"level", prediction_level},  {"readings", nlohmann::ordered_json::object()}};
   for (const ReadingPrediction& one : found.readings) {
     nlohmann::ordered_json& row = out["readings"][one.name];
     row = {{"mean", one.mean},

@@ -63,3 +63,32 @@ TEST_CASE("a predicted band reaches from the lowest to the highest material, wid
   CHECK_FALSE(predicted(130 + 1.01 * scatter).is_within());
   CHECK_FALSE(predicted(110 - 1.01 * scatter).is_within());
 }
+
+TEST_CASE("of heaps that slide off the table a prediction has no later readings, and says how many they are") {
+  const auto card = read_card(PASTEFIT_SOURCE_DIR "/data/cards/concrete-mix-79.json");
+  REQUIRE(card.ok());
+  CheckEngine engine = made_up();
+  engine.run = [run = engine.run](const Test& test, const RunOptions& options) {
+    Outcome outcome = run(test, options);
+    const bool slides = specimen_of(test).contact.friction < 0.2;
+    outcome.readings.set("step2.spilled_share", slides ? 0.9 : 0.02);
+    outcome.readings.set("step2.height_mm", slides ? 8 : 80);
+    return outcome;
+  };
+  std::vector<std::vector<double>> materials(2, values_of(card.value().material));
+  const auto friction = static_cast<std::size_t>(
+      std::ranges::find(parameter_kinds(), "friction", &ParameterKind::name) - parameter_kinds().begin());
+  materials[0][friction] = 0.1;
+  materials[1][friction] = 0.3;
+  SlumpTest test = std::get<SlumpTest>(card.value().tests.front().test);
+  test.drop = DropPlate{};
+  const std::vector<Measurement> measured{{"step1.height_mm", 120, 1, 1}, {"step2.height_mm", 80, 1, 1}};
+  const auto found = predict(card.value(), materials, test, measured, 4, 1, engine);
+  REQUIRE(found.ok());
+  CHECK(found.value().spilled == 4);
+  const auto& readings = found.value().readings;
+  const auto height2 = std::ranges::find(readings, "step2.height_mm", &ReadingPrediction::name);
+  REQUIRE(height2 != readings.end());
+  CHECK(height2->of_materials == std::vector<double>{80});
+  CHECK(std::ranges::find(readings, "step1.height_mm", &ReadingPrediction::name)->of_materials.size() == 2);
+}
