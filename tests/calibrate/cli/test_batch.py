@@ -256,6 +256,11 @@ class Batch(Desk):
         self.assertIn("mix-00", result.stderr)
         self.assertTrue(self.table()[1]["strength_pa"])
 
+    def test_a_study_whose_page_cannot_be_written_is_named(self):
+        studies = write_studies(self.folder, 1)
+        (self.out / "mix-00" / "report.html").mkdir(parents=True)
+        self.fails(self.batch(*studies), 1, "mix-00", "report.html")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

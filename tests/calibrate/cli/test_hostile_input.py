@@ -7,6 +7,7 @@ import ast
 import contextlib
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -91,6 +92,12 @@ class HostileInput(Desk):
             result = subprocess.run([PROGRAM, *arguments, name], capture_output=True, timeout=120)
             self.assertEqual(result.returncode, 0, result.stderr)
             result.stdout.decode()
+        shutil.copy(coarse_card(), name)
+        reasons = [PROGRAM, "check", name, "--rebaseline", "--packings", "2", "--why", b"grains \xff"]
+        self.assertEqual(subprocess.run(reasons, capture_output=True, timeout=120).returncode, 0)
+        self.assertEqual(json.loads(pathlib.Path(os.fsdecode(name)).read_text())["rebaselined"][-1]["why"], "grains \ufffd")
+        table = [PROGRAM, "batch", "--table", STUDY, "--out", os.fsencode(self.folder) + b"/\xff"]
+        self.assertEqual(subprocess.run(table, capture_output=True, timeout=120).returncode, 0)
         result = subprocess.run([PROGRAM, "simulate", CARD, "--set", b"title=\xff"], capture_output=True, timeout=120)
         self.assertEqual(result.returncode, 2, result.stderr)
         result.stderr.decode()
