@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "calibrate/base/input_file.h"
@@ -17,68 +18,35 @@
 namespace pastefit {
 namespace {
 
-/// What a head may say, as `folded` makes it, and what it is in `pastefit new`. Sources of the names: EN 12350-2, -5
+/// What a head is in `pastefit new`, and how it may say it, as `folded` makes it. Sources of the names: EN 12350-2, -5
 /// and -6, EN 1015-3 and ASTM C143, C138 and C1437, and the German editions of the first.
 struct Heading {
-  std::string_view says, is;
+  std::string_view is, says;
 };
 
 constexpr std::string_view kSample = "sample", kTitle = "title", kMould = "mould", kDensity = "density",
                            kDrops = "drops", kYieldStress = "yield-stress";
 
-constexpr std::array<Heading, 51> headings{{
-    {"sample", kSample},
-    {"mix", kSample},
-    {"mixture", kSample},
-    {"specimen", kSample},
-    {"id", kSample},
-    {"no", kSample},
-    {"name", kSample},
-    {"probe", kSample},
-    {"mischung", kSample},
-    {"rezeptur", kSample},
-    {"title", kTitle},
-    {"description", kTitle},
-    {"bezeichnung", kTitle},
-    {"mould", kMould},
-    {"mold", kMould},
-    {"cone", kMould},
-    {"form", kMould},
-    {"density", kDensity},
-    {"bulk density", kDensity},
-    {"fresh density", kDensity},
-    {"unit weight", kDensity},
-    {"dichte", kDensity},
-    {"rohdichte", kDensity},
-    {"frischbetonrohdichte", kDensity},
-    {"drops", kDrops},
-    {"strokes", kDrops},
-    {"stoesse", kDrops},
-    {"hubstoesse", kDrops},
-    {"yield stress", kYieldStress},
-    {"fliessgrenze", kYieldStress},
-    {"slump", "slump"},
-    {"setzmass", "slump"},
-    {"height", "height"},
-    {"hoehe", "height"},
-    {"h1", "height"},
-    {"h2", "height2"},
-    {"spread", "spread"},
-    {"slump flow", "spread"},
-    {"setzfliessmass", "spread"},
-    {"breite", "spread"},
-    {"flow", "flow"},
-    {"ausbreitmass", "flow"},
-    {"sag", "sag"},
-    {"shift", "shift"},
-    {"mass", "mass"},
-    {"masse", "mass"},
-    {"angle of repose", "angle"},
-    {"angle", "angle"},
-    {"schuettwinkel", "angle"},
-    {"t500", "step1.t500_s"},
-    {"height after", "height-after"},
+constexpr std::array<Heading, 15> headings{{
+    {kSample, "|sample|mix|mixture|specimen|id|no|name|probe|mischung|rezeptur|"},
+    {kTitle, "|title|description|bezeichnung|"},
+    {kMould, "|mould|mold|cone|form|"},
+    {kDensity, "|density|bulk density|fresh density|unit weight|dichte|rohdichte|frischbetonrohdichte|"},
+    {kDrops, "|drops|strokes|stoesse|hubstoesse|"},
+    {kYieldStress, "|yield stress|fliessgrenze|"},
+    {"slump", "|setzmass|"},
+    {"height", "|hoehe|h1|"},
+    {"height2", "|h2|"},
+    {"spread", "|slump flow|setzfliessmass|breite|"},
+    {"flow", "|ausbreitmass|"},
+    {"mass", "|masse|"},
+    {"angle", "|angle of repose|schuettwinkel|"},
+    {"step1.t500_s", "|t500|"},
+    {"height-after", "|height after|"},
 }};
+
+constexpr std::size_t most_samples = 1000, most_columns = 300,
+                      longest_cell = 500;  // std::regex recurses with the length
 
 /// In small letters without umlauts, with a blank for what is no letter and no digit.
 std::string folded(std::string_view text) {
@@ -132,7 +100,8 @@ std::string without_number(const std::string& says) {
 /// What a head is in `pastefit new`: by its whole name, else without the number of a repeat. Empty if it is nothing.
 std::string meaning_of(const std::string& head, const std::string& says) {
   for (const std::string& name : {says, without_number(says)}) {
-    const auto heading = std::ranges::find(headings, name, &Heading::says);
+    const auto heading = std::ranges::find_if(
+        headings, [&](const Heading& one) { return one.says.find("|" + name + "|") != std::string_view::npos; });
     if (heading != headings.end()) return std::string(heading->is);
     for (const ShortReading& one : short_readings())
       if (folded(one.name) == name || one.key == head) return std::string(one.name);
@@ -152,7 +121,8 @@ void take_numbers_for_repeats(std::vector<SheetColumn>& columns) {
 
 std::vector<SheetColumn> columns_of(const CsvLine& line) {
   std::vector<SheetColumn> columns;
-  for (const std::string& head : line.cells) {
+  for (const std::string& cell : std::span(line.cells).first(std::min(line.cells.size(), most_columns))) {
+    const std::string head = cell.size() > longest_cell ? std::string() : cell;
     SheetColumn column{.head = head, .says = {}, .is = {}, .mix = {}, .unit = {}};
     const auto [says, unit] = parted(head);
     column.says = folded(says);
@@ -295,10 +265,14 @@ SheetRow row_from(const Layout& layout, const CsvLine& line, const Sheet& defaul
   row.sheet.yield_stress.clear();
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const SheetColumn& column = layout.columns[i];
-    const std::string raw = cell_of(line, i), cell = layout.decimal_comma ? with_points(raw) : raw;
-    if (!column.known() || is_missing(raw)) continue;
-    take_cell(column, column.is == kSample || column.is == kTitle || column.is == kMould ? raw : cell,
-              "line " + std::to_string(line.number) + ", " + in_quotes(column.head), row, faults);
+    const std::string cell = cell_of(line, i);
+    if (!column.known() || is_missing(cell)) continue;
+    const std::string where = "line " + std::to_string(line.number) + ", " + in_quotes(column.head);
+    const bool words = column.is == kSample || column.is == kTitle || column.is == kMould;
+    if (cell.size() > longest_cell)
+      faults.push_back({where, "has " + std::to_string(cell.size()) + " letters", "a number, or a word"});
+    else
+      take_cell(column, words || !layout.decimal_comma ? cell : with_points(cell), where, row, faults);
   }
   for (const auto& reading : defaults.readings)
     if (std::ranges::count(row.sheet.readings, reading.first, &std::pair<std::string, std::string>::first) == 0)
@@ -355,7 +329,7 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
   for (Fault& fault : faults_of_heads(*layout)) faults.push_back(std::move(fault));
   for (const SheetColumn& column : layout->columns)
     if (!column.known() && !column.head.empty()) table.unused.push_back(column.head);
-  for (std::size_t i = layout->first; i < layout->lines.size(); ++i) {
+  for (std::size_t i = layout->first; i < layout->lines.size() && table.rows.size() < most_samples; ++i) {
     const CsvLine& line = layout->lines[i];
     if (std::ranges::all_of(line.cells, is_missing)) continue;
     SheetRow row = row_from(*layout, line, defaults, faults);
@@ -364,6 +338,10 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
     else
       table.rows.push_back(std::move(row));
   }
+  if (layout->columns.size() == most_columns)
+    faults.push_back({"", "has " + std::to_string(most_columns) + " columns or more", "the columns of a sheet alone"});
+  if (table.rows.size() == most_samples)
+    faults.push_back({"", "has " + std::to_string(most_samples) + " samples or more", "several tables"});
   for (Fault& fault : faults_of_names(table.rows)) faults.push_back(std::move(fault));
   if (table.rows.empty()) faults.push_back({"", "has no row with a reading", "a row a sample, below the head"});
   return table;

@@ -147,6 +147,22 @@ TEST_CASE("every fault of a table has its line and head") {
   CHECK_THAT(message_for(""), Catch::Contains("no line that names a reading"));
 }
 
+TEST_CASE("cells, rows and columns beyond all use are errors, and take no time") {
+  const std::string digits(2'000'000, '1');
+  CHECK_THAT(message_for("slump;spread\n" + digits + ",5;330\n"), Catch::Contains("2000002 letters"));
+  Faults faults;
+  CHECK(sheet_table("slump," + std::string(2'000'000, 'x') + "(mm)\n180,1\n", {}, faults).rows.size() == 1);
+  CHECK(faults.empty());
+  std::string head = "slump 1", cells = "180", rows = "slump\n";
+  for (int i = 0; i < 100'000; ++i) {
+    head += ",slump 2";
+    cells += ",180";
+    rows += "180\n";
+  }
+  CHECK_THAT(message_for(head + "\n" + cells + "\n"), Catch::Contains("300 columns or more"));
+  CHECK_THAT(message_for(rows), Catch::Contains("1000 samples or more"));
+}
+
 TEST_CASE("a row without a reading is named, not lost in silence") {
   CHECK(read_without_faults("sample,slump\nx,180\ny,\nz,170\n").without == std::vector<std::size_t>{3});
 }
