@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
@@ -80,11 +81,12 @@ std::string reading_table(const std::vector<HeapReading>& readings, const std::s
   return out;
 }
 
-/// `status`: that of the command; without anything to compare with, "agrees" is null.
-nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings, int status) {
+/// Without anything to compare with, "agrees" is null.
+nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::size_t packings,
+                               std::optional<bool> agrees) {
   nlohmann::ordered_json out{
-      {"packings", packings}, {"agrees", status == kDone}, {"readings", nlohmann::ordered_json::object()}};
-  if (status == kBadInput) out["agrees"] = nullptr;
+      {"packings", packings}, {"agrees", nullptr}, {"readings", nlohmann::ordered_json::object()}};
+  if (agrees) out["agrees"] = *agrees;
   for (const HeapReading& one : readings) {
     nlohmann::ordered_json& row = out["readings"][one.name];
     row["read"] = one.read;
@@ -138,18 +140,18 @@ int read_heap_of(const ReadOptions& options) {
   const auto readings = beside_card(read.value(), test.value());
   const bool rejected = is_rejected(test.value().test, read.value());
   const bool differs = rejected || std::ranges::any_of(readings, &HeapReading::differs);
-  const int status = differs ? kFailed : std::ranges::any_of(readings, &HeapReading::is_compared) ? kDone : kBadInput;
+  const bool compared = differs || std::ranges::any_of(readings, &HeapReading::is_compared);
   if (options.json) {
-    print("%s", json_text(json_of(readings, packings, status)).c_str());
+    print("%s", json_text(json_of(readings, packings, compared ? std::optional(!differs) : std::nullopt)).c_str());
   } else {
     print("%s", reading_table(readings, packings_in_words(card.value(), test.value())).c_str());
     if (rejected) print("%s.\n", remarks_on(test.value().test, {&read.value(), 1}).c_str());
-    print(rejected              ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
-          : differs             ? "The heap differs from the card's by more than the noise.\n"
-          : status == kBadInput ? "Not compared: the card has no readings of three packings or more.\n"
-                                : "The heap agrees with the card.\n");
+    print(rejected    ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
+          : differs   ? "The heap differs from the card's by more than the noise.\n"
+          : !compared ? "Not compared: the card has no readings of three packings or more.\n"
+                      : "The heap agrees with the card.\n");
   }
-  return status;
+  return compared && !differs ? kDone : kFailed;
 }
 
 }  // namespace
