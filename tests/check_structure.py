@@ -11,8 +11,8 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 38045,
-    "files of core and calibrate": 435,
+    "lines of C++ in calibrate": 38235,
+    "files of core and calibrate": 437,
     "of them below 40 lines": 60,
     "files that start or wait for threads": 2,
     "files that decide whether a material meets the laboratory": 1,

@@ -43,6 +43,7 @@ ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& a
     const Sample sample = sample_of(column_of(runs, name));
     if (sample.count == 0) continue;
     out.of_materials.push_back(sample.mean);
+    out.heaps = std::max(out.heaps, sample.count);
     squares += (sample.count - 1) * sample.standard_deviation * sample.standard_deviation;
     freedom += sample.count - 1;
   }
@@ -61,7 +62,8 @@ ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& a
 
 double ReadingPrediction::width_left() const {
   const double between = sample_of(of_materials).standard_deviation;
-  return between > 0 ? of_test / std::hypot(of_test, between) : 1;
+  const double variance = between * between - of_heap * of_heap / std::max(heaps, 1);
+  return variance > 0 ? of_test / std::sqrt(of_test * of_test + variance) : 1;
 }
 
 Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& asked,

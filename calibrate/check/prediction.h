@@ -17,12 +17,14 @@ struct ReadingPrediction {
   double mean = 0;                      ///< of these means
   double of_heap = 0;                   ///< standard deviation of one heap about its material's mean
   double lower = 0, upper = 0;          ///< band for one measured heap
+  int heaps = 0;                        ///< of a material, at most
   double of_test = 0;                   ///< standard deviation of one measured test: published, or of a heap if larger
   std::optional<Measurement> measured;  ///< by the laboratory, if the file has it
 
   /// How wide the materials' range of this reading is once one test has measured it, over its width now:
-  ///     s/sqrt(s^2 + v^2),   s = `of_test`, v^2 the variance of the materials' means,
-  /// the standard deviation of a normal distribution after a measurement over that before. 1: nothing is learnt.
+  ///     s/sqrt(s^2 + v^2),   v^2 = max(0, variance of the means - w^2/n),
+  /// s = `of_test`, w = `of_heap`, n heaps a material: the standard deviation of a normal distribution after a
+  /// measurement over that before, the scatter of the means taken off. 1: nothing is learnt.
   double width_left() const;
   bool is_within() const { return !measured || (lower <= measured->value && measured->value <= upper); }
 };

@@ -135,8 +135,11 @@ Result<StartingFiles> templates_of_kind(const std::string& kind) {
 void part(const std::string& option, const std::vector<std::string>& texts, Sheet::Named& into, Faults& faults) {
   for (const std::string& text : texts) {
     const auto sign = text.find('=');
+    const std::string name = text.substr(0, std::min(sign, text.size()));
     if (sign == std::string::npos || sign == 0)
-      faults.push_back({option + " " + printable(text), "is not NAME=VALUE", "e.g. --reading \"spread=330, 335\""});
+      faults.push_back({option + " " + printable(text), "is not NAME=VALUE", "as pastefit new --help has it"});
+    else if (option != "--reading" && std::ranges::count(into, name, &std::pair<std::string, std::string>::first) > 0)
+      faults.push_back({option + " " + printable(name), "is given twice", "once"});
     else
       into.emplace_back(text.substr(0, sign), text.substr(sign + 1));
   }
@@ -167,6 +170,14 @@ struct Start {
 Faults write_files(const std::vector<Start>& starts, bool force) {
   std::error_code error;
   Faults faults;
+  for (const Start& start : starts) {
+    for (Fault& fault : output_folder_faults(start.folder.string(), start.folder)) faults.push_back(std::move(fault));
+    for (const char* name : {"lab.json", "study.json"})
+      if (!force && fs::exists(start.folder / name, error))
+        for (Fault& fault : output_file_faults((start.folder / name).string(), start.folder / name, force))
+          faults.push_back(std::move(fault));
+  }
+  if (!faults.empty()) return faults;
   for (const Start& start : starts) fs::create_directories(start.folder, error);
   for (const Start& start : starts)
     for (const fs::path& file : {start.folder / "lab.json", start.folder / "study.json"})
@@ -195,10 +206,16 @@ int write_one(const NewOptions& options, const Start& start) {
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 8;
+  constexpr std::size_t most = 20;
   std::string list;
   for (std::size_t i = 0; i < std::min(most, words.size()); ++i) list += (i == 0 ? "" : ", ") + words[i];
   return words.size() > most ? list + " and " + std::to_string(words.size() - most) + " more" : list;
+}
+
+std::vector<std::string> numbers_of(const std::vector<std::size_t>& lines) {
+  std::vector<std::string> words;
+  for (const std::size_t line : lines) words.push_back(std::to_string(line));
+  return words;
 }
 
 /// What is wrong in the rows of a table: each fault once, with the lines that have it.
@@ -224,7 +241,7 @@ Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
 /// Writes a study for each row of a table; that of a single one as if its sheet had been typed.
 int new_from_table(const NewOptions& options) {
   Faults of_table;
-  const auto [rows, unused, without] = read_sheet_table(options.table, options.sheet, of_table);
+  const auto [rows, mix, unused, without, statistics] = read_sheet_table(options.table, options.sheet, of_table);
   std::vector<Start> starts;
   std::vector<std::pair<std::size_t, Fault>> found;
   for (const SheetRow& row : rows) {
@@ -241,11 +258,14 @@ int new_from_table(const NewOptions& options) {
     starts.push_back(std::move(start));
   }
   for (Fault& fault : in_file(in_lines(found), options.table)) of_table.push_back(std::move(fault));
+  const auto said = [](const char* what, const std::vector<std::string>& words) {
+    if (!words.empty()) note("%s: %s\n", what, one_line(listed(words)).c_str());
+  };
+  said("columns of the mix", mix);
+  said("columns that are not used", unused);
+  said("lines without a reading", numbers_of(without));
+  said("lines that are no sample", numbers_of(statistics));
   if (!of_table.empty()) return report(of_table);
-  std::vector<std::string> lines;
-  for (const std::size_t line : without) lines.push_back(std::to_string(line));
-  if (!unused.empty()) print("Columns that are not used: %s\n", printable(listed(unused)).c_str());
-  if (!lines.empty()) print("Lines without a reading: %s\n", listed(lines).c_str());
   if (starts.size() == 1) return write_one(options, starts[0]);
   if (const Faults faults = write_files(starts, options.force); !faults.empty()) return report(faults);
   for (const Start& start : starts)
@@ -260,6 +280,9 @@ int new_from_table(const NewOptions& options) {
 int make_new(NewOptions options) {
   Faults faults = read_options(options);
   if (!faults.empty()) return report(faults);
+  if (options.test != "slump" && !options.table.empty())
+    return report(
+        {{"--from", "is of slump tests, and --test " + in_quotes(options.test) + " is another", "leave one out"}});
   if (options.test != "slump") {
     const auto files = templates_of_kind(options.test);
     return files.ok() ? write_one(options, {options.folder, files.value()}) : report(files.faults());

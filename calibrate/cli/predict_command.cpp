@@ -162,13 +162,20 @@ Faults unpredictable(const Family& family, const Test& other, const PredictOptio
 int predict_presets(const Family& family, const PredictOptions& options) {
   NextTests next;
   std::vector<std::pair<std::string, Test>> tests;
+  std::vector<nlohmann::json> described;
   for (const std::string& name : preset_names(".")) {
     const auto other = test_of_preset(name, family.card);
     if (!other.ok()) return report(other.faults());
-    if (const auto faults = validate(with_material_of(family.card, other.value().test)); !faults.empty())
+    if (const auto same = std::ranges::find(described, to_json(other.value().test)); same != described.end()) {
+      tests[static_cast<std::size_t>(same - described.begin())].first = name;  // two names of one rig
+      continue;
+    }
+    if (const auto faults = validate(with_material_of(family.card, other.value().test)); !faults.empty()) {
       next.left_out.emplace_back(name, faults.front().where + " " + faults.front().what);
-    else
+    } else {
       tests.emplace_back(name, other.value().test);
+      described.push_back(to_json(other.value().test));
+    }
   }
   const int count = static_cast<int>(tests.size());
   for (const auto& [name, test] : tests)
@@ -183,7 +190,9 @@ int predict_presets(const Family& family, const PredictOptions& options) {
   }
   line.clear();
   std::ranges::stable_sort(next.readings, {}, [](const NextReading& one) { return one.reading.width_left(); });
-  print("%s", options.json ? json_text(next_json(next)).c_str() : wrapped(next_table(next)).c_str());
+  const std::string open = unconfirmed_line(family.card);
+  print("%s", options.json ? json_text(next_json(next)).c_str()
+                           : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)).c_str());
   return kDone;
 }
 

@@ -13,146 +13,20 @@
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
+#include "calibrate/study/sheet_columns.h"
 #include "calibrate/study/written_readings.h"
 
 namespace pastefit {
 namespace {
 
-/// What a head is in `pastefit new`, and how it may say it, as `folded` makes it. Sources of the names: EN 12350-2, -5
-/// and -6, EN 1015-3 and ASTM C143, C138 and C1437, and the German editions of the first.
-struct Heading {
-  std::string_view is, says;
-};
-
-constexpr std::string_view kSample = "sample", kTitle = "title", kMould = "mould", kDensity = "density",
-                           kDrops = "drops", kYieldStress = "yield-stress";
-
-constexpr std::array<Heading, 15> headings{{
-    {kSample, "|sample|mix|mixture|specimen|id|no|name|probe|mischung|rezeptur|"},
-    {kTitle, "|title|description|bezeichnung|"},
-    {kMould, "|mould|mold|cone|form|"},
-    {kDensity, "|density|bulk density|fresh density|unit weight|dichte|rohdichte|frischbetonrohdichte|"},
-    {kDrops, "|drops|strokes|stoesse|hubstoesse|"},
-    {kYieldStress, "|yield stress|fliessgrenze|"},
-    {"slump", "|setzmass|"},
-    {"height", "|hoehe|h1|"},
-    {"height2", "|h2|"},
-    {"spread", "|slump flow|setzfliessmass|breite|"},
-    {"flow", "|ausbreitmass|"},
-    {"mass", "|masse|"},
-    {"angle", "|angle of repose|schuettwinkel|"},
-    {"step1.t500_s", "|t500|"},
-    {"height-after", "|height after|"},
-}};
-
-constexpr std::size_t most_samples = 1000, most_columns = 300,
-                      longest_cell = 500;  // std::regex recurses with the length
-
-/// In small letters without umlauts, with a blank for what is no letter and no digit.
-std::string folded(std::string_view text) {
-  static const std::map<std::string_view, std::string_view> letters{{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "ae"},
-                                                                    {"Ö", "oe"}, {"Ü", "ue"}, {"ß", "ss"}};
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const unsigned char letter = static_cast<unsigned char>(text[i]);
-    if (const auto found = letters.find(text.substr(i, 2)); found != letters.end()) {
-      out += found->second;
-      ++i;
-    } else if (std::isalnum(letter)) {
-      out += static_cast<char>(std::tolower(letter));
-    } else if (!out.empty() && out.back() != ' ') {
-      out += ' ';
-    }
-  }
-  return trimmed(out);
-}
-
-/// A column of the table: what it is in `pastefit new`, or a variable of the mix; neither of one that is not used.
-struct SheetColumn {
-  std::string head, says;
-  std::string is, mix;
-  std::string unit;  ///< as the head has it
-  bool known() const { return !is.empty() || !mix.empty(); }
-};
-
-/// Parts a head into what it says and its unit: "Slump 1 (mm)", "slump, in", "slump_mm", "Slump in mm".
-std::pair<std::string, std::string> parted(const std::string& head) {
-  std::smatch found;
-  static const std::regex in_brackets(R"(^(.*?)[(\[]([^)\]]*)[)\]](.*)$)");
-  if (std::regex_match(head, found, in_brackets))
-    return {found[1].str() + " " + found[3].str(), with_percent_sign(trimmed(found[2].str()))};
-  std::string unit;
-  std::size_t end = std::string::npos;
-  for (std::size_t i = head.size(); i-- > 1;) {
-    if (head[i] != ' ' && head[i] != ',' && head[i] != '_') continue;
-    if (unit_of_word(trimmed(head.substr(i + 1)))) unit = trimmed(head.substr(i + 1)), end = i;
-  }
-  std::string says = head.substr(0, end);
-  if (!unit.empty() && says.ends_with(" in")) says.resize(says.size() - 3);
-  return {says, unit};
-}
-
-std::string without_number(const std::string& says) {
-  const std::size_t last = says.find_last_not_of("0123456789");
-  return last == std::string::npos ? says : trimmed(says.substr(0, last + 1));
-}
-
-/// What a head is in `pastefit new`: by its whole name, else without the number of a repeat. Empty if it is nothing.
-std::string meaning_of(const std::string& head, const std::string& says) {
-  for (const std::string& name : {says, without_number(says)}) {
-    const auto heading = std::ranges::find_if(
-        headings, [&](const Heading& one) { return one.says.find("|" + name + "|") != std::string_view::npos; });
-    if (heading != headings.end()) return std::string(heading->is);
-    for (const ShortReading& one : short_readings())
-      if (folded(one.name) == name || one.key == head) return std::string(one.name);
-  }
-  return "";
-}
-
-/// "slump2" is a reading after the drop, unless a "slump1" stands beside it.
-void take_numbers_for_repeats(std::vector<SheetColumn>& columns) {
-  for (SheetColumn& column : columns) {
-    const std::string bare = without_number(column.says);
-    const bool first = std::ranges::any_of(
-        columns, [&](const SheetColumn& other) { return other.says == bare + "1" || other.says == bare + " 1"; });
-    if (first && bare != column.says && bare != "h" && !meaning_of("", bare).empty()) column.is = meaning_of("", bare);
-  }
-}
-
-std::vector<SheetColumn> columns_of(const CsvLine& line) {
-  std::vector<SheetColumn> columns;
-  for (const std::string& cell : std::span(line.cells).first(std::min(line.cells.size(), most_columns))) {
-    const std::string head = cell.size() > longest_cell ? std::string() : cell;
-    SheetColumn column{.head = head, .says = {}, .is = {}, .mix = {}, .unit = {}};
-    const auto [says, unit] = parted(head);
-    column.says = folded(says);
-    column.unit = unit;
-    column.is = meaning_of(head, column.says);
-    const auto known = unit_of_word(unit);
-    if (column.is.empty() && known && known->key == "kg_m3" && !column.says.empty() && column.says[0] >= 'a') {
-      column.mix = (column.says.starts_with("mix ") ? column.says.substr(4) : column.says) + "_kg_m3";
-      std::ranges::replace(column.mix, ' ', '_');
-    }
-    columns.push_back(std::move(column));
-  }
-  take_numbers_for_repeats(columns);
-  return columns;
-}
-
-bool is_of_sample(const std::string& is) {
-  return is == kSample || is == kTitle || is == kMould || is == kDensity || is == kDrops;
-}
-
-bool names_reading(const std::vector<SheetColumn>& columns) {
-  return std::ranges::any_of(columns, [](const SheetColumn& one) { return !one.is.empty() && !is_of_sample(one.is); });
-}
+constexpr std::size_t most_samples = 1000;
 
 /// The table with the separator and the line that make the most of its head.
 struct Layout {
   std::vector<CsvLine> lines;
   std::vector<SheetColumn> columns;
   std::size_t first = 0;  ///< line below the head
-  bool decimal_comma = false;
+  char separator = ',';
 };
 
 std::optional<Layout> layout_of(std::string_view text) {
@@ -162,11 +36,11 @@ std::optional<Layout> layout_of(std::string_view text) {
   for (const char separator : {'\t', ';', ','}) {
     const std::vector<CsvLine> lines = csv_lines(text, separator);
     for (std::size_t i = 0; i < std::min(lines.size(), most_above); ++i) {
-      std::vector<SheetColumn> columns = columns_of(lines[i]);
+      std::vector<SheetColumn> columns = sheet_columns(lines[i]);
       const auto known = std::ranges::count_if(columns, &SheetColumn::known);
       if (known <= most || !names_reading(columns)) continue;
       most = known;
-      best = Layout{lines, std::move(columns), i + 1, separator != ','};
+      best = Layout{lines, std::move(columns), i + 1, separator};
     }
   }
   return best;
@@ -176,15 +50,44 @@ std::string cell_of(const CsvLine& line, std::size_t column) {
   return column < line.cells.size() ? line.cells[column] : std::string();
 }
 
+/// What people and Excel write where nothing was measured, in small letters.
 bool is_missing(const std::string& cell) {
-  static const std::set<std::string, std::less<>> words{"",    "-",    "–",  "—",   "/",  "n/a",
-                                                        "N/A", "n.a.", "NA", "nan", "NaN"};
-  return words.contains(cell);
+  static const std::set<std::string, std::less<>> words{
+      "",    "-",    "–",    "—",     "/",   "?",    "x",       "n/a",          "n.a.",          "na",
+      "nan", "n.b.", "k.a.", "k. a.", "#nv", "#n/a", "#div/0!", "not measured", "nicht gemessen"};
+  return words.contains(small_letters(cell));
+}
+
+/// Rows that a laboratory adds below its samples.
+bool is_of_statistics(const std::string& sample) {
+  static const std::set<std::string, std::less<>> words{"mean",
+                                                        "average",
+                                                        "mittel",
+                                                        "mittelwert",
+                                                        "durchschnitt",
+                                                        "median",
+                                                        "stabw",
+                                                        "standardabweichung",
+                                                        "standard deviation",
+                                                        "std",
+                                                        "st dev",
+                                                        "sd",
+                                                        "min",
+                                                        "max",
+                                                        "minimum",
+                                                        "maximum",
+                                                        "sum",
+                                                        "summe",
+                                                        "n",
+                                                        "anzahl",
+                                                        "count"};
+  return words.contains(folded(sample));
 }
 
 /// Takes a line below the head that holds units only.
 void take_units(Layout& layout) {
   if (layout.first >= layout.lines.size()) return;
+  static const std::set<std::string, std::less<>> words{"unit", "units", "einheit", "einheiten", "%"};
   const CsvLine& line = layout.lines[layout.first];
   const auto unit_in = [&](std::size_t i) {
     std::string cell = cell_of(line, i);
@@ -193,20 +96,20 @@ void take_units(Layout& layout) {
   };
   bool any = false;
   for (std::size_t i = 0; i < line.cells.size(); ++i) {
-    if (is_missing(line.cells[i])) continue;
+    if (is_missing(line.cells[i]) || words.contains(small_letters(unit_in(i)))) continue;
     if (!unit_of_word(unit_in(i))) return;
     any = true;
   }
   if (!any) return;
   for (std::size_t i = 0; i < layout.columns.size(); ++i)
-    if (layout.columns[i].unit.empty()) layout.columns[i].unit = unit_in(i);
+    if (layout.columns[i].unit.empty()) layout.columns[i].take_unit(is_missing(cell_of(line, i)) ? "" : unit_in(i));
   ++layout.first;
 }
 
-/// Numbers with decimal points, where a comma between digits is a decimal one; a list without blanks stays as it is.
+/// Numbers with decimal points, where a comma between digits is a decimal one; what may be a list or thousands stays.
 std::string with_points(const std::string& cell) {
-  static const std::regex list(R"(\d,\d+,\d)"), comma(R"((\d),(\d))");
-  return std::regex_search(cell, list) ? cell : std::regex_replace(cell, comma, "$1.$2");
+  static const std::regex other(R"(\d,\d+,\d|\d\d,\d\d\d(?!\d)|\d\.\d+,\d)"), comma(R"((\d),(\d))");
+  return std::regex_search(cell, other) ? cell : std::regex_replace(cell, comma, "$1.$2");
 }
 
 std::string with_unit(const std::string& cell, const std::string& unit) {
@@ -228,23 +131,24 @@ void take_cell(const SheetColumn& column, const std::string& cell, const std::st
   Sheet& sheet = row.sheet;
   const std::string text = with_unit(cell, column.unit);
   if (!column.mix.empty()) {
+    static const std::regex thousands(R"(\d{1,3}([.,]\d{3})+)");
     const auto number = written_number(text);
-    if (number)
+    if (number && !number->comma && !std::regex_match(cell, thousands))
       sheet.mix.emplace_back(column.mix, number->value * (number->unit ? number->unit->factor : 1));
     else
-      faults.push_back({where, "holds " + in_quotes(cell) + ", which is no number", "a number, or nothing"});
-  } else if (column.is == kSample) {
+      faults.push_back({where, "holds " + in_quotes(cell), "a number without a sign between thousands, or nothing"});
+  } else if (column.is == kIsSample) {
     row.name = folder_name(cell);
     sheet.title = cell;
-  } else if (column.is == kTitle) {
+  } else if (column.is == kIsTitle) {
     sheet.title = cell;
-  } else if (column.is == kMould) {
+  } else if (column.is == kIsMould) {
     sheet.mould = cell;
-  } else if (column.is == kDensity) {
+  } else if (column.is == kIsDensity) {
     sheet.density = text;
-  } else if (column.is == kYieldStress) {
+  } else if (column.is == kIsYieldStress) {
     sheet.yield_stress += (sheet.yield_stress.empty() ? "" : "; ") + text;
-  } else if (column.is == kDrops) {
+  } else if (column.is == kIsDrops) {
     const auto number = written_number(cell);
     if (number && !number->unit && number->value >= 1 && number->value <= 1000)
       sheet.drops = static_cast<int>(number->value);
@@ -259,6 +163,20 @@ void take_cell(const SheetColumn& column, const std::string& cell, const std::st
   }
 }
 
+/// A line whose cells are not those of the head: one too many, or one in quotes that reached into other lines.
+Faults misplaced_cells(const Layout& layout, const CsvLine& line) {
+  Faults faults;
+  const std::string where = "line " + std::to_string(line.number);
+  for (const std::string& cell : line.cells)
+    if (cell.find('\n') != std::string::npos && cell.find(layout.separator) != std::string::npos)
+      faults.push_back({where, "has a quotation mark that closes in a later line, or nowhere", "close it in its cell"});
+  for (std::size_t i = layout.columns.size(); i < line.cells.size() && faults.empty(); ++i)
+    if (!is_missing(line.cells[i]))
+      faults.push_back({where, "has more cells than the head: " + in_quotes(line.cells[i]),
+                        "a head for each cell; decimal commas only where semicolons or tabs part the cells"});
+  return faults;
+}
+
 SheetRow row_from(const Layout& layout, const CsvLine& line, const Sheet& defaults, Faults& faults) {
   SheetRow row{.name = {}, .line = line.number, .sheet = defaults};
   row.sheet.readings.clear();
@@ -266,37 +184,19 @@ SheetRow row_from(const Layout& layout, const CsvLine& line, const Sheet& defaul
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const SheetColumn& column = layout.columns[i];
     const std::string cell = cell_of(line, i);
-    if (!column.known() || is_missing(cell)) continue;
+    const bool words = column.is == kIsSample || column.is == kIsTitle || column.is == kIsMould;
+    if (!column.known() || cell.empty() || (!words && is_missing(cell))) continue;
     const std::string where = "line " + std::to_string(line.number) + ", " + in_quotes(column.head);
-    const bool words = column.is == kSample || column.is == kTitle || column.is == kMould;
     if (cell.size() > longest_cell)
       faults.push_back({where, "has " + std::to_string(cell.size()) + " letters", "a number, or a word"});
     else
-      take_cell(column, words || !layout.decimal_comma ? cell : with_points(cell), where, row, faults);
+      take_cell(column, words || layout.separator == ',' ? cell : with_points(cell), where, row, faults);
   }
   for (const auto& reading : defaults.readings)
-    if (std::ranges::count(row.sheet.readings, reading.first, &std::pair<std::string, std::string>::first) == 0)
-      row.sheet.readings.push_back(reading);
-  if (row.name.empty()) row.name = "line-" + std::to_string(line.number);
+    if (std::ranges::count(layout.columns, reading.first, &SheetColumn::is) == 0) row.sheet.readings.push_back(reading);
+  if (row.name.empty()) row.sheet.title = "line " + std::to_string(line.number);
+  if (row.name.empty()) row.name = folder_name(row.sheet.title);
   return row;
-}
-
-/// Heads that no reading and no number can have, and those that stand twice where one is right.
-Faults faults_of_heads(const Layout& layout) {
-  Faults faults;
-  std::set<std::string> seen;
-  for (const SheetColumn& column : layout.columns) {
-    if (!column.known()) continue;
-    const bool text = column.is == kSample || column.is == kTitle || column.is == kMould || column.is == kDrops;
-    if (!text && !column.unit.empty() && column.unit != "%" && !unit_of_word(column.unit))
-      faults.push_back({"head " + in_quotes(column.head),
-                        "has the unit " + in_quotes(column.unit) + ", which is not known",
-                        "e.g. mm, cm, in, kg/m3, Pa"});
-    const bool once = is_of_sample(column.is) || !column.mix.empty();
-    if (once && !seen.insert(column.is + column.mix).second)
-      faults.push_back({"head " + in_quotes(column.head), "says what another column says", "one of both columns"});
-  }
-  return faults;
 }
 
 Faults faults_of_names(const std::vector<SheetRow>& rows) {
@@ -326,14 +226,20 @@ SheetTable sheet_table(std::string_view bytes, const Sheet& defaults, Faults& fa
     return table;
   }
   take_units(*layout);
-  for (Fault& fault : faults_of_heads(*layout)) faults.push_back(std::move(fault));
+  for (Fault& fault : faults_of_heads(layout->columns)) faults.push_back(std::move(fault));
   for (const SheetColumn& column : layout->columns)
-    if (!column.known() && !column.head.empty()) table.unused.push_back(column.head);
+    if (!column.mix.empty())
+      table.mix.push_back(column.head);
+    else if (!column.known() && !column.head.empty())
+      table.unused.push_back(column.head);
   for (std::size_t i = layout->first; i < layout->lines.size() && table.rows.size() < most_samples; ++i) {
     const CsvLine& line = layout->lines[i];
     if (std::ranges::all_of(line.cells, is_missing)) continue;
+    for (Fault& fault : misplaced_cells(*layout, line)) faults.push_back(std::move(fault));
     SheetRow row = row_from(*layout, line, defaults, faults);
-    if (row.sheet.readings.empty() && row.sheet.yield_stress.empty())
+    if (is_of_statistics(row.sheet.title))
+      table.statistics.push_back(line.number);
+    else if (row.sheet.readings.empty() && row.sheet.yield_stress.empty())
       table.without.push_back(line.number);
     else
       table.rows.push_back(std::move(row));

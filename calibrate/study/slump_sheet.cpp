@@ -382,6 +382,10 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (!faults.empty()) return faults;
   const auto read = lab_from_json(json::parse(lab.dump()), folder);
   if (!read.ok()) return read.faults();
+  constexpr double most_grains = 1e6;
+  if (const double count = grains_needed(read.value().test); count > most_grains)
+    return Fault{"grains", "would be " + shown(rounded(count, 2)) + " in the mould",
+                 "larger grains: at most a million"};
   const StartingStudy study =
       starting_study(sheet, *laws, slump_of(test.value()), lab, read.value().measurements, faults);
   if (!faults.empty()) return faults;

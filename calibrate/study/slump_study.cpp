@@ -107,7 +107,7 @@ ordered_json parameters_for(const TargetLaws& laws, const ordered_json& measurem
 void add_knowledge(ordered_json& study, const Sheet& sheet, Faults& faults) {
   ordered_json& parameters = study["parameters"];
   for (const auto& [name, text] : sheet.fixed) {
-    if (const auto value = written_number(text); value && !value->unit)
+    if (const auto value = written_number(text); value && !value->unit && !value->comma)
       parameters[name] = {{"value", value->value}};
     else
       faults.push_back({"fix " + printable(name), "is " + in_quotes(text), "a number, e.g. friction=0.2"});
@@ -117,7 +117,7 @@ void add_knowledge(ordered_json& study, const Sheet& sheet, Faults& faults) {
     const auto value = written_number(text.substr(0, sign));
     const auto deviation = sign == std::string::npos ? std::nullopt : written_number(text.substr(sign + 2));
     const bool free = parameters.contains(name) && parameters[name].contains("free");
-    if (!value || !deviation || value->unit || deviation->unit)
+    if (!value || !deviation || value->unit || deviation->unit || value->comma || deviation->comma)
       faults.push_back({"prior " + printable(name), "is " + in_quotes(text), "e.g. friction=0.2+-0.05"});
     else if (!free)
       faults.push_back(

@@ -125,13 +125,15 @@ TEST_CASE("what a row does not say is as the options have it") {
   Sheet defaults;
   defaults.mould = "abrams";
   defaults.density = "2300";
-  defaults.readings = {{"spread", "330"}};
-  const auto table = read_without_faults("density,slump,spread\n,180,\n2400,170,350\n", defaults);
+  defaults.readings = {{"spread", "330"}, {"slump", "100"}};
+  const auto table = read_without_faults("density,slump,height\n,180,\n2400,n/a,120\n", defaults);
   REQUIRE(table.rows.size() == 2);
   CHECK(table.rows[0].sheet.density == "2300");
   CHECK(table.rows[0].sheet.readings == Typed{{"slump", "180"}, {"spread", "330"}});
   CHECK(table.rows[1].sheet.density == "2400");
-  CHECK(table.rows[1].sheet.readings == Typed{{"slump", "170"}, {"spread", "350"}});
+  CHECK(table.rows[1].sheet.readings ==
+        Typed{{"height", "120"}, {"spread", "330"}});  // not measured is not the option's
+  CHECK(table.rows[0].sheet.title == "line 2");
   CHECK(table.rows[0].name == "line-2");
 }
 
@@ -145,6 +147,39 @@ TEST_CASE("every fault of a table has its line and head") {
   CHECK_THAT(message_for("sample,date\nx,today\n"), Catch::Contains("no line that names a reading"));
   CHECK_THAT(message_for("sample,slump\nx,n/a\n"), Catch::Contains("no row with a reading"));
   CHECK_THAT(message_for(""), Catch::Contains("no line that names a reading"));
+}
+
+TEST_CASE("what may be misread in silence is an error with its line or head") {
+  const auto refused = [](const char* text, const char* words) {
+    INFO(text);
+    CHECK_THAT(message_for(text), Catch::Contains(words));
+  };
+  refused("no;slump\n1;\"180\n2;170\n3;160\"\n4;150\n", "line 2: has a quotation mark that closes in a later line");
+  refused("sample,slump,spread\nA,17,5,330\n", "line 2: has more cells than the head: \"330\"");
+  refused("height,spread,height2,spread 2\n120,330,100,350\n", "may be a repeat, or the reading after the drop");
+  refused("slump 5;slump 30;slump 60\n180;175;165\n", "numbers do not count repeats");
+  refused("slump;slump 1;slump 2\n175;180;170\n", "numbers do not count repeats");
+  refused("slump (mm);slump (in)\n178;7\n", "has another unit than \"slump (mm)\"");
+  refused("slump,cement (kg/m3)\n180,\"1,200\"\n", "line 2, \"cement (kg/m3)\"");
+  refused("slump;cement (kg/m3)\n180;1.200\n", "line 2, \"cement (kg/m3)\"");
+}
+
+TEST_CASE("thousands, lists, means and densities of another kind are not taken for readings") {
+  CHECK(read_without_faults("slump;spread\n180,175;330\n").rows[0].sheet.readings[0].second ==
+        "180,175");  // refused later
+  CHECK(read_without_faults("slump;spread \xC3\x98\n180;330\n").rows[0].sheet.readings == Typed{{"slump", "180"}});
+  const auto table = read_without_faults("sample;slump;trockenrohdichte (kg/m3)\nA;180;2100\nMittelwert;180;2100\n");
+  CHECK(table.rows.size() == 1);
+  CHECK(table.statistics == std::vector<std::size_t>{3});
+  CHECK(table.rows[0].sheet.mix.empty());
+  CHECK(table.unused == std::vector<std::string>{"trockenrohdichte (kg/m3)"});
+}
+
+TEST_CASE("a line of units below the head counts for the mix as well, whatever stands beside them") {
+  const auto table = read_without_faults("probe;zement;luft;setzmass\nEinheit;kg/m3;%;cm\nA;310;2;18\n");
+  REQUIRE(table.rows.size() == 1);
+  CHECK(table.mix == std::vector<std::string>{"zement"});
+  CHECK(table.rows[0].sheet.readings == Typed{{"slump", "18 cm"}});
 }
 
 TEST_CASE("cells, rows and columns beyond all use are errors, and take no time") {
