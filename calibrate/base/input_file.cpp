@@ -3,6 +3,8 @@
 #include <iconv.h>
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -32,7 +34,7 @@ std::string file_in(const fs::path& folder, std::string_view ending) {
 /// The bytes in UTF-8; nothing if they are not in this encoding.
 std::optional<std::string> converted(std::string_view bytes, const char* from) {
   const iconv_t converter = iconv_open("UTF-8", from);
-  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+  if (std::bit_cast<std::intptr_t>(converter) == -1) return std::nullopt;
   std::string in(bytes), out(4 * bytes.size() + 4, '\0');
   char *read = in.data(), *write = out.data();
   std::size_t left = in.size(), room = out.size();

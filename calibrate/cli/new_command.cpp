@@ -222,7 +222,8 @@ std::vector<std::string> numbers_of(const std::vector<std::size_t>& lines) {
 Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
   Faults faults;
   std::vector<std::vector<std::string>> lines;
-  for (const auto& [line, fault] : found) {
+  for (const auto& one : found) {
+    const Fault& fault = one.second;
     const auto same = std::ranges::find_if(faults, [&](const Fault& other) {
       return other.where == fault.where && other.what == fault.what && other.remedy == fault.remedy;
     });
@@ -231,7 +232,7 @@ Faults in_lines(const std::vector<std::pair<std::size_t, Fault>>& found) {
       faults.push_back(fault);
       lines.emplace_back();
     }
-    lines[at].push_back(std::to_string(line));
+    lines[at].push_back(std::to_string(one.first));
   }
   for (std::size_t i = 0; i < faults.size(); ++i)
     faults[i].where = (lines[i].size() == 1 ? "line " : "lines ") + listed(lines[i]) + ": " + faults[i].where;
