@@ -93,7 +93,7 @@ class Readme(unittest.TestCase):
             self.assertIsNotNone(verdict, result.stdout)
             print(verdict.group(0))
             # The sample is what the command gives, with every instruction set that rounds once.
-            sample = re.search(r"a summary like this one \(shortened\):\n\n((?:    .*\n)+)", README)[1]
+            sample = re.search(r"a summary\s+\(shortened\):\n\n((?:    .*\n)+)", README)[1]
             plain = " ".join(result.stdout.split())
             if "SSE2" not in subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout:
                 for line in sample.splitlines():
