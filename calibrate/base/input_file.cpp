@@ -95,7 +95,7 @@ std::vector<CsvLine> csv_lines(std::string_view text, char separator) {
     number += letter == '\n';
     if (quoted && letter == '"' && text.substr(i + 1).starts_with('"')) {
       cell += text[++i];
-    } else if (letter == '"' && (quoted || trimmed(cell).empty())) {
+    } else if (letter == '"' && (quoted || cell.find_first_not_of(" \t") == std::string::npos)) {
       quoted = !quoted;
     } else if (!quoted && (letter == separator || letter == '\n')) {
       lines.back().cells.push_back(trimmed(cell));

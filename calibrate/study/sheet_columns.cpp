@@ -107,7 +107,8 @@ Faults faults_of_repeats(std::span<const SheetColumn> columns, const SheetColumn
     numbers.push_back(own_name ? 0 : number_of(one.says));
     if (one.unit != last.unit)
       return {{"head " + in_quotes(last.head),
-               "has another unit than " + in_quotes(one.head) + ", which is the same reading", "one of both columns"}};
+               "has another unit than " + in_quotes(one.head) + ", which is the same reading",
+               "one unit for all its columns, or one column"}};
   }
   std::ranges::sort(numbers);
   const std::string bare = without_number(last.says), second = meaning_of("", bare + "2");

@@ -1,7 +1,6 @@
 #include "calibrate/study/sheet_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <map>
 #include <optional>

@@ -188,6 +188,8 @@ TEST_CASE("cells, rows and columns beyond all use are errors, and take no time")
   Faults faults;
   CHECK(sheet_table("slump," + std::string(2'000'000, 'x') + "(mm)\n180,1\n", {}, faults).rows.size() == 1);
   CHECK(faults.empty());
+  // A quotation mark within a cell is looked at once.
+  CHECK_THAT(message_for("slump\nx" + std::string(2'000'000, '"') + "\n"), Catch::Contains("2000001 letters"));
   std::string head = "slump 1", cells = "180", rows = "slump\n";
   for (int i = 0; i < 100'000; ++i) {
     head += ",slump 2";
