@@ -1,4 +1,5 @@
-"""Reads every page of the project: none names a commit outside of tests/results, READMEs are short, links lead somewhere.
+"""Reads every page of the project: none names a commit outside of tests/results, READMEs and results are short, links lead
+somewhere.
 
 usage: check_pages.py SOURCE_DIR [unittest options]
 """
@@ -26,6 +27,8 @@ PAGES = files(".md")
 RECORD = "tests/results/"  # the one place for what was measured, and with which commit
 MOST_WORDS = 900  # of the main README, code and tables included
 MOST_LINES = 80   # of a folder's README
+MOST_RESULT_WORDS = 14750    # of tests/results as a whole, tables included
+MOST_WORDS_OF_A_RESULT = 2000  # of one of its pages
 
 # What somebody who was not here looks for, the page that says it, and words that stand there. From the main README it is
 # at most two links away.
@@ -36,7 +39,6 @@ QUESTIONS = {
     "how to add a law": ("core/README.md", "One header, one row, one word, one case file"),
     "why the default step is safe": ("core/step/README.md", "## Why the default step is safe"),
     "how the search decides to stop": ("calibrate/search/README.md", "The search stops when"),
-    "what was measured of rolling friction": ("tests/results/ruler.md", "## The table's rolling friction"),
     "how to type a card into EDEM": ("calibrate/manual/other-programs.md", "## EDEM"),
     "which tests are slow": ("tests/README.md", "Slow tests"),
     "where a message is worded": ("calibrate/README.md", "Messages are worded where"),
@@ -128,6 +130,11 @@ class Pages(unittest.TestCase):
                  and len(text.splitlines()) > MOST_LINES}
         self.assertEqual(found, set())
         self.assertLessEqual(len(PAGES["README.md"].split()), MOST_WORDS)
+
+    def test_results_are_short(self):
+        words = {page: len(text.split()) for page, text in PAGES.items() if page.startswith(RECORD)}
+        self.assertEqual({page: count for page, count in words.items() if count > MOST_WORDS_OF_A_RESULT}, {})
+        self.assertLessEqual(sum(words.values()), MOST_RESULT_WORDS)
 
     def test_links_lead_to_files_and_headings(self):
         self.assertEqual(dead_links(PAGES, lambda path: (SOURCE / path).exists()), [])

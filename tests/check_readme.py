@@ -105,7 +105,7 @@ class Readme(unittest.TestCase):
 
 # Files that the text speaks of, but that come into being elsewhere, and words with a slash that are no files.
 NAMED_OTHERWISE = {"card.json", "summary.txt", "evaluations.sqlite", "views.json", "lab.json", "study.json", "NOTES.txt",
-                   "material.py", "edem.txt", "cone/step1.height_mm", "mindlin/force"}
+                   "material.py", "edem.txt", "cone/step1.height_mm"}
 MADE = ("build/", "out/", "share/", "mortar/", "paste/")
 
 if __name__ == "__main__":
