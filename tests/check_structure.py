@@ -29,6 +29,7 @@ KEPT = {
     "calibrate/card/card_json.cpp": {"observables"},  # key of cards of versions 4 and 5
     "calibrate/cli/single_run.cpp": {"observables"},  # key of `simulate --json`
     "core/laws/figures.py": {"observables"},  # which reads that key
+    "calibrate/manual/figures.py": {"observables"},
     "calibrate/store/store.cpp": {"observables"},  # column of stores
     "calibrate/python/pastefit/search.py": {"observables"},  # gest-api's word in a VOCS
     "calibrate/manual/python.md": {"observables"},
