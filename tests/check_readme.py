@@ -98,6 +98,15 @@ class Readme(unittest.TestCase):
         names = list(schema["properties"]["parameters"]["properties"])
         self.assertEqual([cells[0].strip("`") for cells in rows("name")], names)
 
+    def test_search_options_are_those_of_the_schema(self):
+        schema = json.loads((SOURCE / "data/schema/study.schema.json").read_text())
+        options = schema["properties"]["search"]["properties"]
+        headings = dict(re.findall(r"^### `(\w+)`: (.*)$", MANUAL, re.M))
+        self.assertEqual(set(headings), set(options))
+        for name, option in options.items():
+            for default in re.findall(r"\bdefault (\d[\d.]*)", option["description"]):
+                self.assertIn(f"default {default}", headings[name])
+
     def test_tests_are_those_of_laboratory_files(self):
         schema = json.loads((SOURCE / "data/schema/lab.schema.json").read_text())
         self.assertEqual([cells[0].strip("`") for cells in rows("test")], schema["properties"]["test"]["enum"])
@@ -134,6 +143,11 @@ class Readme(unittest.TestCase):
                 shown = "".join(re.findall(r"^((?: {4}.*\n)+)", rest, re.M))
                 with self.subTest(commands):
                     self.assertEqual(missing(shown, printed + (pathlib.Path(folder) / "mix-57/study.json").read_text()), [])
+            if gives_the_shown_bits():  # and the page that explains the same summary
+                page = (SOURCE / "calibrate/manual/result.md").read_text()
+                summary = (pathlib.Path(folder) / "mix-57/out/summary.txt").read_text()
+                shown = "".join(re.findall(r"^((?: {4}.*\n)+)", page.split("\n## ")[1], re.M))
+                self.assertEqual(missing(shown, summary), [])
 
 
 # Files that the text speaks of, but that come into being elsewhere, and words with a slash that are no files.
