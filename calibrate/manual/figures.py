@@ -1,6 +1,6 @@
-"""Draws the figures of the manual: measuring.svg, plate.svg, and, from simulations, scatter.svg and lift.svg.
+"""Draws the figures of the manual: measuring.svg, plate.svg, stages.svg, and, from simulations, scatter.svg and lift.svg.
 
-usage: figures.py PROGRAM SOURCE_DIR   (needs Matplotlib; some two minutes)
+usage: figures.py PROGRAM SOURCE_DIR [FOLDER_FOR_PNG [FIGURE...]]   (needs Matplotlib; some two minutes)
 """
 
 import json
@@ -117,6 +117,24 @@ def plate():
     save(figure, "plate.svg")
 
 
+def stages():
+    figure, axes = sketch(10.5, 2.6, (-60, 900))
+    axes.set_ylim(-110, 120)
+    axes.plot([-50, 890], [0, 0], color=INK, linewidth=2)
+    axes.add_patch(Polygon([(-50, 0), (-35, 60), (35, 60), (50, 0)], closed=True, facecolor=MASS, edgecolor=INK, linewidth=3))
+    axes.text(0, 85, "fill", ha="center", family="monospace")
+    axes.text(0, -22, "filled, struck off", ha="center", va="center")
+    for centre, half, height, name, what in ((200, 72, 42, "step1", "mould lifted"), (440, 85, 33, "step2", "first drop"),
+                                             (750, 118, 18, "after_drops", "last drop (15 or 25)")):
+        heap(axes, centre, half, height, 0.4 * half)
+        axes.text(centre, 85, name, ha="center", family="monospace")
+        axes.text(centre, -22, what, ha="center", va="center")
+        dimension(axes, (centre - half, -50), (centre + half, -50), f"{name}.spread_mm", (0, -22))
+    for left, right in ((65, 115), (285, 340), (540, 615)):
+        axes.annotate("", (right, 30), (left, 30), arrowprops={"arrowstyle": "-|>", "color": INK})
+    save(figure, "stages.svg")
+
+
 def simulated(*settings, seed):
     command = [PROGRAM, "simulate", CARD, "--quiet", "--json", "--seed", str(seed)]
     for setting in settings:
@@ -162,6 +180,6 @@ def lift():
 
 
 if __name__ == "__main__":
-    for draw in (measuring, plate, scatter, lift):
+    for draw in (measuring, plate, stages, scatter, lift):
         if len(sys.argv) < 5 or draw.__name__ in sys.argv[4:]:
             draw()
