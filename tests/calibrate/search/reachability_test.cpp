@@ -127,7 +127,7 @@ TEST_CASE("a reading that every material misses by more than its tolerance is ou
   }
 }
 
-TEST_CASE("a search that would be in vain ends after the screening, and says so") {
+TEST_CASE("a search that would be in vain ends after the screening, and says so", "[campaign]") {
   int ended = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic objective = too_stiff(seed);

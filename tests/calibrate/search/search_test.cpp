@@ -61,7 +61,7 @@ Calibration in_one_call(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("answers in any order, from any number of workers, lead to the same calibration") {
+TEST_CASE("answers in any order, from any number of workers, lead to the same calibration", "[campaign]") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);
     const Calibration expected = in_one_call(seed);

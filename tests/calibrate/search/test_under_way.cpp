@@ -74,8 +74,8 @@ TEST_CASE("an objective that goes away ends what is under way and stores none of
   CHECK(store.size() == 0);
 }
 
-TEST_CASE(
-    "the same study gives the same history and card, whatever the threads, the candidates pending and the delays") {
+TEST_CASE("the same study gives the same history and card, whatever the threads, the candidates pending and the delays",
+          "[campaign]") {
   for (const int max_pending : {0, 1, 3}) {
     std::string card_of_one_thread;
     std::vector<UnitPoint> way_of_one_thread;
