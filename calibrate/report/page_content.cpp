@@ -297,6 +297,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                       {"fresh", card.confirmation.fresh},
                       {"packings", card.confirmation.packings}};
     out["type_in"] = type_in_of(card);
+    out["damping"] = damping_law(card.material.contact.normal);
     out["parameters"] = parameters_of(findings);
     out["interval_level"] = card.inference.level;
     out["radius_mm"] = 1e3 * card.material.grains.radius_m;

@@ -129,17 +129,6 @@ TypeInGroup attraction_of(const Material& material) {
   return group;
 }
 
-/// Of every pair of surfaces, each with its restitution e.
-std::string damping_lines(NormalLaw law) {
-  const std::string contact_radius = law == NormalLaw::jkr      ? "a the contact radius"
-                                     : law == NormalLaw::luding ? "a = 2/3 R*"
-                                                                : "a = sqrt(R* d)";
-  return "  Damping of each pair: force 2 sqrt(5/6) beta sqrt(S m*) times the speed\n"
-         "    beta = -ln e/sqrt(ln^2 e + pi^2), e the restitution of the pair\n"
-         "    S = 2 E* a normal and 8 G* a tangential, " +
-         contact_radius + "\n";
-}
-
 }  // namespace
 
 std::string typed(double value) {
@@ -168,6 +157,15 @@ std::vector<TypeInGroup> type_in_table(const Card& card) {
   return groups;
 }
 
+std::vector<std::string> damping_law(NormalLaw law) {
+  const std::string contact_radius = law == NormalLaw::jkr      ? "a the contact radius"
+                                     : law == NormalLaw::luding ? "a = 2/3 R*"
+                                                                : "a = sqrt(R* d)";
+  return {"force 2 sqrt(5/6) beta sqrt(S m*) times the speed",
+          "beta = -ln e/sqrt(ln^2 e + pi^2), e the restitution of the pair",
+          "S = 2 E* a normal and 8 G* a tangential, " + contact_radius};
+}
+
 std::string type_in_lines(const Card& card) {
   std::string out = "Type this into your DEM program (numbers hold for grains of this size)\n";
   for (const TypeInGroup& group : type_in_table(card)) {
@@ -179,7 +177,9 @@ std::string type_in_lines(const Card& card) {
       out += remark + "\n";
     }
   }
-  return out + damping_lines(card.material.contact.normal);
+  out += "  Damping of each pair:\n";
+  for (const std::string& line : damping_law(card.material.contact.normal)) out += "    " + line + "\n";
+  return out;
 }
 
 }  // namespace pastefit

@@ -26,6 +26,9 @@ struct TypeInGroup {
 /// and the attraction for grains of the card's size. Surfaces of several tests are listed once each.
 std::vector<TypeInGroup> type_in_table(const Card& card);
 
+/// The viscous force of every pair of surfaces as lines: its formula, then each symbol in it.
+std::vector<std::string> damping_law(NormalLaw law);
+
 /// As many digits as a person types: five at most, "0.3" and not "0.30000".
 std::string typed(double value);
 

@@ -11,6 +11,7 @@
  * @property {Verdict} [verdict]
  * @property {Parameter[]} [parameters] without a card the free ones of the study
  * @property {TypeInGroup[]} [type_in]
+ * @property {string[]} [damping]
  * @property {number} [interval_level] 0 where intervals were not worked out
  * @property {number} [radius_mm]
  * @property {Test[]} [tests]

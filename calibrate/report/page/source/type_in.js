@@ -24,11 +24,12 @@ export function typeInTable(groups) {
 }
 
 /** @param {import("./content.js").CardContent} content */
-export function typeInPart({ type_in: groups, radius_mm: radius }) {
+export function typeInPart({ type_in: groups, damping, radius_mm: radius }) {
   return section(
     "type-in",
     "Type this into your DEM program",
     `The numbers hold for grains of ${radius} mm radius. For another size: pastefit rescale.`,
     element("div", { class: "wide" }, typeInTable(groups)),
+    element("p", { class: "note" }, `Damping of each pair: ${damping.join("; ")}.`),
   );
 }
