@@ -17,6 +17,7 @@ using Command = std::function<int()>;
 Command add_batch(CLI::App& verb);
 Command add_calibrate(CLI::App& verb);
 Command add_check(CLI::App& verb);
+Command add_compare(CLI::App& verb);
 Command add_confirm(CLI::App& verb);
 Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);

@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
       {kCalibrate, "infer", "say what a calibration's stored simulations tell of the parameters, without simulating",
        add_infer},
       {kLook, "show", "print a material card for a person", add_show},
+      {kLook, "compare", "lay material cards beside each other: parameters, intervals, readings", add_compare},
       {kLook, "report", "write the page of a calibration, for a browser", add_report},
       {kLook, "predict", "say what the materials that fit a calibration leave in another test", add_predict},
       {kUse, "export", "write a material card's test for another DEM program", add_export},
