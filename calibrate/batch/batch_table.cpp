@@ -1,11 +1,9 @@
 #include "calibrate/batch/batch_table.h"
 
-#include <array>
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "calibrate/base/text.h"
@@ -20,12 +18,11 @@ namespace pastefit {
 
 namespace {
 
-/// From the worst; then come those with reservations, and the others.
-constexpr std::array verdicts{"failed", "out_of_reach", "unconfirmed", "stopped", "unfinished", "pending"};
+using nlohmann::ordered_json;
 
 /// Of the packings that confirmed the card, how many a laboratory would have rejected in some fitted test; nothing if
 /// its tests are of kinds of which none is.
-std::optional<double> sheared_share_of(const Card& card) {
+ordered_json sheared_share_of(const Card& card) {
   bool known = false;
   std::size_t runs = 0;
   for (const CardTest& test : card.tests)
@@ -39,42 +36,65 @@ std::optional<double> sheared_share_of(const Card& card) {
         if (*index > 1) rejected[i] = true;
       }
   }
-  if (!known) return std::nullopt;
+  if (!known) return nullptr;
   return static_cast<double>(std::ranges::count(rejected, true)) / static_cast<double>(runs);
 }
 
-std::vector<BatchRow::Number> laboratory_of(const Study& study) {
-  const Lab& lab = study.tests.front().lab;
-  std::vector<BatchRow::Number> out{{"material.bulk_density_kg_m3", specimen_of(lab.test).bulk_density_kg_m3}};
+ordered_json laboratory_columns(const Study& study) {
+  ordered_json out{{"material.bulk_density_kg_m3", specimen_of(study.tests.front().lab.test).bulk_density_kg_m3}};
   for (const StudyTest& test : study.tests)
-    for (const MixVariable& one : test.lab.mix)
-      if (!find_named(out, "mix." + one.name)) out.push_back({"mix." + one.name, one.value});
+    for (const MixVariable& one : test.lab.mix) out.emplace("mix." + one.name, one.value);
   return out;
 }
 
-void add(BatchRow& row, const Card& card) {
-  row.verdict = card.search.status;
-  std::vector<std::string> reasons = reservations_on(card);
-  if (row.verdict != name_of(CalibrationStatus::confirmed)) reasons.insert(reasons.begin(), card.search.reason);
-  for (const std::string& reason : reasons) row.reasons += (row.reasons.empty() ? "" : "; ") + reason;
-  row.error = card.confirmation.error;
-  row.sheared_share = sheared_share_of(card);
-  row.simulations = card.search.simulations;
-  row.coarse_simulations = card.search.coarse_simulations;
-  row.program = card.provenance.program;
+ordered_json reading_columns(const Card& card) {
+  auto out = ordered_json::object();
   for (const CardTest& test : card.tests)
-    for (const CardReading& one : test.readings)
-      if (one.measured) row.readings.push_back({reading_name(test, one.name), *one.measured, one.simulated});
+    for (const CardReading& one : test.readings) {
+      if (!one.measured) continue;
+      const std::string name = reading_name(test, one.name);
+      out["measured_" + name] = *one.measured;
+      out["simulated_" + name] = one.simulated;
+      out["deviation_" + name] = one.simulated - *one.measured;
+    }
+  return out;
+}
+
+/// Each fitted parameter and its 95 % interval, where that is known, and which of its ends the readings do not set.
+ordered_json parameter_columns(const Card& card) {
+  auto out = ordered_json::object();
   for (const Parameter& one : card.material.parameters) {
     if (!one.free || !has_parameter(card, one.name)) continue;
     const auto& known = card.inference.intervals;
     const auto interval = std::ranges::find(known, one.name, &CardInference::Interval::parameter);
-    row.parameters.push_back({one.name, one.value, {}, {}, {}});
-    if (interval == known.end()) continue;
-    row.parameters.back().lower = interval->lower;
-    row.parameters.back().upper = interval->upper;
-    row.parameters.back().at_bounds = ends_at_bounds(*interval, one);
+    const bool is_known = interval != known.end();
+    const BoundEnds ends = is_known ? ends_at_bounds(*interval, one) : BoundEnds{};
+    out[one.name] = one.value;
+    out["lower_" + one.name] = is_known ? ordered_json(interval->lower) : nullptr;
+    out["upper_" + one.name] = is_known ? ordered_json(interval->upper) : nullptr;
+    out["at_bounds_" + one.name] = ends.lower && ends.upper ? "both" : ends.lower ? "lower" : ends.upper ? "upper" : "";
   }
+  return out;
+}
+
+std::string reasons_of(const Card& card) {
+  std::vector<std::string> reasons = reservations_on(card);
+  if (card.search.status != name_of(CalibrationStatus::confirmed)) reasons.insert(reasons.begin(), card.search.reason);
+  std::string out;
+  for (const std::string& reason : reasons) out += (out.empty() ? "" : "; ") + reason;
+  return out;
+}
+
+/// What the store says was spent.
+ordered_json spent_on(const BatchStudy& one) {
+  std::size_t simulations = 0;
+  double core_s = 0;
+  if (const auto store = Store::read(one.folder / kStore); store.ok())
+    for (const StoredEvaluation& evaluation : store.value().all()) {
+      ++simulations;
+      core_s += evaluation.core_s > 0 ? evaluation.core_s : evaluation.wall_s;
+    }
+  return {{"simulations", simulations}, {"coarse_simulations", 0}, {"core_s", core_s}};
 }
 
 /// The text as one cell. A spreadsheet would compute one that begins as a formula does: it gets an apostrophe.
@@ -87,106 +107,86 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string cell(std::optional<double> value) {
-  return value ? nlohmann::json(*value).dump() : "";
+std::string csv_cell(const ordered_json& value) {
+  return value.is_null() ? "" : value.is_string() ? quoted(value.get<std::string>()) : value.dump();
 }
 
-/// Which ends of the interval the readings do not set.
-std::string bounds_of(const BatchRow::Fitted& one) {
-  const auto [lower, upper] = one.at_bounds;
-  return lower && upper ? "both" : lower ? "lower" : upper ? "upper" : "";
+/// The columns of all rows, each once, in the order in which they appear first.
+std::array<std::vector<std::string>, 5> columns_of(const std::vector<BatchRow>& rows) {
+  std::array<std::vector<std::string>, 5> names;
+  for (const BatchRow& row : rows)
+    for (std::size_t part = 0; part < names.size(); ++part)
+      for (const auto& [name, value] : row.columns[part].items())
+        if (std::ranges::find(names[part], name) == names[part].end()) names[part].push_back(name);
+  return names;
 }
 
-/// The columns that some rows have and others have not.
-struct TableColumns {
-  std::vector<std::string> laboratory, readings, parameters;
-};
-
-std::string header(const TableColumns& columns) {
-  std::string out =
-      "study,title,verdict,reasons,seed,simulations,coarse_simulations,core_s,misfit_tolerances,sheared_share";
-  for (const auto& name : columns.laboratory) out += "," + quoted(name);
-  for (const auto& name : columns.readings)
-    for (const char* what : {"measured_", "simulated_", "deviation_"}) out += "," + quoted(what + name);
-  for (const auto& name : columns.parameters)
-    out += "," + name + ",lower_" + name + ",upper_" + name + ",at_bounds_" + name;
-  return out + ",program\n";
-}
-
-std::string line(const BatchRow& row, const TableColumns& columns) {
-  std::string out;
-  for (const std::string& text : {row.name, row.title, row.verdict, row.reasons}) out += quoted(text) + ",";
-  out += std::to_string(row.seed) + "," + std::to_string(row.simulations) + "," +
-         std::to_string(row.coarse_simulations) + "," + cell(row.core_s) + "," + cell(row.error) + "," +
-         cell(row.sheared_share);
-  for (const auto& name : columns.laboratory) {
-    const auto* one = find_named(row.laboratory, name);
-    out += "," + (one ? cell(one->value) : "");
-  }
-  for (const auto& name : columns.readings) {
-    const auto* one = find_named(row.readings, name);
-    out += one ? "," + cell(one->measured) + "," + cell(one->simulated) + "," + cell(one->simulated - one->measured)
-               : ",,,";
-  }
-  for (const auto& name : columns.parameters) {
-    const auto* one = find_named(row.parameters, name);
-    out +=
-        one ? "," + cell(one->value) + "," + cell(one->lower) + "," + cell(one->upper) + "," + bounds_of(*one) : ",,,,";
-  }
-  return out + "," + quoted(row.program) + "\n";
+/// Each column's name and what the row has in it, null where it has not that column.
+template <class See>
+void see_cells(const BatchRow& row, const std::array<std::vector<std::string>, 5>& columns, See see) {
+  for (std::size_t part = 0; part < columns.size(); ++part)
+    for (const std::string& name : columns[part])
+      see(name, row.columns[part].contains(name) ? row.columns[part][name] : ordered_json());
 }
 
 }  // namespace
 
 BatchRow row_of(const BatchStudy& one) {
-  BatchRow row;
-  row.name = one.name;
-  row.title = one.study.title;
-  row.seed = one.study.search.seed;
-  row.laboratory = laboratory_of(one.study);
+  BatchRow row{one.name, "pending", "", 0, {}};
+  auto& [whole, laboratory, readings, parameters, made_by] = row.columns;
   std::error_code error;
-  const bool begun = std::filesystem::exists(one.folder / kStore, error);
-  if (begun)
-    if (const auto store = Store::read(one.folder / kStore); store.ok()) {
-      const auto evaluations = store.value().all();
-      row.simulations = static_cast<int>(evaluations.size());
-      for (const StoredEvaluation& evaluation : evaluations)
-        row.core_s += evaluation.core_s > 0 ? evaluation.core_s : evaluation.wall_s;
-    }
+  if (std::filesystem::exists(one.folder / kStore, error)) row.verdict = "unfinished";
+  ordered_json spent = spent_on(one), program = "", error_of_card, sheared_share;
+  laboratory = laboratory_columns(one.study);
   if (const auto failure = read_failure(one)) {
     row.verdict = failure->status;
     row.reasons = failure->reason;
   } else if (const auto card = card_of_batch(one)) {
-    add(row, *card);
-  } else {
-    row.verdict = begun ? "unfinished" : "pending";
+    row.verdict = card->search.status;
+    row.reasons = reasons_of(*card);
+    row.error = card->confirmation.error;
+    error_of_card = row.error;
+    sheared_share = sheared_share_of(*card);
+    spent["simulations"] = card->search.simulations;
+    spent["coarse_simulations"] = card->search.coarse_simulations;
+    program = card->provenance.program;
+    readings = reading_columns(*card);
+    parameters = parameter_columns(*card);
   }
+  whole = {{"study", one.name},
+           {"title", one.study.title},
+           {"verdict", row.verdict},
+           {"reasons", row.reasons},
+           {"seed", one.study.search.seed}};
+  whole.update(spent);
+  whole["misfit_tolerances"] = error_of_card;
+  whole["sheared_share"] = sheared_share;
+  made_by["program"] = program;
   return row;
 }
 
-int rank_of(const BatchRow& row) {
-  const auto found = std::ranges::find(verdicts, row.verdict);
-  if (found != verdicts.end()) return static_cast<int>(std::distance(verdicts.begin(), found));
-  return static_cast<int>(verdicts.size()) + (row.reasons.empty() ? 1 : 0);
-}
-
-std::vector<BatchRow> worst_first(std::vector<BatchRow> rows) {
-  std::ranges::stable_sort(rows, [](const BatchRow& one, const BatchRow& other) {
-    if (rank_of(one) != rank_of(other)) return rank_of(one) < rank_of(other);
-    return one.error.value_or(0) > other.error.value_or(0);
-  });
-  return rows;
-}
-
 std::string batch_csv(const std::vector<BatchRow>& rows) {
-  const TableColumns columns{names_in(rows, &BatchRow::laboratory), names_in(rows, &BatchRow::readings),
-                             names_in(rows, &BatchRow::parameters)};
-  std::string out = header(columns);
-  for (const BatchRow& row : rows) out += line(row, columns);
+  const auto columns = columns_of(rows);
+  const auto line_of = [&](const BatchRow& row, auto cell) {
+    std::string line;
+    see_cells(row, columns,
+              [&](const std::string& name, const ordered_json& value) { line += "," + cell(name, value); });
+    return line.substr(1) + "\n";
+  };
+  std::string out = line_of({}, [](const std::string& name, const ordered_json&) { return quoted(name); });
+  for (const BatchRow& row : rows)
+    out += line_of(row, [](const std::string&, const ordered_json& value) { return csv_cell(value); });
   return out;
 }
 
 namespace {
+
+/// How bad a verdict is, from the worst; then come those with reservations, and the others.
+std::ptrdiff_t rank_of(const BatchRow& row) {
+  constexpr std::array verdicts{"failed", "out_of_reach", "unconfirmed", "stopped", "unfinished", "pending"};
+  const auto found = std::ranges::find(verdicts, row.verdict);
+  return found - verdicts.begin() + (found == verdicts.end() && row.reasons.empty() ? 1 : 0);
+}
 
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --page: #fbfbf9; --text: #1c2126; --soft: #59636e; --rule: #d9dcdf;
@@ -202,7 +202,7 @@ td.reasons { min-width: 18rem; max-width: 30rem; }
 td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
 a { color: var(--simulation); }
 .met .verdict { color: var(--good); } .open .verdict { color: var(--open); } .bad .verdict { color: var(--bad); }
-.measured { color: var(--laboratory); } .simulated { color: var(--simulation); } .soft { color: var(--soft); }
+.measured { color: var(--laboratory); } .simulated { color: var(--simulation); }
 )";
 
 /// A folder's name as part of a link.
@@ -216,60 +216,15 @@ std::string in_link(const std::string& name) {
   return out;
 }
 
-std::string number(std::optional<double> value, const char* kind = "") {
-  return "<td class=\"number " + std::string(kind) + "\">" + (value ? plain(*value, 4) : "") + "</td>";
-}
-
-std::string head(const std::string& text) {
-  return "<th>" + xml_text(text) + "</th>";
-}
-
-struct Names {
-  std::vector<std::string> laboratory, readings, parameters;
-};
-
-std::string head_of(const Names& names) {
-  std::string out = "<thead><tr>" + head("study") + head("verdict") + head("reasons") +
-                    head("largest error, tolerances") + head("sheared share");
-  for (const auto& name : names.readings) out += head(name + " measured") + head("simulated") + head("deviation");
-  for (const auto& name : names.parameters) out += head(name) + head("95 % interval");
-  for (const auto& name : names.laboratory) out += head(name);
-  return out + head("simulations") + head("core s") + head("seed") + "</tr></thead>\n";
-}
-
-std::string interval(const BatchRow::Fitted& one) {
-  if (!one.lower && !one.upper) return "<td></td>";
-  if (one.lower && one.upper)
-    return "<td class=\"number soft\">" + interval_in_words(*one.lower, *one.upper, one.at_bounds, 3) + "</td>";
-  const auto end = [](std::optional<double> value) { return value ? plain(*value, 3) : std::string("?"); };
-  return "<td class=\"number soft\">" + end(one.lower) + " to " + end(one.upper) + "</td>";
-}
-
-std::string row_in_html(const BatchRow& row, const Names& names) {
-  const bool met = row.verdict == "confirmed";
-  std::string out = std::string("<tr class=\"") + (!met ? "bad" : row.reasons.empty() ? "met" : "open") + "\">";
-  const std::string name = xml_text(one_line(row.name)), title = xml_text(one_line(row.title));
-  const bool page = row.verdict != "pending";
-  out += "<td>" + (page ? "<a href=\"" + in_link(row.name) + "/" + kPage + "\">" + name + "</a>" : name) +
-         "<br><span class=\"soft\">" + title + "</span></td>";
-  out += "<td class=\"verdict\">" + xml_text(row.verdict) + (met && !row.reasons.empty() ? ", with reservations" : "") +
-         "</td><td class=\"reasons\">" + xml_text(one_line(row.reasons)) + "</td>";
-  out += number(row.error) + number(row.sheared_share);
-  for (const auto& reading : names.readings) {
-    const auto* one = find_named(row.readings, reading);
-    out += one ? number(one->measured, "measured") + number(one->simulated, "simulated") +
-                     number(one->simulated - one->measured)
-               : "<td></td><td></td><td></td>";
-  }
-  for (const auto& parameter : names.parameters) {
-    const auto* one = find_named(row.parameters, parameter);
-    out += one ? number(one->value) + interval(*one) : "<td></td><td></td>";
-  }
-  for (const auto& variable : names.laboratory) {
-    const auto* one = find_named(row.laboratory, variable);
-    out += number(one ? one->value : std::nullopt);
-  }
-  return out + number(row.simulations) + number(row.core_s) + number(static_cast<double>(row.seed)) + "</tr>\n";
+std::string html_cell(const BatchRow& row, const std::string& column, const ordered_json& value) {
+  const std::string what = column.substr(0, column.find('_'));
+  if (value.is_number())
+    return "<td class=\"number " + what + "\">" +
+           (value.is_number_float() ? plain(value.get<double>(), 4) : value.dump()) + "</td>";
+  std::string text = value.is_string() ? xml_text(one_line(value.get<std::string>())) : "";
+  if (column == "study" && row.verdict != "pending")
+    text = "<a href=\"" + in_link(row.study) + "/" + kPage + "\">" + text + "</a>";
+  return "<td class=\"" + what + "\">" + text + "</td>";
 }
 
 /// "20 studies: 2 unconfirmed, 18 confirmed."
@@ -288,18 +243,26 @@ std::string count_of(const std::vector<BatchRow>& rows) {
 }  // namespace
 
 std::string batch_page(const std::vector<BatchRow>& rows) {
-  const Names names{names_in(rows, &BatchRow::laboratory), names_in(rows, &BatchRow::readings),
-                    names_in(rows, &BatchRow::parameters)};
-  std::string out =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: batch</title>\n<style>" +
-      std::string(kStyle) + "</style></head>\n<body><h1>Batch</h1>\n<p>" + xml_text(count_of(rows)) +
-      " Those that did not meet the laboratory stand on top. Units are in the names of the columns.</p>\n"
-      "<div class=\"wide\"><table>" +
-      head_of(names) + "<tbody>\n";
-  for (const BatchRow& row : worst_first(rows)) out += row_in_html(row, names);
-  return out + "</tbody></table></div></body></html>\n";
+  std::vector<BatchRow> sorted = rows;
+  std::ranges::stable_sort(sorted, {}, [](const BatchRow& row) { return std::pair(rank_of(row), -row.error); });
+  const auto columns = columns_of(rows);
+  std::string head, body;
+  see_cells({}, columns,
+            [&](const std::string& name, const ordered_json&) { head += "<th>" + xml_text(name) + "</th>"; });
+  for (const BatchRow& row : sorted) {
+    const char* kind = row.verdict != "confirmed" ? "bad" : row.reasons.empty() ? "met" : "open";
+    body += std::string("<tr class=\"") + kind + "\">";
+    see_cells(row, columns,
+              [&](const std::string& name, const ordered_json& value) { body += html_cell(row, name, value); });
+    body += "</tr>\n";
+  }
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width\"><title>pastefit: batch</title>\n<style>" +
+         std::string(kStyle) + "</style></head>\n<body><h1>Batch</h1>\n<p>" + xml_text(count_of(rows)) +
+         " Those that did not meet the laboratory stand on top. Units are in the names of the columns.</p>\n"
+         "<div class=\"wide\"><table><thead><tr>" +
+         head + "</tr></thead>\n<tbody>\n" + body + "</tbody></table></div></body></html>\n";
 }
 
 }  // namespace pastefit

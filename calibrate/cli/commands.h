@@ -22,7 +22,6 @@ Command add_confirm(CLI::App& verb);
 Command add_export(CLI::App& verb);
 Command add_help(CLI::App& verb);
 Command add_infer(CLI::App& verb);
-Command add_interpolate(CLI::App& verb);
 Command add_new(CLI::App& verb);
 Command add_predict(CLI::App& verb);
 Command add_read(CLI::App& verb);

@@ -92,8 +92,7 @@ int run(int argc, char** argv) {
       {kUse, "rescale", "carry a material card to another grain size", add_rescale},
       {kTrust, "check", "simulate cards again and compare within the noise", add_check},
       {kTrust, "verify", "hold the contact laws against closed forms, case by case", add_verify},
-      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch},
-      {kMany, "interpolate", "write the card of a mix between those of a batch, not confirmed", add_interpolate}};
+      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/base/statistics.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"
 #include "calibrate/check/check_report.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/python/module.h"
 #include "calibrate/report/summary.h"
+#include "calibrate/study/parameters.h"
 #include "calibrate/verify/verify.h"
 
 namespace pastefit::python {
@@ -57,6 +60,18 @@ std::string check_json(const std::string& card_text, const CheckOptions& options
   return to_json(std::vector<CheckedFile>{{"", answer}}).at("cards").at(0).dump();
 }
 
+/// The card's tests with other values of these parameters of its material.
+std::string tests_json(const std::string& card_text, const std::map<std::string, double>& parameters) {
+  const Card card = value_or_throw(card_from_json(parsed(card_text)));
+  std::vector<double> values = values_of(card.material);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (const auto other = parameters.find(card.material.parameters[i].name); other != parameters.end())
+      values[i] = other->second;
+  auto tests = nlohmann::json::array();
+  for (const CardTest& one : card.tests) tests.push_back(to_json(with_contact_of(one.test, values)));
+  return tests.dump();
+}
+
 }  // namespace
 
 void add_cards(py::module_& module) {
@@ -69,6 +84,8 @@ void add_cards(py::module_& module) {
              [](const std::string& text) { return summary_of(value_or_throw(card_from_json(parsed(text)))); });
   module.def("card_verdict",
              [](const std::string& text) { return verdict_of(value_or_throw(card_from_json(parsed(text)))); });
+  module.def("card_tests", tests_json);
+  module.def("widening", widening);
   module.def(
       "export",
       [](const std::string& card, const std::string& target, const std::string& card_file, const std::string& test,

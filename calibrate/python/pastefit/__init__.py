@@ -13,6 +13,7 @@ from .calibration import CalibrationResult, calibrate, simulate_task
 from .card import Card
 from .checks import Check, Export, Verification, check, export, export_targets, verify
 from .faults import Fault, InputError
+from .mix import interpolate
 from .problem import Problem
 from .search import Search
 from .simulation import Frame, Simulation, simulate
@@ -21,5 +22,5 @@ from .workers import WorkerDied
 
 __version__ = _core.version()
 __all__ = ["CalibrationResult", "Card", "Check", "Export", "Fault", "Frame", "InputError", "Problem", "Search", "Simulation", "Study",
-           "Verification", "WorkerDied", "calibrate", "check", "export", "export_targets", "simulate", "simulate_task",
-           "verify"]
+           "Verification", "WorkerDied", "calibrate", "check", "export", "export_targets", "interpolate", "simulate",
+           "simulate_task", "verify"]

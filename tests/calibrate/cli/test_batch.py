@@ -11,10 +11,8 @@ import time
 import unittest
 from html.parser import HTMLParser
 
-import jsonschema
 from batches import process_of, study, write_studies
-from desk import LAB, PROGRAM, SOURCE, Desk, run
-import schemas
+from desk import LAB, PROGRAM, Desk, run
 
 
 class Batch(Desk):
@@ -153,44 +151,6 @@ class Batch(Desk):
         self.batch(file, "--table")
         self.assertEqual(self.table()[0]["title"], document["title"])
         self.assertNotIn("<b>", (self.out / "batch.html").read_text())
-
-    def test_a_mix_in_between_has_a_card_that_says_it_is_interpolated_and_not_confirmed(self):
-        studies = write_studies(self.folder, 4, tolerance_mm=80)
-        self.assertEqual(self.batch(*studies).returncode, 0)
-        file = self.folder / "between.json"
-        arguments = [*studies, "--from", self.out, "--at", "mix.water_kg_m3=243"]
-        result = run("interpolate", *arguments, "--out", file)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        card = json.loads(file.read_text())
-        jsonschema.validate(card, schemas.schema(SOURCE / "data", "card"))
-        self.assertEqual(card["interpolated"]["value"], 243)
-        self.assertEqual(card["interpolated"]["model"], "linear")
-        self.assertFalse(card["confirmation"]["meets_laboratory"])
-        strength = card["material"]["parameters"]["strength_pa"]
-        interval = card["intervals"]["parameters"]["strength_pa"]
-        self.assertTrue(300 <= interval["lower"] <= strength <= interval["upper"] <= 40000, card["intervals"])
-        words = "Interpolated, not confirmed: mix.water_kg_m3 243, linear between 4 materials"
-        self.assertIn(words, " ".join(run("show", file).stdout.split()))
-        checked = run("check", file, "--against", self.folder / "lab-01.json")
-        self.assertIn(checked.returncode, (0, 1), checked.stderr)
-        self.assertIn(words, " ".join(checked.stdout.split()))
-        run("export", "--unconfirmed", file, "--to", "liggghts", "--out", self.folder / "deck")
-        for name in ("NOTES.txt", "in.slump"):
-            self.assertIn(words, (self.folder / "deck" / name).read_text())
-        process = run("interpolate", *arguments, "--model", "gaussian-process", "--json")
-        self.assertEqual(json.loads(process.stdout)["interpolated"]["model"], "gaussian_process")
-
-        arguments[-1] = "mix.water_kg_m3=300"
-        self.fails(run("interpolate", *arguments), 2, "300", "238 to 250")
-        arguments[-1] = "mix.wine_kg_m3=240"
-        self.fails(run("interpolate", *arguments), 2, "no laboratory file has this variable", "mix.water_kg_m3")
-        self.fails(run("interpolate", *studies[:2], *arguments[4:-1], "mix.water_kg_m3=248"), 2, "2 confirmed cards", "at least 3")
-        changed = study(3, tolerance_mm=80)
-        changed["parameters"]["friction"] = {"value": 0.3}
-        studies[3].write_text(json.dumps(changed))
-        self.batch(*studies)
-        arguments[-1] = "mix.water_kg_m3=243"
-        self.fails(run("interpolate", *arguments), 2, "other contact laws, parameters or bounds")
 
     def test_the_scripts_for_slurm_are_scripts_of_bash_that_name_every_study(self):
         studies = write_studies(self.folder, 2)
