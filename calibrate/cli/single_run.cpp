@@ -55,10 +55,9 @@ Faults RunPictures::add(const Snapshot& snapshot) {
   stage.last_s = snapshot.time_s;
   stage.begun = true;
   const World& world = *snapshot.world;
-  const std::array<std::string, kLayers.size()> files{vtp_of(grain_frame(world)), vtp_of(link_frame(world)),
-                                                      vtp_of(wall_frame(world))};
-  for (std::size_t i = 0; i < files.size(); ++i)
-    if (auto faults = stage.layers[i].add(snapshot.time_s + stage.earlier_s, files[i]); !faults.empty()) return faults;
+  const std::array<VtkFrame, kLayers.size()> frames{grain_frame(world), link_frame(world), wall_frame(world)};
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (auto faults = stage.layers[i].add(snapshot.time_s + stage.earlier_s, frames[i]); !faults.empty()) return faults;
   return {};
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/result.h"
@@ -13,48 +13,44 @@ namespace pastefit {
 
 class World;
 
-/// Grains at one moment, as plain columns of equal length.
-struct GrainFrame {
-  std::vector<Vec3> positions_m;
-  std::vector<Vec3> velocities_m_s;
-  std::vector<Vec3> spins_rad_s;
-  std::vector<double> radii_m;
-  std::vector<std::int32_t> coordination;  ///< grains that it touches
+/// Numbers of one kind at points or cells of a frame.
+struct VtkColumn {
+  std::string name;
+  std::variant<std::vector<double>, std::vector<Vec3>, std::vector<std::int32_t>> values;
 };
 
-/// Contacts and bridges between them: from one centre to the other.
-struct LinkFrame {
-  std::vector<Vec3> ends_m;            ///< two for each link, one after the other
-  std::vector<std::int32_t> touching;  ///< 1, or 0 for a bridge across a gap
-  std::vector<double> overlaps_m;      ///< negative: a gap
-  std::vector<double> forces_n;        ///< of the laws along the normal, repulsion positive, without dampers
+/// What is shown of one moment: cells of equally many corners each.
+struct VtkFrame {
+  std::string cells;  ///< "Verts", "Lines" or "Polys"
+  std::int64_t corners = 1;
+  std::vector<Vec3> points_m = {};
+  std::vector<std::int64_t> connectivity = {};  ///< the cells' corners by their places among the points
+  std::string data_of;                          ///< "PointData" or "CellData"
+  std::vector<VtkColumn> data = {};
 };
 
-/// Walls as polygons: what is round has 72 sides, of an infinite plane the square about the grains is shown.
-struct WallFrame {
-  std::vector<Vec3> corners_m;
-  std::vector<std::array<std::int64_t, 4>> quadrangles;  ///< of corners
-  std::vector<std::int32_t> walls;                       ///< of which wall each is, from 0
-};
+/// Grains, one vertex each: "radius", "velocity", "spin", "coordination", the grains that it touches.
+VtkFrame grain_frame(const World& world);
 
-GrainFrame grain_frame(const World& world);
-LinkFrame link_frame(const World& world);
-WallFrame wall_frame(const World& world);
+/// Contacts and bridges between grains, from one centre to the other: "touching", 1, or 0 for a bridge across a gap;
+/// "overlap", negative for a gap; "force" of the laws along the normal, repulsion positive, without dampers.
+VtkFrame link_frame(const World& world);
 
-/// A frame as a ParaView file (VTK XML PolyData), numbers in binary (base64). Grains: one vertex each, point data
-/// "radius", "velocity", "spin", "coordination". Links: one line each, cell data "touching", "overlap", "force". Walls:
-/// polygons, cell data "wall". Source of the format: VTK User's Guide, chapter on file formats.
-std::string vtp_of(const GrainFrame& frame);
-std::string vtp_of(const LinkFrame& frame);
-std::string vtp_of(const WallFrame& frame);
+/// Walls as polygons: what is round has 72 sides, of an infinite plane the square about the grains is shown. "wall": of
+/// which wall each is, from 0.
+VtkFrame wall_frame(const World& world);
+
+/// A frame as a ParaView file (VTK XML PolyData), numbers in binary (base64). Source of the format: VTK User's Guide,
+/// chapter on file formats.
+std::string vtp_of(const VtkFrame& frame);
 
 /// A series of frames in a folder: NAME_000000.vtp, NAME_000001.vtp, ... and NAME.pvd, which lists them with their
 /// times and is complete after every frame.
 class VtkSeries {
  public:
   VtkSeries(std::filesystem::path folder, std::string name);
-  /// `vtp`: from `vtp_of`. Errors: a file cannot be written.
-  Faults add(double time_s, const std::string& vtp);
+  /// Errors: a file cannot be written.
+  Faults add(double time_s, const VtkFrame& frame);
   std::filesystem::path index() const { return folder_ / (name_ + ".pvd"); }
 
  private:

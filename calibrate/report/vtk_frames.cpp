@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "calibrate/report/links.h"
 #include "calibrate/report/vtk.h"
@@ -30,20 +32,25 @@ class WallDraftsman {
 
   void draw(const Wall& wall) {
     std::visit([this](const auto& shape) { add(shape); }, wall.shape);
-    frame_.walls.resize(frame_.quadrangles.size(), wall_++);
+    walls_.resize(frame_.connectivity.size() / 4, wall_++);
   }
 
-  WallFrame take() { return std::move(frame_); }
+  VtkFrame take() {
+    frame_.data = {{"wall", std::move(walls_)}};
+    return std::move(frame_);
+  }
 
  private:
-  std::int64_t corner(const Vec3& place) {
-    frame_.corners_m.push_back(place);
-    return std::ssize(frame_.corners_m) - 1;
+  void add_quadrangle(const std::array<Vec3, 4>& corners) {
+    for (const Vec3& corner : corners) {
+      frame_.connectivity.push_back(std::ssize(frame_.points_m));
+      frame_.points_m.push_back(corner);
+    }
   }
 
   void add_rectangle(const Vec3& centre, const Vec3& along, const Vec3& across) {
-    frame_.quadrangles.push_back({corner(centre - along - across), corner(centre + along - across),
-                                  corner(centre + along + across), corner(centre - along + across)});
+    add_quadrangle(
+        {centre - along - across, centre + along - across, centre + along + across, centre - along + across});
   }
 
   void add(const Plate& plate) {
@@ -60,12 +67,12 @@ class WallDraftsman {
   void add(const Shell& shell) {
     const auto corner_at = [&](int side, double radius, double above) {
       const double angle = 2 * std::numbers::pi * side / kSides;
-      return corner(shell.base + Vec3{radius * std::cos(angle), radius * std::sin(angle), above});
+      return shell.base + Vec3{radius * std::cos(angle), radius * std::sin(angle), above};
     };
     for (int side = 0; side < kSides; ++side)
-      frame_.quadrangles.push_back({corner_at(side, shell.base_radius, 0), corner_at(side + 1, shell.base_radius, 0),
-                                    corner_at(side + 1, shell.top_radius, shell.height),
-                                    corner_at(side, shell.top_radius, shell.height)});
+      add_quadrangle({corner_at(side, shell.base_radius, 0), corner_at(side + 1, shell.base_radius, 0),
+                      corner_at(side + 1, shell.top_radius, shell.height),
+                      corner_at(side, shell.top_radius, shell.height)});
   }
 
   /// The bars that lie among the grains: the two sides and the crest of each.
@@ -82,38 +89,50 @@ class WallDraftsman {
 
   double reach_;
   std::int32_t wall_ = 0;
-  WallFrame frame_;
+  std::vector<std::int32_t> walls_;
+  VtkFrame frame_{.cells = "Polys", .corners = 4, .data_of = "CellData"};
 };
 
 }  // namespace
 
-GrainFrame grain_frame(const World& world) {
-  GrainFrame frame;
-  const auto touching = coordination_of(links_of(world), world.particles.count());
-  frame.coordination.assign(touching.begin(), touching.end());
-  for (std::int32_t i = 0; i < world.particles.count(); ++i) {
-    const Motion& motion = world.particles.motion[i];
-    frame.positions_m.push_back(motion.position);
-    frame.velocities_m_s.push_back(world.particles.velocity[i].linear);
-    frame.spins_rad_s.push_back(world.particles.velocity[i].angular);
-    frame.radii_m.push_back(motion.radius);
+VtkFrame grain_frame(const World& world) {
+  const Particles& grains = world.particles;
+  VtkFrame frame{.cells = "Verts", .data_of = "PointData"};
+  const auto touching = coordination_of(links_of(world), grains.count());
+  std::vector<Vec3> velocities, spins;
+  std::vector<double> radii;
+  for (std::int32_t i = 0; i < grains.count(); ++i) {
+    frame.points_m.push_back(grains.motion[i].position);
+    frame.connectivity.push_back(i);
+    radii.push_back(grains.motion[i].radius);
+    velocities.push_back(grains.velocity[i].linear);
+    spins.push_back(grains.velocity[i].angular);
   }
+  frame.data = {{"radius", std::move(radii)},
+                {"velocity", std::move(velocities)},
+                {"spin", std::move(spins)},
+                {"coordination", std::vector<std::int32_t>(touching.begin(), touching.end())}};
   return frame;
 }
 
-LinkFrame link_frame(const World& world) {
-  LinkFrame frame;
+VtkFrame link_frame(const World& world) {
+  VtkFrame frame{.cells = "Lines", .corners = 2, .data_of = "CellData"};
+  std::vector<std::int32_t> touching;
+  std::vector<double> overlaps, forces;
   for (const Link& link : links_of(world)) {
-    for (const std::int32_t grain : {link.first, link.second})
-      frame.ends_m.push_back(world.particles.motion[grain].position);
-    frame.touching.push_back(link.touching ? 1 : 0);
-    frame.overlaps_m.push_back(link.overlap_m);
-    frame.forces_n.push_back(link.force_n);
+    for (const std::int32_t grain : {link.first, link.second}) {
+      frame.connectivity.push_back(std::ssize(frame.points_m));
+      frame.points_m.push_back(world.particles.motion[grain].position);
+    }
+    touching.push_back(link.touching ? 1 : 0);
+    overlaps.push_back(link.overlap_m);
+    forces.push_back(link.force_n);
   }
+  frame.data = {{"touching", std::move(touching)}, {"overlap", std::move(overlaps)}, {"force", std::move(forces)}};
   return frame;
 }
 
-WallFrame wall_frame(const World& world) {
+VtkFrame wall_frame(const World& world) {
   WallDraftsman draftsman(extent_of(world.particles));
   for (const Wall& wall : world.walls) draftsman.draw(wall);
   return draftsman.take();

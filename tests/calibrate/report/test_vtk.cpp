@@ -9,7 +9,7 @@
 using namespace pastefit;
 
 TEST_CASE("a frame holds its numbers as the format asks: size and bytes in one base64 text") {
-  const auto text = vtp_of(GrainFrame{{{1, 2, 3}}, {{0, 0, -1}}, {{0, 0, 0}}, {0.008}, {4}});
+  const auto text = vtp_of({"Verts", 1, {{1, 2, 3}}, {0}, "PointData", {{"radius", std::vector<double>{0.008}}}});
   CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"1\""));
   // 24 as UInt64, then 1.0, 2.0, 3.0; encoded with another program
   CHECK_THAT(text, Catch::Contains(">GAAAAAAAAAAAAAAAAADwPwAAAAAAAABAAAAAAAAACEA=<"));
@@ -20,13 +20,13 @@ TEST_CASE("a frame holds its numbers as the format asks: size and bytes in one b
 TEST_CASE("a series lists its frames with their times after every frame") {
   const test::Folder folder;
   VtkSeries series(folder.path(), "grains");
-  CHECK(series.add(0, vtp_of(GrainFrame{})).empty());
-  CHECK(series.add(0.25, vtp_of(LinkFrame{})).empty());
+  CHECK(series.add(0, VtkFrame{}).empty());
+  CHECK(series.add(0.25, VtkFrame{}).empty());
   std::ifstream in(series.index());
   std::ostringstream text;
   text << in.rdbuf();
   CHECK_THAT(text.str(), Catch::Contains("timestep=\"0\" file=\"grains_000000.vtp\"") &&
                              Catch::Contains("timestep=\"0.25\" file=\"grains_000001.vtp\""));
   CHECK(std::filesystem::exists(folder.path() / "grains_000001.vtp"));
-  CHECK_FALSE(VtkSeries("/nowhere", "grains").add(0, vtp_of(WallFrame{})).empty());
+  CHECK_FALSE(VtkSeries("/nowhere", "grains").add(0, VtkFrame{}).empty());
 }
