@@ -7,6 +7,7 @@
 
 #include "calibrate/base/input_file.h"
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 
 namespace pastefit {
@@ -194,15 +195,13 @@ std::optional<json> parse_json(std::string_view text, Faults& faults) {
 
 std::optional<json> read_json(const std::filesystem::path& file, Faults& faults) {
   const auto text = read_input(file, {.remedy = "give a file of pastefit", .ending = ".json"});
-  if (!text.ok()) {
-    faults.insert(faults.end(), text.faults().begin(), text.faults().end());
-    return std::nullopt;
-  }
+  append(faults, text);
+  if (!text.ok()) return std::nullopt;
   Faults found;
   std::optional<json> document = parse_json(text.value(), found);
   if (!document)
     if (std::optional<Fault> other = spreadsheet(text.value(), file)) found = {std::move(*other)};
-  for (Fault& fault : in_file(std::move(found), file)) faults.push_back(std::move(fault));
+  append(faults, in_file(std::move(found), file));
   return document;
 }
 

@@ -54,18 +54,17 @@ Faults unfit_studies(const std::vector<BatchStudy>& batch, const BatchArguments&
       found = long_run_faults(one.file.string() + ": search.budget_simulations",
                               format("%d simulations", one.study.search.budget_simulations), least_effort_s(one.study),
                               options.workers, asked_for, "larger grains, a smaller budget");
-    for (Fault& fault : found) faults.push_back(std::move(fault));
+    append(faults, std::move(found));
   }
   return faults;
 }
 
-Faults write_table(const std::vector<BatchRow>& rows, const fs::path& out) {
+void write_table(const std::vector<BatchRow>& rows, const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
-  auto faults = write_atomically(out / kBatchTable, batch_csv(rows));
-  if (faults.empty()) faults = write_atomically(out / kBatchPage, batch_page(rows));
-  if (faults.empty()) note("wrote %s\nwrote %s\n", (out / kBatchTable).c_str(), (out / kBatchPage).c_str());
-  return faults;
+  refuse(write_atomically(out / kBatchTable, batch_csv(rows)), kFailed);
+  refuse(write_atomically(out / kBatchPage, batch_page(rows)), kFailed);
+  note("wrote %s\nwrote %s\n", (out / kBatchTable).c_str(), (out / kBatchPage).c_str());
 }
 
 /// Why a calibration has no card, from how its process ended; nothing if it has one.
@@ -117,8 +116,7 @@ Faults calibrate_all(const std::vector<BatchStudy>& batch, const BatchArguments&
     const bool finished = is_finished(one);
     note("%zu of %zu: %s%s\n", i + 1, batch.size(), one.name.c_str(), finished ? ": finished before" : "");
     if (finished) continue;
-    // What one study meets stops no other.
-    for (const Fault& fault : calibrate_one(one, options, stop)) all.push_back(fault);
+    append(all, calibrate_one(one, options, stop));  // what one study meets stops no other
     const BatchRow row = row_of(one);
     print("%s: %s%s%s\n", one.name.c_str(), row.verdict.c_str(), row.reasons.empty() ? "" : ": ", row.reasons.c_str());
     std::fflush(stdout);
@@ -131,12 +129,11 @@ int run_on_this_machine(const std::vector<BatchStudy>& batch, const BatchArgumen
   const Faults faults = options.table ? Faults{} : calibrate_all(batch, options, stop);
   std::vector<BatchRow> rows;
   for (const BatchStudy& one : batch) rows.push_back(row_of(one));
-  if (!options.no_table)
-    if (const auto unwritten = write_table(rows, options.out); !unwritten.empty()) return report(unwritten, kFailed);
+  if (!options.no_table) write_table(rows, options.out);
   if (stop) std::fprintf(stderr, "pastefit: interrupted; the same command goes on\n");
   const auto confirmed = std::ranges::count(rows, "confirmed", &BatchRow::verdict);
   if (!options.no_table) print("%td of %zu studies are confirmed\n", confirmed, rows.size());
-  if (!faults.empty()) return report(faults, kFailed);
+  refuse(faults, kFailed);
   const bool whole = std::ranges::all_of(batch, is_finished);  // with its page
   return options.table || (whole && confirmed == std::ssize(rows)) ? kDone : kFailed;
 }
@@ -161,18 +158,16 @@ int write_jobs(const BatchArguments& options) {
   std::error_code error;
   const ArrayJob job{fs::read_symlink("/proc/self/exe", error), fs::current_path(error), options.out, options.studies,
                      options.workers > 0 ? options.workers : kElementWorkers};
-  if (const Faults unusable = unusable_in_job(job); !unusable.empty()) return report(unusable);
+  refuse(unusable_in_job(job));
   const fs::path out = options.out, table = out / kTableScript;
   fs::create_directories(out, error);
   std::string submitted;
-  Faults faults;
   for (const auto& [name, script] : array_scripts(job)) {
-    if (faults.empty()) faults = write_atomically(out / name, script);
-    if (faults.empty()) note("wrote %s\n", (out / name).c_str());
+    refuse(write_atomically(out / name, script), kFailed);
+    note("wrote %s\n", (out / name).c_str());
     submitted += ":$(sbatch --parsable " + shell_word((out / name).string()) + ")";
   }
-  if (faults.empty()) faults = write_atomically(table, table_job_script(job));
-  if (!faults.empty()) return report(faults, kFailed);
+  refuse(write_atomically(table, table_job_script(job)), kFailed);
   note("wrote %s\n", table.c_str());
   note("to run them, %d cores each, and then make the table:\n", job.workers);
   print("sbatch --dependency=afterany%s %s\n", submitted.c_str(), shell_word(table.string()).c_str());
@@ -182,8 +177,8 @@ int write_jobs(const BatchArguments& options) {
 int run_batch(const BatchArguments& options) {
   auto batch = read_batch(options.studies, options.out);
   Faults faults = batch.ok() ? unfit_studies(batch.value(), options) : batch.faults();
-  for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
-  if (!faults.empty()) return report(faults);
+  append(faults, output_folder_faults("--out", options.out));
+  refuse(faults);
   return options.slurm ? write_jobs(options) : run_on_this_machine(batch.value(), options);
 }
 

@@ -64,12 +64,12 @@ int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& 
 int Delivery::deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
                            RunRecordings& seen) const {
   const auto summary = summary_of(card, inference ? describe(*inference) : "");
-  auto faults = write_card(folder, card, summary);
+  const auto faults = write_card(folder, card, summary);
   print("%s", json ? json_text(to_json(card)).c_str() : summary.c_str());
   std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
-  if (faults.empty())
-    faults = write_looks(folder, findings_of(card, store, inference), stop, {.threads = threads, .seen = &seen}, files);
-  if (!faults.empty()) return report(faults, kFailed);
+  refuse(faults, kFailed);
+  refuse(write_looks(folder, findings_of(card, store, inference), stop, {.threads = threads, .seen = &seen}, files),
+         kFailed);
   for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
   return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
 }
@@ -100,13 +100,11 @@ struct CalibrateArguments {
 constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
 
 /// The study with what the options say instead of its file.
-Result<Study> study_to_calibrate(const CalibrateArguments& options) {
-  auto read = read_study(options.study);
-  if (!read.ok()) return read;
-  SearchOptions& search = read.value().search;
-  if (options.budget > 0) search.budget_simulations = options.budget;
-  if (options.seed) search.seed = *options.seed;
-  return read;
+Study study_to_calibrate(const CalibrateArguments& options) {
+  Study study = value_or_throw(read_study(options.study));
+  if (options.budget > 0) study.search.budget_simulations = options.budget;
+  if (options.seed) study.search.seed = *options.seed;
+  return study;
 }
 
 /// What keeps the study from being calibrated. What the option says instead of the file is the option's fault.
@@ -125,14 +123,14 @@ Faults too_long_faults(const Study& study, const CalibrateArguments& options) {
                          options.threads, asked_for, "larger grains, a smaller budget, a --wall-budget");
 }
 
-Result<OutputFolder> open_folder(const Study& study, const CalibrateArguments& options) {
+OutputFolder open_folder(const Study& study, const CalibrateArguments& options) {
   const auto earlier = options.force    ? EarlierResult::replace
                        : options.resume ? EarlierResult::resume
                                         : EarlierResult::refuse;
   const auto budget = static_cast<std::uintmax_t>(study.search.budget_simulations);
-  auto folder =
-      OutputFolder::open(options.out, calibration_files(study), earlier, kSpace + budget * kSpaceOfEvaluation);
-  if (folder.ok() && options.force) folder.value().clear(calibration_files(study));
+  auto folder = value_or_throw(
+      OutputFolder::open(options.out, calibration_files(study), earlier, kSpace + budget * kSpaceOfEvaluation));
+  if (options.force) folder.clear(calibration_files(study));
   return folder;
 }
 
@@ -144,13 +142,10 @@ WorkAhead work_ahead(const Study& study) {
 }
 
 int run_calibrate(const CalibrateArguments& options) {
-  const auto read = study_to_calibrate(options);
-  if (!read.ok()) return report(read.faults());
-  const Study& study = read.value();
+  const Study study = study_to_calibrate(options);
   CalibrateOptions how{options.study, options.threads, options.wall_budget_s, options.core_budget_s, nullptr};
-  if (const auto faults = faults_of(study, how, options); !faults.empty()) return report(faults);
-
-  if (const auto faults = too_long_faults(study, options); !faults.empty()) return report(faults);
+  refuse(faults_of(study, how, options));
+  refuse(too_long_faults(study, options));
   if (options.dry_run) {
     print("%s\n%s%sResults go to %s.\n", one_line(study.title).c_str(), understood(study, options.threads).c_str(),
           notes_on_readings(study).c_str(), printable(options.out).c_str());
@@ -159,27 +154,24 @@ int run_calibrate(const CalibrateArguments& options) {
 
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;
-  const auto folder = open_folder(study, options);
-  if (!folder.ok()) return report(folder.faults());
-  const std::string file = folder.value().file(kStore);
-  auto store = Store::open(file, {program_identity(), inputs_of(study)});
-  if (!store.ok()) return report(store.faults());
-  if (const auto faults = strangers_in(study, store.value(), file); !faults.empty()) return report(faults);
+  const OutputFolder folder = open_folder(study, options);
+  const std::string file = folder.file(kStore);
+  Store store = value_or_throw(Store::open(file, {program_identity(), inputs_of(study)}));
+  refuse(strangers_in(study, store, file));
 
-  print_remarks(study, store.value(), file, options.threads);
+  print_remarks(study, store, file, options.threads);
   ProgressLine line(work_ahead(study), error_unit_of(study));
   LivePage page(options.out);
   RunRecordings looks;
   const auto show = [&](const Progress& progress) {
     line.show(progress);
-    if (progress.phase != "examination") page.show(study, store.value());
+    if (progress.phase != "examination") page.show(study, store);
   };
   const auto count = [&](const EvaluationCounts& counts) { line.show(counts); };
-  const auto result = calibrate(study, store.value(), how, {show, count, [&] { line.look(); }, &looks});
+  auto result = calibrate(study, store, how, {show, count, [&] { line.look(); }, &looks});
   line.end();
-  if (!result.ok()) return report(result.faults(), kFailed);
-  const Delivery delivery{study, store.value(), folder.value(), options.threads, options.json};
-  return delivery.deliver(result.value(), stop, looks);
+  const Delivery delivery{study, store, folder, options.threads, options.json};
+  return delivery.deliver(value_or_throw(std::move(result), kFailed), stop, looks);
 }
 
 }  // namespace

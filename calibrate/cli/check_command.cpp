@@ -35,28 +35,23 @@ int rebaseline_all(const CheckCommand& options) {
     faults.push_back({"--rebaseline", "records no reason", "add --why TEXT: what changed, and why that is right"});
   for (const auto& file : options.cards) {
     auto card = read_card(file);
-    if (!card.ok()) {
-      faults.insert(faults.end(), card.faults().begin(), card.faults().end());
-      continue;
-    }
+    append(faults, card);
+    if (!card.ok()) continue;
     cards.push_back(std::move(card).value());
-    for (Fault& fault : output_file_faults("--rebaseline", file, true)) faults.push_back(std::move(fault));
+    append(faults, output_file_faults("--rebaseline", file, true));
   }
-  if (!faults.empty()) return report(faults);
+  refuse(faults);
   int simulations = 0;
   for (const auto& card : cards)
     simulations += std::max(simulations_to_check(card, {}), options.packings * static_cast<int>(card.tests.size()));
   WorkLine line("simulations", simulations);
   const CheckEngine engine = counted(CheckEngine::ours(), line);
-  for (auto& card : cards) {
-    auto changed = rebaselined(std::move(card), one_line(options.why), options.packings, options.check, engine);
-    if (!changed.ok()) return report(changed.faults(), kFailed);
-    card = std::move(changed).value();
-  }
+  for (auto& card : cards)
+    card = value_or_throw(rebaselined(std::move(card), one_line(options.why), options.packings, options.check, engine),
+                          kFailed);
   line.clear();
   for (std::size_t i = 0; i < cards.size(); ++i) {
-    if (const auto unwritten = write_card(options.cards[i], cards[i]); !unwritten.empty())
-      return report(unwritten, kFailed);
+    refuse(write_card(options.cards[i], cards[i]), kFailed);
     const auto packings = cards[i].tests.front().baseline.runs.size();  // as many as every other test
     print("%s: new baseline of %zu packings\n", options.cards[i].c_str(), packings);
     for (const auto& moved : cards[i].rebaselined.back().moved)
@@ -75,15 +70,9 @@ int status_of(const std::vector<CheckedFile>& checked) {
 }
 
 int check_all(const CheckCommand& options) {
-  if (!options.junit.empty())
-    if (const auto faults = output_faults("--junit", options.junit, options.force); !faults.empty())
-      return report(faults);
+  if (!options.junit.empty()) refuse(output_faults("--junit", options.junit, options.force));
   std::optional<Lab> lab;
-  if (!options.against.empty()) {
-    auto read = read_lab(options.against);
-    if (!read.ok()) return report(read.faults());
-    lab = std::move(read).value();
-  }
+  if (!options.against.empty()) lab = value_or_throw(read_lab(options.against));
   std::vector<Result<Card>> cards;
   int simulations = 0;
   for (const auto& file : options.cards) {
@@ -112,9 +101,7 @@ int check_all(const CheckCommand& options) {
     checked.push_back(std::move(one));
   }
   if (options.json && !is_standard_output(options.junit)) print("%s", json_text(to_json(checked)).c_str());
-  if (!options.junit.empty())
-    if (const auto faults = write_output(options.junit, junit_of(checked)); !faults.empty())
-      return report(faults, kFailed);
+  if (!options.junit.empty()) refuse(write_output(options.junit, junit_of(checked)), kFailed);
   return status_of(checked);
 }
 

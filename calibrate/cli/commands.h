@@ -3,16 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "core/result.h"
+#include "calibrate/base/refusal.h"
 
 namespace pastefit {
 
-/// Exit statuses of the program.
+/// Exit status of the program, beside those of a `Refusal`.
 inline constexpr int kDone = 0;
-inline constexpr int kFailed = 1;    ///< the run has no answer, or could not keep it
-inline constexpr int kBadInput = 2;  ///< what the user gave cannot be used; nothing was written
 
-/// A verb adds its options to the program and returns what runs it, with the exit status as answer.
+/// A verb adds its options to the program and returns what runs it, with the exit status as answer. What it throws as a
+/// `Refusal` is printed to standard error.
 using Command = std::function<int()>;
 Command add_batch(CLI::App& verb);
 Command add_calibrate(CLI::App& verb);
@@ -31,8 +30,5 @@ Command add_show(CLI::App& verb);
 Command add_simulate(CLI::App& verb);
 Command add_template(CLI::App& verb);
 Command add_verify(CLI::App& verb);
-
-/// Prints every fault to standard error; returns `status`.
-int report(const Faults& faults, int status = kBadInput);
 
 }  // namespace pastefit

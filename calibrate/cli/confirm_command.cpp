@@ -76,21 +76,16 @@ struct Asked {
   CardTest test;  ///< of that card
 };
 
-Result<Asked> asked_for(const Card& card, const ConfirmOptions& options) {
-  Card with_grains = card;
+Asked asked_for(const Card& card, const ConfirmOptions& options) {
+  Asked asked{card, {}};
   const double radius = options.radius_mm.value_or(0) / 1e3;
-  if (options.radius_mm && radius != card.material.grains.radius_m) {
-    auto changed = rescaled(card, radius);
-    if (!changed.ok()) return changed.faults();
-    with_grains = std::move(changed).value();
-  }
-  auto test = test_to_export(with_grains, options.test);
-  if (!test.ok()) return test.faults();
-  if (!has_deck(test.value().test))
-    return Fault{test.value().name.empty() ? "the card's test" : "test " + test.value().name,
-                 "has no deck: another program cannot run it", "choose another test with --test"};
-  if (Faults faults = validate_memory(test.value().test, 1); !faults.empty()) return faults;
-  return Asked{std::move(with_grains), std::move(test).value()};
+  if (options.radius_mm && radius != card.material.grains.radius_m) asked.card = value_or_throw(rescaled(card, radius));
+  asked.test = value_or_throw(test_to_export(asked.card, options.test));
+  if (!has_deck(asked.test.test))
+    refuse({{asked.test.name.empty() ? "the card's test" : "test " + asked.test.name,
+             "has no deck: another program cannot run it", "choose another test with --test"}});
+  refuse(validate_memory(asked.test.test, 1));
+  return asked;
 }
 
 /// What is wrong with the options alone, besides the card.
@@ -102,11 +97,9 @@ Faults unusable_options(const ConfirmOptions& options) {
   if (std::istringstream(options.launch) >> first; !first.empty() && !is_program(first))
     faults.push_back({"--launch", "there is no program " + one_line(first),
                       "install an MPI (Debian's openmpi-bin), or leave --launch out for one rank"});
-  for (Fault& fault : options.out.empty() ? output_file_faults("CARD", options.card, true)
-                                          : output_faults("--out", options.out, options.force))
-    faults.push_back(std::move(fault));
-  if (!options.runs.empty())
-    for (Fault& fault : output_folder_faults("--runs", options.runs)) faults.push_back(std::move(fault));
+  append(faults, options.out.empty() ? output_file_faults("CARD", options.card, true)
+                                     : output_faults("--out", options.out, options.force));
+  if (!options.runs.empty()) append(faults, output_folder_faults("--runs", options.runs));
   return faults;
 }
 
@@ -119,9 +112,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
     const std::uint64_t packing = kFirstConfirmPacking + static_cast<std::uint64_t>(i);
     const Fault interrupted{"packing " + std::to_string(packing), "interrupted",
                             "the same command with --runs goes on"};
-    std::optional<SignOfLife> sign(std::in_place);
-    const auto scene = export_scene(asked.card, asked.test, packing, shown_by(*sign, stop));
-    sign.reset();
+    const auto scene = export_scene(asked.card, asked.test, packing, shown_run(&stop));
     if (stop) return interrupted;
     if (!scene.ok()) return scene.faults();
     note("packing %d of %d: %zu grains\n", i + 1, options.packings, scene.value().packing.centres.size());
@@ -143,64 +134,56 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
   return out;
 }
 
-/// The card as it is now: another confirmation may have been written on it meanwhile. Error: its material is another.
-Result<Card> card_now(const ConfirmOptions& options, const Card& confirmed) {
-  auto now = read_card(options.card);
-  if (!now.ok()) return now.faults();
+/// The card as it is now: another confirmation may have been written on it meanwhile. Refused if its material is
+/// another.
+Card card_now(const ConfirmOptions& options, const Card& confirmed) {
+  Card now = value_or_throw(read_card(options.card), kFailed);
   const auto without_confirmations = [](Card card) {
     card.further_confirmations.clear();
     return to_json(card);
   };
-  if (without_confirmations(now.value()) == without_confirmations(confirmed)) return now;
-  return Fault{options.card, "became another card while this one was simulated", "confirm that card"};
+  if (without_confirmations(now) != without_confirmations(confirmed))
+    refuse({{options.card, "became another card while this one was simulated", "confirm that card"}}, kFailed);
+  return now;
 }
 
 /// Adds the confirmation to the card and writes that, or prints it.
-int deliver(const ConfirmOptions& options, const Card& confirmed, const FurtherConfirmation& further) {
+void deliver(const ConfirmOptions& options, const Card& confirmed, const FurtherConfirmation& further) {
   const FileLock lock(options.card);
-  auto card = card_now(options, confirmed);
-  if (!card.ok()) return report(card.faults(), kFailed);
-  card.value().further_confirmations.push_back(further);
-  const auto text = readable_text(card.value());
-  if (!text.ok()) return report(text.faults(), kFailed);
-  const std::string out = options.out.empty() ? options.card : options.out;
-  if (!is_standard_output(out))
-    print("%s", options.json ? text.value().c_str() : further_confirmation_text(further).c_str());
-  if (const auto unwritten = write_output(out, text.value()); !unwritten.empty()) return report(unwritten, kFailed);
-  if (!is_stream(out)) note("wrote %s\n", out.c_str());
-  return kDone;
+  Card card = card_now(options, confirmed);
+  card.further_confirmations.push_back(further);
+  deliver_card(card, further_confirmation_text(further), options.json,
+               options.out.empty() ? options.card : options.out);
 }
 
 int confirm(const ConfirmOptions& options) {
   Faults faults = unusable_options(options);
-  const auto card = read_card(options.card);
-  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
-  if (!faults.empty()) return report(faults);
-  const auto asked = asked_for(card.value(), options);
-  if (!asked.ok()) return report(asked.faults());
-  const auto of_card = test_to_export(card.value(), options.test);
+  const auto read = read_card(options.card);
+  append(faults, read);
+  refuse(faults);
+  const Card& card = read.value();
+  const Asked asked = asked_for(card, options);
   const std::atomic<bool>& stop = listen_for_stop();
-  const auto program = lammps_program(options.program, stop);
-  if (!program.ok()) return report(program.faults());
+  const auto program = value_or_throw(lammps_program(options.program, stop));
 
   const RunsFolder folder(options.runs);
   if (!folder.exists())
-    return report({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
-                    "set TMPDIR to a folder that can be written, or name one with --runs"}},
-                  kFailed);
-  const double least_s = least_effort_s(asked.value().test.test);
+    refuse({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
+             "set TMPDIR to a folder that can be written, or name one with --runs"}},
+           kFailed);
+  const double least_s = least_effort_s(asked.test.test);
   if (least_s > 10)
     note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
-  const auto runs = run_all(asked.value(), {options.launch, program.value()}, folder, options, stop);
-  if (!runs.ok()) return report(runs.faults(), kFailed);
-  const int status =
-      deliver(options, card.value(),
-              further_confirmation(card.value(), of_card.value(), asked.value().test.test, runs.value()));
-  if (status == kDone)
-    folder.done();
-  else
+  const auto runs = value_or_throw(run_all(asked, {options.launch, program}, folder, options, stop), kFailed);
+  const CardTest of_card = value_or_throw(test_to_export(card, options.test));
+  try {
+    deliver(options, card, further_confirmation(card, of_card, asked.test.test, runs));
+  } catch (const Refusal&) {
     std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs goes on from there\n", folder.path().c_str());
-  return status;
+    throw;
+  }
+  folder.done();
+  return kDone;
 }
 
 }  // namespace

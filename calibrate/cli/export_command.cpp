@@ -24,33 +24,27 @@ struct ExportOptions {
 int export_to_folder(const ExportOptions& options) {
   Faults faults;
   const auto exporter = exporter_named(options.target);
-  if (!exporter.ok()) faults = exporter.faults();
+  append(faults, exporter);
   const auto card = read_card(options.card);
-  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
-  for (Fault& fault : output_folder_faults("--out", options.out)) faults.push_back(std::move(fault));
-  if (!exporter.ok() || !card.ok()) return report(faults);
-  std::optional<SignOfLife> sign(std::in_place);
-  const std::atomic<bool> never = false;
-  const auto written =
-      export_card(card.value(), exporter.value(),
-                  {options.card, options.test, options.packing, options.unconfirmed, shown_by(*sign, never)});
-  sign.reset();
-  if (!written.ok()) faults.insert(faults.end(), written.faults().begin(), written.faults().end());
-  if (!faults.empty()) return report(faults);
+  append(faults, card);
+  append(faults, output_folder_faults("--out", options.out));
+  if (!exporter.ok() || !card.ok()) refuse(faults);
+  const auto written = export_card(card.value(), exporter.value(),
+                                   {options.card, options.test, options.packing, options.unconfirmed, shown_run()});
+  append(faults, written);
+  refuse(faults);
   const std::vector<ExportFile>& files = written.value().files;
 
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.name);
-  const auto folder =
-      OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
-  if (!folder.ok()) return report(folder.faults());
+  const auto folder = value_or_throw(
+      OutputFolder::open(options.out, names, options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
   for (const auto& file : files) {
     std::error_code ignored;  // what cannot be made cannot be written into
-    std::filesystem::create_directories(folder.value().file(file.name).parent_path(), ignored);
-    if (const auto unwritten = write_atomically(folder.value().file(file.name), file.content); !unwritten.empty())
-      return report(unwritten, kFailed);
+    std::filesystem::create_directories(folder.file(file.name).parent_path(), ignored);
+    refuse(write_atomically(folder.file(file.name), file.content), kFailed);
   }
-  for (const auto& file : files) print("wrote %s\n", folder.value().file(file.name).c_str());
+  for (const auto& file : files) print("wrote %s\n", folder.file(file.name).c_str());
   print("%s", files.back().content.c_str());
   return kDone;
 }

@@ -170,13 +170,14 @@ int write_manual(const CLI::App& program, const fs::path& folder) {
   fs::create_directories(folder, error);
   Faults faults;
   const auto write = [&](const std::string& name, const std::string& text) {
-    for (Fault& fault : write_atomically(folder / name, text)) faults.push_back(std::move(fault));
+    append(faults, write_atomically(folder / name, text));
   };
   write("pastefit.1", man_page_of(program));
   for (const CLI::App* verb : verbs_of(program)) write("pastefit-" + verb->get_name() + ".1", man_page_of(*verb));
   for (const std::string_view shell : completed_shells)
     write("pastefit." + std::string(shell), completion_of(program, shell));
-  return faults.empty() ? kDone : report(faults, kFailed);
+  refuse(faults, kFailed);
+  return kDone;
 }
 
 int print_help(const CLI::App& program, const std::string& name) {
@@ -194,8 +195,9 @@ int print_help(const CLI::App& program, const std::string& name) {
     return kDone;
   }
   const auto near = nearest(name, names);
-  return report(
-      {{"help " + name, "there is no such verb", near ? "did you mean '" + *near + "'?" : "see pastefit help"}});
+  throw Refusal{
+      {{"help " + name, "there is no such verb", near ? "did you mean '" + *near + "'?" : "see pastefit help"}},
+      kBadInput};
 }
 
 }  // namespace

@@ -50,37 +50,29 @@ Faults differences(const Card& card, const Study& study, const std::string& file
 int infer_again(const InferOptions& options) {
   const std::filesystem::path from = options.from;
   const std::string card_file = (from / kResults[0]).string(), store_file = (from / kStore).string();
-  const auto study = read_study(options.study);
-  if (!study.ok()) return report(study.faults());
-  auto read = read_card(card_file);
-  if (!read.ok()) return report(read.faults());
-  Card& card = read.value();
-  if (const auto faults = differences(card, study.value(), card_file); !faults.empty()) return report(faults);
-  const auto store = Store::read(store_file);
-  if (!store.ok()) return report(store.faults());
-  for (const auto& remark : store.value().remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
-  const std::string& simulated_by = store.value().identity().program;
-  const auto record = everything_of(study.value(), store.value());
+  const Study study = value_or_throw(read_study(options.study));
+  Card card = value_or_throw(read_card(card_file));
+  refuse(differences(card, study, card_file));
+  const Store store = value_or_throw(Store::read(store_file));
+  for (const auto& remark : store.remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
+  const std::string& simulated_by = store.identity().program;
+  const auto record = everything_of(study, store);
   const UnitPoint recommended = point_of(card);
   if (std::ranges::none_of(record, [](const StoredEvaluation& one) { return !one.failure && !one.run.ended_early; }))
-    return report({{store_file, "has no finished simulation of this study's tests, made by '" + simulated_by + "'",
-                    "the folder of a calibration of this study"}});
+    refuse({{store_file, "has no finished simulation of this study's tests, made by '" + simulated_by + "'",
+             "the folder of a calibration of this study"}});
   if (card.search.status == "out_of_reach")
-    return report({{card_file,
-                    "the laboratory was out of reach, and readings that no material meets say nothing of "
-                    "the parameters",
-                    "other bounds, and pastefit calibrate --resume"}});
+    refuse({{card_file,
+             "the laboratory was out of reach, and readings that no material meets say nothing of the parameters",
+             "other bounds, and pastefit calibrate --resume"}});
   std::optional<OutputFolder> folder;
-  if (!options.out.empty()) {
-    auto opened = OutputFolder::open(options.out, kResults,
-                                     options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
-    if (!opened.ok()) return report(opened.faults());
-    folder.emplace(std::move(opened).value());
-  }
+  if (!options.out.empty())
+    folder = value_or_throw(OutputFolder::open(options.out, kResults,
+                                               options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
 
   InferenceOptions inference_options;
   inference_options.seed = card.search.seed;
-  TrainingData evidence = training_data_of(study.value(), record);
+  TrainingData evidence = training_data_of(study, record);
   evidence.conditions = card.inference.conditions;
   Inference inference = pastefit::infer(evidence, recommended, inference_options);
   inference.recommended_because = reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
@@ -93,9 +85,8 @@ int infer_again(const InferOptions& options) {
   const std::string summary = summary_of(card, findings);
   print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
   if (!folder) return kDone;
-  auto faults = write_card(folder->file(kResults[0]), card);
-  if (faults.empty()) faults = write_atomically(folder->file(kResults[1]), summary);
-  if (!faults.empty()) return report(faults, kFailed);
+  refuse(write_card(folder->file(kResults[0]), card), kFailed);
+  refuse(write_atomically(folder->file(kResults[1]), summary), kFailed);
   note("wrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
   return kDone;
 }

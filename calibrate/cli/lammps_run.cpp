@@ -176,8 +176,7 @@ Result<LammpsHeap> read_heap(const ExportScene& scene, const fs::path& folder, c
     if (!dump.ok()) return dump.faults();
     grains.push_back(std::move(dump).value());
   }
-  SignOfLife sign;
-  auto readings = read_heaps(scene.test, std::nullopt, grains[0], std::span(grains).subspan(1), shown_by(sign, stop));
+  auto readings = read_heaps(scene.test, std::nullopt, grains[0], std::span(grains).subspan(1), shown_run(&stop));
   if (!readings.ok()) return readings.faults();
   return LammpsHeap{std::move(readings).value(), read_lammps_log(content_of_file(folder / kLog))};
 }

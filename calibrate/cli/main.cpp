@@ -17,13 +17,15 @@
 
 namespace pastefit {
 
-int report(const Faults& faults, int status) {
-  std::fprintf(stderr, "pastefit: %zu error%s\n%s\n", faults.size(), faults.size() == 1 ? "" : "s",
-               for_terminal(lines_of(message_of(faults))).c_str());
-  return status;
-}
-
 namespace {
+
+/// Prints every fault to standard error; returns the exit status.
+int report(const Refusal& refusal) {
+  const std::size_t count = refusal.faults.size();
+  std::fprintf(stderr, "pastefit: %zu error%s\n%s\n", count, count == 1 ? "" : "s",
+               for_terminal(lines_of(message_of(refusal.faults))).c_str());
+  return refusal.status;
+}
 
 /// Which contact kernels runs take.
 std::string kernels_note() {
@@ -57,7 +59,7 @@ struct WrappedHelp : CLI::Formatter {
 };
 
 int run(int argc, char** argv) {
-  if (const Faults faults = obey_kernels_variable(); !faults.empty()) return report(faults);
+  refuse(obey_kernels_variable());
   CLI::App program("Calibrates DEM contact models for pasty material from laboratory tests.", "pastefit");
   program.formatter(std::make_shared<WrappedHelp>());
   program.set_version_flag("--version", "pastefit " + program_version() + "\n" + kernels_note());
@@ -92,13 +94,13 @@ int run(int argc, char** argv) {
       {kUse, "rescale", "carry a material card to another grain size", add_rescale},
       {kTrust, "check", "simulate cards again and compare within the noise", add_check},
       {kTrust, "verify", "hold the contact laws against closed forms, case by case", add_verify},
-      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table", add_batch}};
+      {kMany, "batch", "calibrate many studies, one after the other or as an array job, and make one table",
+       add_batch}};
   std::set<std::string, std::less<>> names;
   for (const auto& verb : kVerbs) names.emplace(verb.name);
   if (argc > 1 && argv[1][0] != '-' && !names.contains(argv[1])) {
     const auto near = nearest(argv[1], names);
-    return report(
-        {{argv[1], "is not a verb of pastefit", near ? "did you mean '" + *near + "'?" : "see pastefit --help"}});
+    refuse({{argv[1], "is not a verb of pastefit", near ? "did you mean '" + *near + "'?" : "see pastefit --help"}});
   }
   Command chosen;
   for (const auto& verb : kVerbs) {
@@ -111,9 +113,7 @@ int run(int argc, char** argv) {
     print("%s", program.help().c_str());
     return kDone;
   }
-  if (names.contains(argv[1]))
-    if (const Faults faults = unknown_options(*program.get_subcommand(argv[1]), argc, argv); !faults.empty())
-      return report(faults);
+  if (names.contains(argv[1])) refuse(unknown_options(*program.get_subcommand(argv[1]), argc, argv));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -131,7 +131,12 @@ int main(int argc, char** argv) {
   try {
     pastefit::guard_standard_streams();
     pastefit::keep_freed_memory();
-    status = pastefit::after_output(pastefit::run(argc, argv));
+    try {
+      status = pastefit::run(argc, argv);
+    } catch (const pastefit::Refusal& refusal) {
+      status = pastefit::report(refusal);
+    }
+    status = pastefit::after_output(status);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pastefit: this is a bug of the program, please report it: %s\n", error.what());
   }

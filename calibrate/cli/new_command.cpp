@@ -125,9 +125,9 @@ Faults missing_options(const Sheet& sheet) {
 }
 
 /// The starting files of a test of another kind are its template.
-Result<StartingFiles> templates_of_kind(const std::string& kind) {
+StartingFiles templates_of_kind(const std::string& kind) {
   const auto lab = template_text(kind + "-lab"), study = template_text(kind + "-study");
-  if (!lab || !study) return no_such_kind("--test", kind);
+  if (!lab || !study) refuse({no_such_kind("--test", kind)});
   return StartingFiles{*lab, *study};
 }
 
@@ -145,7 +145,7 @@ void part(const std::string& option, const std::vector<std::string>& texts, Shee
   }
 }
 
-Faults read_options(NewOptions& options) {
+void read_options(NewOptions& options) {
   Faults faults;
   Sheet& sheet = options.sheet;
   for (auto& [name, text] : options.by_name)
@@ -154,7 +154,7 @@ Faults read_options(NewOptions& options) {
   part("--sd", options.deviations, sheet.deviations, faults);
   part("--fix", options.fixed, sheet.fixed, faults);
   part("--prior", options.priors, sheet.priors, faults);
-  return faults;
+  refuse(std::move(faults));
 }
 
 /// The files of one sheet and the folder that they go to.
@@ -167,34 +167,30 @@ struct Start {
   }
 };
 
-Faults write_files(const std::vector<Start>& starts, bool force) {
+void write_files(const std::vector<Start>& starts, bool force) {
   std::error_code error;
   Faults faults;
   for (const Start& start : starts) {
-    for (Fault& fault : output_folder_faults(start.folder.string(), start.folder)) faults.push_back(std::move(fault));
-    for (const char* name : {"lab.json", "study.json"})
-      if (!force && fs::exists(start.folder / name, error))
-        for (Fault& fault : output_file_faults((start.folder / name).string(), start.folder / name, force))
-          faults.push_back(std::move(fault));
+    append(faults, output_folder_faults(start.folder.string(), start.folder));
+    for (const fs::path& file : {start.folder / "lab.json", start.folder / "study.json"})
+      if (!force && fs::exists(file, error)) append(faults, output_file_faults(file.string(), file, force));
   }
-  if (!faults.empty()) return faults;
+  refuse(std::exchange(faults, {}));
   for (const Start& start : starts) fs::create_directories(start.folder, error);
   for (const Start& start : starts)
     for (const fs::path& file : {start.folder / "lab.json", start.folder / "study.json"})
-      for (Fault& fault : output_file_faults(file.string(), file, force)) faults.push_back(std::move(fault));
+      append(faults, output_file_faults(file.string(), file, force));
+  refuse(std::move(faults));
   for (const Start& start : starts) {
-    if (!faults.empty()) return faults;
-    faults = write_atomically(start.folder / "lab.json", start.files.lab);
-    if (faults.empty()) faults = write_atomically(start.folder / "study.json", start.files.study);
-    if (faults.empty())
-      print("wrote %s\nwrote %s\n", (start.folder / "lab.json").c_str(), (start.folder / "study.json").c_str());
+    refuse(write_atomically(start.folder / "lab.json", start.files.lab));
+    refuse(write_atomically(start.folder / "study.json", start.files.study));
+    print("wrote %s\nwrote %s\n", (start.folder / "lab.json").c_str(), (start.folder / "study.json").c_str());
   }
-  return faults;
 }
 
 /// Writes both files and says what was understood and what comes next.
 int write_one(const NewOptions& options, const Start& start) {
-  if (const Faults faults = write_files({start}, options.force); !faults.empty()) return report(faults);
+  write_files({start}, options.force);
   if (const auto read = read_study(start.folder / "study.json"); read.ok())
     print("\n%s%s", understood(read.value()).c_str(), notes_on_readings(read.value()).c_str());
   print("\nNext:\n  pastefit calibrate %s --out %s\n", start.in_folder("study.json").c_str(),
@@ -258,7 +254,7 @@ int new_from_table(const NewOptions& options) {
     for (Fault& fault : faults) found.emplace_back(row.line, std::move(fault));
     starts.push_back(std::move(start));
   }
-  for (Fault& fault : in_file(in_lines(found), options.table)) of_table.push_back(std::move(fault));
+  append(of_table, in_file(in_lines(found), options.table));
   const auto said = [](const char* what, const std::vector<std::string>& words) {
     if (!words.empty()) note("%s: %s\n", what, one_line(listed(words)).c_str());
   };
@@ -266,9 +262,9 @@ int new_from_table(const NewOptions& options) {
   said("columns that are not used", unused);
   said("lines without a reading", numbers_of(without));
   said("lines that are no sample", numbers_of(statistics));
-  if (!of_table.empty()) return report(of_table);
+  refuse(of_table);
   if (starts.size() == 1) return write_one(options, starts[0]);
-  if (const Faults faults = write_files(starts, options.force); !faults.empty()) return report(faults);
+  write_files(starts, options.force);
   for (const Start& start : starts)
     if (const auto read = read_study(start.folder / "study.json"); read.ok())
       if (const std::string notes = notes_on_readings(read.value()); !notes.empty())
@@ -279,29 +275,22 @@ int new_from_table(const NewOptions& options) {
 }
 
 int make_new(NewOptions options) {
-  Faults faults = read_options(options);
-  if (!faults.empty()) return report(faults);
+  read_options(options);
   if (options.test != "slump" && !options.table.empty())
-    return report(
-        {{"--from", "is of slump tests, and --test " + in_quotes(options.test) + " is another", "leave one out"}});
-  if (options.test != "slump") {
-    const auto files = templates_of_kind(options.test);
-    return files.ok() ? write_one(options, {options.folder, files.value()}) : report(files.faults());
-  }
+    refuse({{"--from", "is of slump tests, and --test " + in_quotes(options.test) + " is another", "leave one out"}});
+  if (options.test != "slump") return write_one(options, {options.folder, templates_of_kind(options.test)});
   Sheet& sheet = options.sheet;
   if (!options.table.empty()) {
     if (sheet.target.empty()) sheet.target = target_laws().front().target;
     return new_from_table(options);
   }
   if (!missing_options(sheet).empty() && isatty(STDIN_FILENO) == 1) {
-    if (!ask_sheet(sheet, options.folder))
-      return report({{"standard input", "ended before every answer", "start again"}});
+    if (!ask_sheet(sheet, options.folder)) refuse({{"standard input", "ended before every answer", "start again"}});
     print("\n");
   }
-  if (faults = missing_options(sheet); !faults.empty()) return report(faults);
+  refuse(missing_options(sheet));
   if (sheet.target.empty()) sheet.target = target_laws().front().target;
-  const auto files = starting_files(sheet, options.folder);
-  return files.ok() ? write_one(options, {options.folder, files.value()}) : report(files.faults());
+  return write_one(options, {options.folder, value_or_throw(starting_files(sheet, options.folder))});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "calibrate/base/atomic_file.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/cli/terminal.h"
 
 namespace pastefit {
@@ -66,6 +67,14 @@ Faults write_output(const fs::path& file, std::string_view content) {
   out.write(content.data(), static_cast<std::streamsize>(content.size())).flush();
   if (out) return {};
   return {{file.string(), std::string("cannot be written: ") + std::strerror(errno), "something that can be written"}};
+}
+
+void deliver_card(const Card& card, const std::string& words, bool json, const fs::path& out) {
+  const std::string content = value_or_throw(readable_text(card), kFailed);
+  if (!is_standard_output(out)) print("%s", (json ? content : words).c_str());
+  if (out.empty()) return;
+  refuse(write_output(out, content), kFailed);
+  if (!is_stream(out)) note("wrote %s\n", out.c_str());
 }
 
 }  // namespace pastefit

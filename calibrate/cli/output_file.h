@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "calibrate/card/card.h"
 #include "core/result.h"
 
 namespace pastefit {
@@ -26,5 +27,9 @@ Faults output_folder_faults(const std::string& option, const std::filesystem::pa
 
 /// Writes to a stream, or replaces the file (`write_atomically`).
 Faults write_output(const std::filesystem::path& file, std::string_view content);
+
+/// Prints a card, as it is stored or in `words`, and writes it to `out`, if that is not empty. Throws a `Refusal` if it
+/// could not be written.
+void deliver_card(const Card& card, const std::string& words, bool json, const std::filesystem::path& out);
 
 }  // namespace pastefit

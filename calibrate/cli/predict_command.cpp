@@ -3,7 +3,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <tuple>
 
 #include "calibrate/base/text.h"
 #include "calibrate/card/standing.h"
@@ -28,25 +27,10 @@ struct PredictOptions {
   bool force = false, json = false;
 };
 
-/// The test that is predicted, and what was measured in it.
-struct OtherTest {
-  Test test;
-  std::vector<Measurement> measured;
-};
-
-Result<OtherTest> test_of_preset(const std::string& name, const Card& card) {
-  auto preset = find_preset(name, ".");
-  if (!preset.ok()) return preset.faults();
-  OtherTest out{std::move(preset.value().test), {}};
-  specimen_of(out.test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
-  return out;
-}
-
-Result<OtherTest> other_test(const PredictOptions& options, const Card& card) {
-  if (options.lab.empty()) return test_of_preset(options.preset, card);
-  auto lab = read_lab(options.lab);
-  if (!lab.ok()) return lab.faults();
-  return OtherTest{std::move(lab.value().test), std::move(lab.value().measurements)};
+Test test_of_preset(const std::string& name, const Card& card) {
+  Test test = value_or_throw(find_preset(name, ".")).test;
+  specimen_of(test).bulk_density_kg_m3 = card.material.bulk_density_kg_m3;
+  return test;
 }
 
 std::string prediction_table(const Prediction& found, std::size_t materials) {
@@ -132,30 +116,28 @@ struct Family {
   int simulations(const PredictOptions& options) const { return options.packings * static_cast<int>(materials.size()); }
 };
 
-Result<Family> fitting_materials(const std::string& folder) {
-  const auto findings = read_findings(folder, kStore);
-  if (!findings.ok()) return findings.faults();
-  const auto& [missing, card, study, inference] =
-      std::tie(findings.value().missing, findings.value().card, findings.value().study, findings.value().inference);
-  if (!card || !inference)
-    return Fault{folder,
-                 "does not say which materials fit: " +
-                     (missing.empty() ? std::string("there is no inference") : one_line(missing.front())),
-                 "the folder of a calibration that ended with a material"};
-  Family family{*card, {}};
-  for (const EquivalentMaterial& one : inference->family)
-    family.materials.push_back(values_at(*study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
+Family fitting_materials(const std::string& folder) {
+  const Findings findings = value_or_throw(read_findings(folder, kStore));
+  if (!findings.card || !findings.inference)
+    refuse({{folder,
+             "does not say which materials fit: " +
+                 (findings.missing.empty() ? std::string("there is no inference") : one_line(findings.missing.front())),
+             "the folder of a calibration that ended with a material"}});
+  Family family{*findings.card, {}};
+  for (const EquivalentMaterial& one : findings.inference->family)
+    family.materials.push_back(
+        values_at(*findings.study, {one.point.data(), static_cast<std::size_t>(one.point.size())}));
   return family;
 }
 
-/// Why a test cannot be predicted, or takes too long.
-Faults unpredictable(const Family& family, const Test& other, const PredictOptions& options, int tests = 1) {
+/// Unless a test cannot be predicted, or takes too long.
+void check_effort(const Family& family, const Test& other, const PredictOptions& options, int tests = 1) {
   const Test test = with_material_of(family.card, other);
-  if (auto faults = validate(test); !faults.empty()) return faults;
-  if (auto faults = validate_memory(test, options.threads); !faults.empty()) return faults;
+  refuse(validate(test));
+  refuse(validate_memory(test, options.threads));
   const int simulations = tests * family.simulations(options);
-  return long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
-                         options.threads, options.force, "fewer --packings");
+  refuse(long_run_faults("--packings", format("%d simulations", simulations), simulations * least_effort_s(test),
+                         options.threads, options.force, "fewer --packings"));
 }
 
 /// What each preset would leave, and which of its readings tell the materials apart.
@@ -164,22 +146,20 @@ int predict_presets(const Family& family, const PredictOptions& options) {
   std::vector<std::pair<std::string, Test>> tests;
   std::vector<nlohmann::json> described;
   for (const std::string& name : preset_names(".")) {
-    const auto other = test_of_preset(name, family.card);
-    if (!other.ok()) return report(other.faults());
-    if (const auto same = std::ranges::find(described, to_json(other.value().test)); same != described.end()) {
+    const Test test = test_of_preset(name, family.card);
+    if (const auto same = std::ranges::find(described, to_json(test)); same != described.end()) {
       tests[static_cast<std::size_t>(same - described.begin())].first = name;  // two names of one rig
       continue;
     }
-    if (const auto faults = validate(with_material_of(family.card, other.value().test)); !faults.empty()) {
+    if (const auto faults = validate(with_material_of(family.card, test)); !faults.empty()) {
       next.left_out.emplace_back(name, faults.front().where + " " + faults.front().what);
     } else {
-      tests.emplace_back(name, other.value().test);
-      described.push_back(to_json(other.value().test));
+      tests.emplace_back(name, test);
+      described.push_back(to_json(test));
     }
   }
   const int count = static_cast<int>(tests.size());
-  for (const auto& [name, test] : tests)
-    if (const auto faults = unpredictable(family, test, options, count); !faults.empty()) return report(faults);
+  for (const auto& [name, test] : tests) check_effort(family, test, options, count);
   WorkLine line("simulations", count * family.simulations(options));
   const CheckEngine engine = counted(CheckEngine::ours(), line);
   for (const auto& [name, test] : tests) {
@@ -191,33 +171,33 @@ int predict_presets(const Family& family, const PredictOptions& options) {
   line.clear();
   std::ranges::stable_sort(next.readings, {}, [](const NextReading& one) { return one.reading.width_left(); });
   const std::string open = unconfirmed_line(family.card);
-  print("%s", options.json ? json_text(next_json(next)).c_str()
-                           : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)).c_str());
+  print("%s", (options.json ? json_text(next_json(next))
+                            : wrapped((open.empty() ? "" : one_line(open) + "\n") + next_table(next)))
+                  .c_str());
   return kDone;
 }
 
 int predict_other(const PredictOptions& options) {
-  const auto found_materials = fitting_materials(options.folder);
-  if (!found_materials.ok()) return report(found_materials.faults());
-  const Family& family = found_materials.value();
+  const Family family = fitting_materials(options.folder);
   if (options.lab.empty() && options.preset.empty()) return predict_presets(family, options);
-  const auto other = other_test(options, family.card);
-  if (!other.ok()) return report(other.faults());
-  if (const auto faults = unpredictable(family, other.value().test, options); !faults.empty()) return report(faults);
+  std::optional<Lab> lab;
+  if (!options.lab.empty()) lab = value_or_throw(read_lab(options.lab));
+  const Test test = lab ? lab->test : test_of_preset(options.preset, family.card);
+  check_effort(family, test, options);
   WorkLine line("simulations", family.simulations(options));
-  const auto found = predict(family.card, family.materials, other.value().test, other.value().measured,
-                             options.packings, options.threads, counted(CheckEngine::ours(), line));
+  const Prediction found =
+      value_or_throw(predict(family.card, family.materials, test, lab ? lab->measurements : std::vector<Measurement>(),
+                             options.packings, options.threads, counted(CheckEngine::ours(), line)),
+                     kFailed);
   line.clear();
-  if (!found.ok()) return report(found.faults(), kFailed);
   const std::size_t materials = family.materials.size();
   if (options.json) {
-    print("%s", json_text(prediction_json(found.value(), materials)).c_str());
+    print("%s", json_text(prediction_json(found, materials)).c_str());
   } else {
     const std::string open = unconfirmed_line(family.card);
-    print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(),
-          prediction_table(found.value(), materials).c_str());
+    print("%s%s", open.empty() ? "" : (one_line(open) + "\n").c_str(), prediction_table(found, materials).c_str());
   }
-  return std::ranges::all_of(found.value().readings, &ReadingPrediction::is_within) ? kDone : kFailed;
+  return std::ranges::all_of(found.readings, &ReadingPrediction::is_within) ? kDone : kFailed;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <utility>
 
 #include "calibrate/base/text.h"
@@ -63,11 +64,11 @@ void SignOfLife::show(const Snapshot& snapshot) {
               format("step %lld", static_cast<long long>(snapshot.step)), format("%.0f s gone", line_.gone_s())}));
 }
 
-RunOptions shown_by(SignOfLife& sign, const std::atomic<bool>& stop) {
+RunOptions shown_run(const std::atomic<bool>* stop) {
   RunOptions options;
-  options.pulse = [&](const Snapshot& snapshot) {
-    sign.show(snapshot);
-    return !stop;
+  options.pulse = [sign = std::make_shared<SignOfLife>(), stop](const Snapshot& snapshot) {
+    sign->show(snapshot);
+    return !stop || !*stop;
   };
   return options;
 }

@@ -40,11 +40,7 @@ class StatusLine {
 /// this phase so far. Of the whole test there is none: a heap rests when it does, and each phase has a pace of its own.
 class SignOfLife {
  public:
-  SignOfLife() = default;
   ~SignOfLife() { line_.clear(); }
-  SignOfLife(const SignOfLife&) = delete;
-  SignOfLife& operator=(const SignOfLife&) = delete;
-
   void show(const Snapshot& snapshot);
 
  private:
@@ -57,8 +53,9 @@ class SignOfLife {
   double last_s_ = 0;
 };
 
-/// Options of a run that shows where it is, and ends when `stop` becomes true. Both have to outlive it.
-RunOptions shown_by(SignOfLife& sign, const std::atomic<bool>& stop);
+/// Options of a run that shows where it is, as long as they live, and ends when `stop` becomes true, which has to
+/// outlive them.
+RunOptions shown_run(const std::atomic<bool>* stop = nullptr);
 
 /// Tells how many of some pieces of work are done and what is left of them, once they have taken two seconds
 /// (`StatusLine`). Thread-safe.

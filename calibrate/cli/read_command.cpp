@@ -107,15 +107,12 @@ nlohmann::ordered_json json_of(const std::vector<HeapReading>& readings, std::si
 
 int read_heap_of(const ReadOptions& options) {
   Faults faults;
-  const auto append = [&](const auto& result) {
-    if (!result.ok()) faults.insert(faults.end(), result.faults().begin(), result.faults().end());
-  };
   const auto card = read_card(options.card);
-  append(card);
+  append(faults, card);
   std::vector<Particles> heaps;
   for (const std::string& file : options.dumps) {
     auto heap = read_dump(file);
-    append(heap);
+    append(faults, heap);
     if (heap.ok()) heaps.push_back(std::move(heap).value());
   }
   const auto beside = std::filesystem::path(options.dumps[0]).parent_path() / "filled.dump";
@@ -125,27 +122,22 @@ int read_heap_of(const ReadOptions& options) {
       faults.push_back(
           {std::move(fault.where), std::move(fault.what), "the deck writes it beside the heap; give it with --filled"});
   else
-    append(filled);
-  if (!faults.empty()) return report(faults);
+    append(faults, filled);
+  refuse(faults);
 
-  const auto test = test_to_export(card.value(), options.test);
-  if (!test.ok()) return report(test.faults());
-  std::optional<SignOfLife> sign(std::in_place);
-  const std::atomic<bool> never = false;
-  const auto read = read_heaps(test.value().test, options.packing, filled.value(), heaps, shown_by(*sign, never));
-  sign.reset();
-  if (!read.ok()) return report(read.faults());
+  const CardTest test = value_or_throw(test_to_export(card.value(), options.test));
+  const Readings read = value_or_throw(read_heaps(test.test, options.packing, filled.value(), heaps, shown_run()));
 
   const std::size_t packings = card.value().confirmation.packings.size();
-  const auto readings = beside_card(read.value(), test.value());
-  const bool rejected = is_rejected(test.value().test, read.value());
+  const auto readings = beside_card(read, test);
+  const bool rejected = is_rejected(test.test, read);
   const bool differs = rejected || std::ranges::any_of(readings, &HeapReading::differs);
   const bool compared = differs || std::ranges::any_of(readings, &HeapReading::is_compared);
   if (options.json) {
     print("%s", json_text(json_of(readings, packings, compared ? std::optional(!differs) : std::nullopt)).c_str());
   } else {
-    print("%s", reading_table(readings, packings_in_words(card.value(), test.value())).c_str());
-    if (rejected) print("%s.\n", remarks_on(test.value().test, {&read.value(), 1}).c_str());
+    print("%s", reading_table(readings, packings_in_words(card.value(), test)).c_str());
+    if (rejected) print("%s.\n", remarks_on(test.test, {&read, 1}).c_str());
     print(rejected    ? "It is not the card's heap: readings are of heaps that a laboratory accepts.\n"
           : differs   ? "The heap differs from the card's by more than the noise.\n"
           : !compared ? "Not compared: the card has no readings of three packings or more.\n"

@@ -22,19 +22,17 @@ struct ReportOptions {
 };
 
 int write_report(const ReportOptions& options) {
-  auto findings = read_findings(options.folder, kStore);
-  if (!findings.ok()) return report(findings.faults());
+  Findings findings = value_or_throw(read_findings(options.folder, kStore));
   const std::filesystem::path folder = options.folder;
-  if (const auto faults = output_folder_faults("DIR", folder); !faults.empty()) return report(faults);
+  refuse(output_folder_faults("DIR", folder));
   const auto tell = [](const std::string& sentence) { note("pastefit: %s\n", sentence.c_str()); };
-  const auto unkept = look_at_tests(findings.value(), folder, listen_for_stop(),
+  const auto unkept = look_at_tests(findings, folder, listen_for_stop(),
                                     {.threads = options.threads, .simulate = !options.quick, .tell = tell});
-  for (const std::string& sentence : findings.value().missing) note("pastefit: %s\n", one_line(sentence).c_str());
+  for (const std::string& sentence : findings.missing) note("pastefit: %s\n", one_line(sentence).c_str());
   std::vector<std::string> files{kPage};
-  auto faults = write_curves(folder, findings.value(), files);
-  if (faults.empty()) faults = write_page(folder, findings.value());
-  if (!faults.empty()) return report(faults, kFailed);
-  if (!unkept.empty()) return report(unkept, kFailed);
+  refuse(write_curves(folder, findings, files), kFailed);
+  refuse(write_page(folder, findings), kFailed);
+  refuse(unkept, kFailed);
   for (const std::string& name : files) print("wrote %s\n", (folder / name).c_str());
   return kDone;
 }

@@ -27,43 +27,29 @@ struct RescaleOptions {
   CheckOptions check;
 };
 
-/// Grains in a full mould go with 1/R^3, steps of time with 1/R.
-double work_ratio(double from_m, double to_m) {
-  return std::pow(from_m / to_m, 4);
-}
-
 int rescale(const RescaleOptions& options) {
-  const auto card = read_card(options.card);
-  if (!card.ok()) return report(card.faults());
-  if (!options.out.empty())
-    if (const auto faults = output_faults("--out", options.out, options.force); !faults.empty()) return report(faults);
-  const double radius = options.radius_mm / 1e3, old_radius = card.value().material.grains.radius_m;
-  auto result = rescaled(card.value(), radius);
-  if (!result.ok()) return report(result.faults());
+  const Card card = value_or_throw(read_card(options.card));
+  if (!options.out.empty()) refuse(output_faults("--out", options.out, options.force));
+  const double radius = options.radius_mm / 1e3;
+  Card result = value_or_throw(rescaled(card, radius));
   if (options.packings > 0) {
-    for (const auto& test : result.value().tests)
-      if (const auto faults = validate_memory(test.test, options.check.threads); !faults.empty()) return report(faults);
     double effort_s = 0;
-    for (const auto& test : result.value().tests) effort_s += options.packings * least_effort_s(test.test);
-    if (const auto faults =
-            long_run_faults("--radius", format("%d simulations of each test", options.packings), effort_s,
-                            options.check.threads, options.force, "larger grains, or fewer --packings");
-        !faults.empty())
-      return report(faults);
-    note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n",
-         options.packings * static_cast<int>(card.value().tests.size()), work_ratio(old_radius, radius));
-    WorkLine line("simulations", 2 * options.packings * static_cast<int>(card.value().tests.size()));
-    result = with_measured_bias(card.value(), std::move(result).value(), options.packings, options.check,
-                                counted(CheckEngine::ours(), line));
-    if (!result.ok()) return report(result.faults(), kFailed);
+    for (const auto& test : result.tests) {
+      refuse(validate_memory(test.test, options.check.threads));
+      effort_s += options.packings * least_effort_s(test.test);
+    }
+    refuse(long_run_faults("--radius", format("%d simulations of each test", options.packings), effort_s,
+                           options.check.threads, options.force, "larger grains, or fewer --packings"));
+    const int simulations = options.packings * static_cast<int>(card.tests.size());
+    // Grains in a full mould go with 1/R^3, steps of time with 1/R.
+    note("measuring the bias: %d simulations with either size, %.3g times the work with the new one\n", simulations,
+         std::pow(card.material.grains.radius_m / radius, 4));
+    WorkLine line("simulations", 2 * simulations);
+    result = value_or_throw(with_measured_bias(card, std::move(result), options.packings, options.check,
+                                               counted(CheckEngine::ours(), line)),
+                            kFailed);
   }
-  const auto readable = readable_text(result.value());
-  if (!readable.ok()) return report(readable.faults(), kFailed);
-  const std::string& card_text = readable.value();
-  if (!is_standard_output(options.out)) print("%s", options.json ? card_text.c_str() : text_of(result.value()).c_str());
-  if (options.out.empty()) return kDone;
-  if (const auto faults = write_output(options.out, card_text); !faults.empty()) return report(faults, kFailed);
-  if (!is_stream(options.out)) note("wrote %s\n", options.out.c_str());
+  deliver_card(result, text_of(result), options.json, options.out);
   return kDone;
 }
 

@@ -17,9 +17,8 @@ struct ShowOptions {
 };
 
 int show(const ShowOptions& options) {
-  const auto card = read_card(options.card);
-  if (!card.ok()) return report(card.faults());
-  print("%s", options.json ? json_text(with_yield_stresses(card.value())).c_str() : text_of(card.value()).c_str());
+  const Card card = value_or_throw(read_card(options.card));
+  print("%s", (options.json ? json_text(with_yield_stresses(card)) : text_of(card)).c_str());
   return kDone;
 }
 

@@ -73,16 +73,14 @@ Faults effort_faults(const SimulateOptions& options, const Scene& scene) {
 }
 
 /// The scene of the file, with what a person should know of it said on standard error.
-Result<Scene> scene_of(const SimulateOptions& options) {
-  auto found = read_scene(options.file, options.settings, options.test);
-  if (!found.ok()) return found.faults();
-  for (const std::string& remark : found.value().notes) note("pastefit: %s\n", remark.c_str());
-  Scene scene = std::move(found).value().scene;
+Scene scene_of(const SimulateOptions& options) {
+  auto [scene, notes] = value_or_throw(read_scene(options.file, options.settings, options.test));
+  for (const std::string& remark : notes) note("pastefit: %s\n", remark.c_str());
   auto* test = std::get_if<Test>(&scene);
-  if (options.seed && !test) return Faults{{"--seed", "an impact has no random packing", "leave it out"}};
+  if (options.seed && !test) refuse({{"--seed", "an impact has no random packing", "leave it out"}});
   if (!test) return scene;
   if (options.seed) specimen_of(*test).packing_seed = *options.seed;
-  if (const auto faults = validate_memory(*test, 1); !faults.empty()) return in_file(faults, options.file);
+  refuse(in_file(validate_memory(*test, 1), options.file));
   note("%s", apparatus_in_words(*test).c_str());
   return scene;
 }
@@ -103,57 +101,43 @@ class Simulation {
     run_.steps.threads = options.threads;
   }
 
-  /// Finds the state that the run goes on from, and the folder for its results. Errors: either cannot be used.
-  Faults prepare() {
-    if (auto faults = open_checkpoint(); !faults.empty()) return faults;
-    return open_folder();
-  }
-
-  /// Returns the exit status.
+  /// Returns the exit status. Refused if the state that it goes on from, or the folder for its results, cannot be used.
   int run() {
-    std::optional<SignOfLife> sign(std::in_place);
+    open_checkpoint();
+    open_folder();
     run_.watch_interval_s = options_.vtk_interval_s.value_or(0.1);
     run_.watch = [this](const Snapshot& snapshot) { return watch(snapshot); };
-    run_.pulse = [&](const Snapshot& snapshot) {
-      sign->show(snapshot);
-      return !stop_ && (!saved_ || saved_->unwritten().empty());
+    run_.pulse = [this, shown = shown_run(&stop_).pulse](const Snapshot& snapshot) {
+      return shown(snapshot) && (!saved_ || saved_->unwritten().empty());
     };
     const auto start = std::chrono::steady_clock::now();
-    const Result<Outcome> ended = saved_ ? saved_->simulate(scene_, run_) : simulate(scene_, run_);
-    sign.reset();
-    if (!ended.ok()) return report(ended.faults());
+    const Outcome outcome = saved_ ? value_or_throw(saved_->simulate(scene_, run_)) : simulate(scene_, run_);
+    run_.pulse = {};  // takes its line away
     const double wall_s =
         saved_ ? saved_->wall_s() : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!unwritten_.empty()) return report(unwritten_, kFailed);
-    if (saved_ && !saved_->unwritten().empty()) return report(saved_->unwritten(), kFailed);
-    return close(ended.value(), wall_s);
+    refuse(unwritten_, kFailed);
+    if (saved_) refuse(saved_->unwritten(), kFailed);
+    return close(outcome, wall_s);
   }
 
  private:
-  Faults open_checkpoint() {
-    if (options_.checkpoint.empty()) return {};
+  void open_checkpoint() {
+    if (options_.checkpoint.empty()) return;
     Checkpoint file(options_.checkpoint, *test_, run_);
-    auto state = file.read();
-    if (!state.ok()) return state.faults();
-    saved_.emplace(std::move(file), std::move(state).value(), stop_);
+    auto state = value_or_throw(file.read());
+    saved_.emplace(std::move(file), std::move(state), stop_);
     if (saved_->goes_on())
       note("pastefit: goes on from %s, after %.0f s\n", options_.checkpoint.c_str(), saved_->wall_s());
-    auto checkpoint = saved_->checkpoint();
-    if (!checkpoint.ok()) return checkpoint.faults();
-    run_.checkpoint = std::move(checkpoint).value();
-    return {};
+    run_.checkpoint = value_or_throw(saved_->checkpoint());
   }
 
-  Faults open_folder() {
-    if (options_.out.empty()) return {};
+  void open_folder() {
+    if (options_.out.empty()) return;
     std::vector<std::string> results = RunPictures::index_names(scene_);
     results.insert(results.begin(), {kResult, kCurve});
-    auto opened = OutputFolder::open(options_.out, results,
-                                     options_.force ? EarlierResult::replace : EarlierResult::refuse, kSpace);
-    if (!opened.ok()) return opened.faults();
-    folder_ = std::move(opened).value();
+    folder_ = value_or_throw(OutputFolder::open(
+        options_.out, results, options_.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
     if (options_.vtk_interval_s) pictures_.emplace(options_.out, scene_);
-    return {};
   }
 
   bool watch(const Snapshot& snapshot) {
@@ -177,8 +161,7 @@ class Simulation {
       print("%s", text.c_str());
     else
       print_simulation(outcome, wall_s, test_ && !std::holds_alternative<DropTest>(*test_));
-    if (folder_)
-      if (const auto faults = write(outcome, text); !faults.empty()) return report(faults, kFailed);
+    if (folder_) write(outcome, text);
     if (saved_) saved_->remove();
     if (test_)
       if (const auto remarks = remarks_on(*test_, {&outcome.readings, 1}); !remarks.empty())
@@ -190,16 +173,14 @@ class Simulation {
   }
 
   /// Readings, and the curve of a test that draws one; pictures are there already.
-  Faults write(const Outcome& outcome, const std::string& text) const {
+  void write(const Outcome& outcome, const std::string& text) const {
     folder_->clear({kCurve});
-    if (auto faults = write_atomically(folder_->file(kResult), text); !faults.empty()) return faults;
-    if (outcome.curve)
-      if (auto faults = write_atomically(folder_->file(kCurve), csv_of(*outcome.curve)); !faults.empty()) return faults;
+    refuse(write_atomically(folder_->file(kResult), text), kFailed);
+    if (outcome.curve) refuse(write_atomically(folder_->file(kCurve), csv_of(*outcome.curve)), kFailed);
     note("wrote %s\n", folder_->file(kResult).c_str());
     if (outcome.curve) note("wrote %s\n", folder_->file(kCurve).c_str());
     if (pictures_)
       for (const auto& file : pictures_->indices()) note("wrote %s\n", file.c_str());
-    return {};
   }
 
   const SimulateOptions& options_;
@@ -215,12 +196,9 @@ class Simulation {
 };
 
 int simulate_file(const SimulateOptions& options) {
-  const auto scene = scene_of(options);
-  if (!scene.ok()) return report(scene.faults());
-  if (const auto faults = option_faults(options, scene.value()); !faults.empty()) return report(faults);
-  Simulation simulation(options, scene.value());
-  if (const auto faults = simulation.prepare(); !faults.empty()) return report(faults);
-  return simulation.run();
+  const Scene scene = scene_of(options);
+  refuse(option_faults(options, scene));
+  return Simulation(options, scene).run();
 }
 
 }  // namespace

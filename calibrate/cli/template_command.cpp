@@ -20,35 +20,27 @@ struct TemplateOptions {
 
 /// The starting files of a mould for dry materials; of another one its laboratory file, and the study of every slump
 /// test.
-Result<std::string> template_of_mould(const TemplateOptions& options) {
+std::string template_of_mould(const TemplateOptions& options) {
   if (auto own = template_text_of_mould(options.name, options.mould)) return *own;
   if (options.name != "lab" && options.name != "study")
-    return Faults{{"--mould " + printable(options.mould),
-                   "goes with lab and study, not with " + printable(options.name),
-                   "template lab --mould ..., template study --mould ..."}};
-  auto lab = slump_lab_template(options.mould, ".");
-  if (lab.ok() && options.name == "study") return *template_text("study");
-  return lab;
+    refuse({{"--mould " + printable(options.mould), "goes with lab and study, not with " + printable(options.name),
+             "template lab --mould ..., template study --mould ..."}});
+  std::string lab = value_or_throw(slump_lab_template(options.mould, "."));
+  return options.name == "study" ? *template_text("study") : lab;
 }
 
 int print_template(const TemplateOptions& options, const std::string& names) {
   auto text = template_text(options.name);
-  if (!text)
-    return report({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
+  if (!text) refuse({{"template " + printable(options.name), "there is no such starting file", "one of " + names}});
   if (!options.target.empty() || !options.law.empty()) {
     const std::string target = options.target.empty() ? std::string(target_laws().front().target) : options.target;
     const auto laws = laws_for(target, options.law);
     if (options.name != "study" || !options.mould.empty())
-      return report(
-          {{options.law.empty() ? "--for" : "--law", "goes with the first study only", "template study --for ..."}});
-    if (!laws) return report({no_such_laws(target, options.law)});
+      refuse({{options.law.empty() ? "--for" : "--law", "goes with the first study only", "template study --for ..."}});
+    if (!laws) refuse({no_such_laws(target, options.law)});
     text = with_laws(*text, *laws);
   }
-  if (!options.mould.empty()) {
-    auto of_mould = template_of_mould(options);
-    if (!of_mould.ok()) return report(of_mould.faults());
-    text = std::move(of_mould).value();
-  }
+  if (!options.mould.empty()) text = template_of_mould(options);
   print("%s", text->c_str());
   return kDone;
 }

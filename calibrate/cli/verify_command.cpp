@@ -59,14 +59,14 @@ int run_verify(const VerifyOptions& options) {
   const auto begin = [&](int points) { line.emplace("points", points); };
   const auto verified = verify_cases(options.cases, begin, [&] { line->one_done(); });
   if (line) line->clear();
-  if (!verified.ok()) return report(verified.faults());
-  const VerifyCounts counts = counts_of(verified.value());
+  const std::vector<VerifiedCase> cases = value_or_throw(verified);
+  const VerifyCounts counts = counts_of(cases);
   if (options.json) {
-    print("%s", json_text(to_json(verified.value())).c_str());
+    print("%s", json_text(to_json(cases)).c_str());
   } else {
-    print_cases(verified.value(), options.points);
-    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", verified.value().size(), counts.checks,
-          counts.failed, counts.known);
+    print_cases(cases, options.points);
+    print("%zu cases, %zu checks, %zu failed, %zu known deviations\n", cases.size(), counts.checks, counts.failed,
+          counts.known);
   }
   return counts.failed == 0 ? kDone : kFailed;
 }

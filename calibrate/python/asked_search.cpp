@@ -124,8 +124,7 @@ Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) con
 
 Faults AskedSearch::ingest(const std::vector<EngineAnswer>& answers) {
   Faults faults;
-  for (std::size_t i = 0; i < answers.size(); ++i)
-    for (Fault& fault : faults_of(answers[i], i)) faults.push_back(std::move(fault));
+  for (std::size_t i = 0; i < answers.size(); ++i) append(faults, faults_of(answers[i], i));
   if (!faults.empty()) return faults;
   for (const EngineAnswer& answer : answers) {
     const Candidate& candidate = asked_.at(answer.candidate);

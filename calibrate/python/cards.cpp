@@ -30,9 +30,9 @@ namespace {
 std::string export_json(const std::string& card_text, const std::string& target, const ExportRequest& request) {
   Faults faults;
   const auto exporter = exporter_named(target);
-  if (!exporter.ok()) faults = exporter.faults();
+  append(faults, exporter);
   const auto card = card_from_json(parsed(card_text));
-  if (!card.ok()) faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+  append(faults, card);
   refuse(std::move(faults));
   const Export written = value_or_throw(export_card(card.value(), exporter.value(), request));
   ordered_json out{{"files", ordered_json::object()}, {"notes", written.notes}, {"instructions", written.instructions}};

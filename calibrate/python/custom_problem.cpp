@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calibrate/base/json_reader.h"
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
 #include "calibrate/search/strategies.h"
@@ -102,7 +103,7 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
     problem.readings = read_readings(reader);
     read_search_options(reader, 1, problem.search);
   }
-  for (Fault& fault : clashing_names(problem, own)) faults.push_back(std::move(fault));
+  append(faults, clashing_names(problem, own));
   if (faults.empty()) faults = validate(problem.search, static_cast<int>(problem.parameters.size()));
   if (!faults.empty()) return faults;
   return problem;

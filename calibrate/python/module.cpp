@@ -1,13 +1,42 @@
 #include "calibrate/python/module.h"
 
+#include <exception>
+#include <utility>
+
 #include "calibrate/base/text.h"
 #include "calibrate/store/program.h"
+
+namespace pastefit::python {
+
+namespace {
+
+namespace py = pybind11;
+
+/// A `Refusal` becomes one `pastefit.InputError` that holds all faults.
+void translate_refusals() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(std::move(thrown));
+    } catch (const Refusal& refusal) {
+      py::list faults;
+      for (const Fault& fault : refusal.faults)
+        faults.append(py::make_tuple(one_line(fault.where), one_line(fault.what), one_line(fault.remedy)));
+      const py::object type = py::module_::import("pastefit.faults").attr("InputError");
+      const py::object error = type(faults);
+      PyErr_SetObject(type.ptr(), error.ptr());
+    }
+  });
+}
+
+}  // namespace
+
+}  // namespace pastefit::python
 
 // What crosses between C++ and Python: positions and radii as views of memory, everything else as the JSON text that it
 // has in files. The package pastefit (calibrate/python/pastefit) is what users see.
 PYBIND11_MODULE(_core, module) {
   using namespace pastefit;
-  python::add_faults(module);
+  python::translate_refusals();
   if (const Faults faults = obey_kernels_variable(); !faults.empty()) throw pybind11::import_error(message_of(faults));
   python::add_stop(module);
   python::add_study(module);

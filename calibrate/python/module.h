@@ -6,9 +6,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "calibrate/base/refusal.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/laboratory/engine.h"
 #include "calibrate/search/calibration.h"
@@ -18,23 +18,6 @@
 #include "core/result.h"
 
 namespace pastefit::python {
-
-/// Becomes one `pastefit.InputError` that holds all of them.
-struct BadInput {
-  Faults faults;
-};
-
-/// The value, or a `BadInput` with every fault.
-template <class T>
-T value_or_throw(Result<T> result) {
-  if (!result.ok()) throw BadInput{result.faults()};
-  return std::move(result).value();
-}
-
-/// Throws a `BadInput` if there is a fault.
-void refuse(Faults faults);
-
-void add_faults(pybind11::module_& module);
 
 /// What a person who interrupts sets; a run looks at it now and then. Python holds it as `_core.Stop`.
 struct Stop {

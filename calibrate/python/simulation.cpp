@@ -63,7 +63,7 @@ class SimulationRun {
                 std::shared_ptr<Stop> stop)
       : scene_(std::move(found.scene)), frames_s_(frames_s), threads_(threads), stop_(std::move(stop)) {
     auto* test = std::get_if<Test>(&scene_);
-    if (seed && !test) throw BadInput{{{"seed", "an impact has no random packing", "leave it out"}}};
+    if (seed && !test) refuse({{"seed", "an impact has no random packing", "leave it out"}});
     if (seed) specimen_of(*test).packing_seed = *seed;
     if (test) refuse(validate_memory(*test, 1));
     notes = std::move(found.notes);

@@ -57,7 +57,7 @@ std::uint8_t code_of_speed(float speed) {
       std::clamp(std::lround(kPerDecade * std::log10(std::max<double>(speed, kSlowest) / kSlowest)), 0L, 255L));
 }
 
-void append(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
+void append_bytes(std::string& bytes, const std::vector<std::uint16_t>& numbers) {
   for (const auto number : numbers) bytes += static_cast<char>(number & 0xFFu);
   for (const auto number : numbers) bytes += static_cast<char>(number >> 8);
 }
@@ -96,8 +96,8 @@ std::vector<Number> change(const std::vector<Number>& now, const std::vector<Num
   return out;
 }
 
-void append(std::string& bytes, const CodedColumns& now, const CodedColumns& before) {
-  for (std::size_t c = 0; c < 3; ++c) append(bytes, change(now.places[c], before.places[c]));
+void append_bytes(std::string& bytes, const CodedColumns& now, const CodedColumns& before) {
+  for (std::size_t c = 0; c < 3; ++c) append_bytes(bytes, change(now.places[c], before.places[c]));
   for (const auto& [column, earlier] :
        {std::pair(&now.speeds, &before.speeds), std::pair(&now.touching, &before.touching),
         std::pair(&now.pulls, &before.pulls)})
@@ -178,11 +178,11 @@ std::string recording_bytes(const RunRecording& film) {
   for (const RecordingPart& part : film.parts) {
     std::vector<std::uint16_t> radii;
     for (const double radius : part.radii_m) radii.push_back(steps(radius, box.quantum));
-    append(bytes, radii);
+    append_bytes(bytes, radii);
     CodedColumns before;
     for (const RecordedFrame& frame : part.frames) {
       CodedColumns now = columns_of(frame, box, most_pull);
-      append(bytes, now, before);
+      append_bytes(bytes, now, before);
       before = std::move(now);
     }
   }
