@@ -11,9 +11,9 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 37694,
-    "files of core and calibrate": 434,
-    "of them below 40 lines": 60,
+    "lines of C++ in calibrate": 37399,
+    "files of core and calibrate": 433,
+    "of them below 40 lines": 59,
     "files that start or wait for threads": 2,
     "files that decide whether a material meets the laboratory": 1,
     "lines of schemas written by hand": 282,
@@ -27,7 +27,7 @@ RETIRED = re.compile(r"\w*(?:observable|normalised_error|misfit_?unit_of|MisfitU
 # Where an older word stays, since it stands on users' disks or in their scripts, or is a name of somebody else's.
 KEPT = {
     "calibrate/card/card_json.cpp": {"observables"},  # key of cards of versions 4 and 5
-    "calibrate/cli/single_run.cpp": {"observables"},  # key of `simulate --json`
+    "calibrate/cli/simulate_command.cpp": {"observables"},  # key of `simulate --json`
     "core/laws/figures.py": {"observables"},  # which reads that key
     "calibrate/manual/figures.py": {"observables"},
     "calibrate/store/store.cpp": {"observables"},  # column of stores

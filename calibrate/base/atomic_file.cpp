@@ -30,6 +30,24 @@ void sync_folder(const std::filesystem::path& folder) {
   ::close(descriptor);
 }
 
+Faults unwritable(const std::filesystem::path& file, int error) {
+  return {{file.string(), std::string("cannot be written: ") + std::strerror(error),
+           "a folder that can be written, on a disk with free space"}};
+}
+
+/// A new file beside this one. Somebody else may have put a link or a file of their own where it would be: such a name
+/// is passed over, and never followed or overwritten.
+int open_beside(const std::filesystem::path& file, std::filesystem::path& beside) {
+  constexpr int most_names = 100;
+  const std::string begin = file.string() + "." + std::to_string(::getpid());
+  for (int i = 0; i < most_names; ++i) {
+    beside = begin + (i == 0 ? "" : "-" + std::to_string(i)) + ".part";
+    const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
+
 }  // namespace
 
 std::string kind_of_special_file(const std::filesystem::path& path) {
@@ -50,28 +68,6 @@ std::string kind_of_special_file(const std::filesystem::path& path) {
       return "";
   }
 }
-
-namespace {
-
-Faults unwritable(const std::filesystem::path& file, int error) {
-  return {{file.string(), std::string("cannot be written: ") + std::strerror(error),
-           "a folder that can be written, on a disk with free space"}};
-}
-
-/// A new file beside this one. Somebody else may have put a link or a file of their own where it would be: such a name
-/// is passed over, and never followed or overwritten.
-int open_beside(const std::filesystem::path& file, std::filesystem::path& beside) {
-  constexpr int most_names = 100;
-  const std::string begin = file.string() + "." + std::to_string(::getpid());
-  for (int i = 0; i < most_names; ++i) {
-    beside = begin + (i == 0 ? "" : "-" + std::to_string(i)) + ".part";
-    const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
-  return -1;
-}
-
-}  // namespace
 
 Faults write_atomically(const std::filesystem::path& file, std::string_view content) {
   if (const std::string special = kind_of_special_file(file); !special.empty())

@@ -169,26 +169,25 @@ bool ObjectReader::integer(const Key& key, std::uint64_t& target, Need need) {
   return true;
 }
 
-bool ObjectReader::text(const Key& key, std::string& target, Presence presence) {
+template <class T>
+bool ObjectReader::value_of_kind(const Key& key, T& target, Presence presence, bool (json::*is_kind)() const noexcept,
+                                 const char* remedy) {
   const json* value = find(key, presence);
   if (!value) return false;
-  if (!value->is_string()) {
-    fault(key, "is " + text_of(*value), "a text in quotes");
+  if (!(value->*is_kind)()) {
+    fault(key, "is " + text_of(*value), remedy);
     return false;
   }
-  target = value->get<std::string>();
+  target = value->get<T>();
   return true;
 }
 
+bool ObjectReader::text(const Key& key, std::string& target, Presence presence) {
+  return value_of_kind(key, target, presence, &json::is_string, "a text in quotes");
+}
+
 bool ObjectReader::flag(const Key& key, bool& target, Presence presence) {
-  const json* value = find(key, presence);
-  if (!value) return false;
-  if (!value->is_boolean()) {
-    fault(key, "is " + text_of(*value), "true or false");
-    return false;
-  }
-  target = value->get<bool>();
-  return true;
+  return value_of_kind(key, target, presence, &json::is_boolean, "true or false");
 }
 
 bool ObjectReader::numbers(const Key& key, std::vector<double>& target, const Range& range, Need need,
@@ -250,30 +249,25 @@ bool ObjectReader::pairs(const Key& key, std::vector<std::array<double, 2>>& tar
   return good;
 }
 
-bool ObjectReader::integers(const Key& key, std::vector<std::uint64_t>& target, Need need) {
+template <class T>
+bool ObjectReader::list_of_kind(const Key& key, std::vector<T>& target, Need need,
+                                bool (json::*is_kind)() const noexcept, const char* remedy) {
   const json* value = find(key, need);
   if (!value) return false;
-  const auto is_whole = [](const json& entry) { return entry.is_number_unsigned(); };
-  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_whole)) {
-    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)),
-          "a list of whole numbers of at least 0");
+  if (!value->is_array() || !std::ranges::all_of(*value, [&](const json& entry) { return (entry.*is_kind)(); })) {
+    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)), remedy);
     return false;
   }
-  target = value->get<std::vector<std::uint64_t>>();
+  target = value->get<std::vector<T>>();
   return true;
 }
 
+bool ObjectReader::integers(const Key& key, std::vector<std::uint64_t>& target, Need need) {
+  return list_of_kind(key, target, need, &json::is_number_unsigned, "a list of whole numbers of at least 0");
+}
+
 bool ObjectReader::texts(const Key& key, std::vector<std::string>& target, Need need) {
-  const json* value = find(key, need);
-  if (!value) return false;
-  const auto is_text = [](const json& entry) { return entry.is_string(); };
-  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_text)) {
-    fault(key, "is " + (value->is_array() ? "a list with other entries" : text_of(*value)),
-          "a list of texts in quotes");
-    return false;
-  }
-  target = value->get<std::vector<std::string>>();
-  return true;
+  return list_of_kind(key, target, need, &json::is_string, "a list of texts in quotes");
 }
 
 bool ObjectReader::optional_number(const Key& key, std::optional<double>& target, const Range& range) {

@@ -130,6 +130,12 @@ class ObjectReader {
 
  private:
   const nlohmann::json* find(std::string_view key, Need need);
+  template <class T>
+  bool value_of_kind(const Key& key, T& target, Presence presence, bool (nlohmann::json::*is_kind)() const noexcept,
+                     const char* remedy);
+  template <class T>
+  bool list_of_kind(const Key& key, std::vector<T>& target, Need need, bool (nlohmann::json::*is_kind)() const noexcept,
+                    const char* remedy);
   void for_each_object(const Key& key, Need need, const std::function<void(ObjectReader&)>& body);
   /// The object at a key. In the place of another value a fault with the remedy, or with the keys that `body` reads and
   /// `instead`, what else may stand there.

@@ -7,7 +7,6 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
-#include <cstdlib>  // says whether it is the GNU C library
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -15,9 +14,6 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#ifdef __GLIBC__
-#endif
 
 namespace pastefit {
 

@@ -14,20 +14,6 @@ Json number_of(double value) {
   return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
 }
 
-Json number_in(const Range& range) {
-  return {{"type", "number"},
-          {range.open ? "exclusiveMinimum" : "minimum", number_of(range.smallest)},
-          {"maximum", number_of(range.largest)}};
-}
-
-Json any_whole_number() {
-  return {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}};
-}
-
-Json list_of(Json items) {
-  return {{"type", "array"}, {"items", std::move(items)}};
-}
-
 }  // namespace
 
 ObjectSchema::ObjectSchema(Json& object, Json& definitions) : object_(object), definitions_(definitions) {
@@ -35,44 +21,14 @@ ObjectSchema::ObjectSchema(Json& object, Json& definitions) : object_(object), d
   object_["properties"] = Json::object();
 }
 
-void ObjectSchema::number(const Key& key, double, const Range& range, Presence presence, double) {
-  put(key, number_in(range), presence);
+Json ObjectSchema::number_in(const Range& range) {
+  return {{"type", "number"},
+          {range.open ? "exclusiveMinimum" : "minimum", number_of(range.smallest)},
+          {"maximum", number_of(range.largest)}};
 }
 
-void ObjectSchema::nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need) {
-  put(key, or_null(number_in(range)), need);
-}
-
-void ObjectSchema::optional_number(const Key& key, const std::optional<double>&, const Range& range) {
-  put(key, number_in(range), Need::optional);
-}
-
-void ObjectSchema::derived_number(const Key& key, const std::optional<double>&, const Range& range) {
-  put(key, number_in(range), Need::optional);
-}
-
-void ObjectSchema::integer(const Key& key, std::uint64_t, Need need) {
-  put(key, any_whole_number(), need);
-}
-
-void ObjectSchema::integer(const Key& key, int, int smallest, int largest, Presence presence) {
-  put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, presence);
-}
-
-void ObjectSchema::text(const Key& key, std::string_view, Presence presence) {
-  put(key, {{"type", "string"}}, presence);
-}
-
-void ObjectSchema::constant(const Key& key, std::string_view value, Presence presence) {
-  put(key, {{"const", value}}, presence);
-}
-
-void ObjectSchema::flag(const Key& key, bool, Presence presence) {
-  put(key, {{"type", "boolean"}}, presence);
-}
-
-void ObjectSchema::optional_flag(const Key& key, const std::optional<bool>&) {
-  flag(key, false, Need::optional);
+Json ObjectSchema::any_whole_number() {
+  return {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}};
 }
 
 void ObjectSchema::numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
@@ -83,14 +39,6 @@ void ObjectSchema::numbers(const Key& key, const std::vector<double>&, const Ran
   put(key, std::move(schema), need);
 }
 
-void ObjectSchema::integers(const Key& key, const std::vector<std::uint64_t>&, Need need) {
-  put(key, list_of(any_whole_number()), need);
-}
-
-void ObjectSchema::texts(const Key& key, const std::vector<std::string>&, Need need) {
-  put(key, list_of({{"type", "string"}}), need);
-}
-
 void ObjectSchema::pairs(const Key& key, const std::vector<std::array<double, 2>>&, const Range& first,
                          const Range& second, Need need, std::size_t least) {
   Json pair = list_of(number_in({std::min(first.smallest, second.smallest), std::max(first.largest, second.largest)}));
@@ -98,10 +46,6 @@ void ObjectSchema::pairs(const Key& key, const std::vector<std::array<double, 2>
   Json schema = list_of(std::move(pair));
   if (least > 0) schema["minItems"] = least;
   put(key, std::move(schema), need);
-}
-
-void ObjectSchema::any_numbers(const Key& key, const Range& range) {
-  put(key, {{"type", "object"}, {"additionalProperties", number_in(range)}}, Need::optional);
 }
 
 void ObjectSchema::put(const Key& key, Json schema, Presence presence) {

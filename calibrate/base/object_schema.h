@@ -22,21 +22,35 @@ class ObjectSchema {
   /// `object` becomes the schema; objects that are `shared` go to `definitions`.
   ObjectSchema(Json& object, Json& definitions);
 
-  void number(const Key& key, double, const Range& range, Presence presence, double per_si = 1);
-  void nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need);
-  void optional_number(const Key& key, const std::optional<double>&, const Range& range);
-  void derived_number(const Key& key, const std::optional<double>&, const Range& range);
-  void integer(const Key& key, std::uint64_t, Need need);
-  void integer(const Key& key, int, int smallest, int largest, Presence presence);
-  void text(const Key& key, std::string_view, Presence presence);
+  void number(const Key& key, double, const Range& range, Presence presence, double = 1) {
+    put(key, number_in(range), presence);
+  }
+  void nullable_number(const Key& key, const std::optional<double>&, const Range& range, Need need) {
+    put(key, or_null(number_in(range)), need);
+  }
+  void optional_number(const Key& key, const std::optional<double>&, const Range& range) {
+    put(key, number_in(range), Need::optional);
+  }
+  void derived_number(const Key& key, const std::optional<double>& value, const Range& range) {
+    optional_number(key, value, range);
+  }
+  void integer(const Key& key, std::uint64_t, Need need) { put(key, any_whole_number(), need); }
+  void integer(const Key& key, int, int smallest, int largest, Presence presence) {
+    put(key, {{"type", "integer"}, {"minimum", smallest}, {"maximum", largest}}, presence);
+  }
+  void text(const Key& key, std::string_view, Presence presence) { put(key, {{"type", "string"}}, presence); }
   /// A text that is always the same.
-  void constant(const Key& key, std::string_view value, Presence presence);
-  void flag(const Key& key, bool, Presence presence);
-  void optional_flag(const Key& key, const std::optional<bool>&);
+  void constant(const Key& key, std::string_view value, Presence presence) { put(key, {{"const", value}}, presence); }
+  void flag(const Key& key, bool, Presence presence) { put(key, {{"type", "boolean"}}, presence); }
+  void optional_flag(const Key& key, const std::optional<bool>&) { flag(key, false, Need::optional); }
   void numbers(const Key& key, const std::vector<double>&, const Range& range, Need need, std::size_t least,
                std::size_t most = 0);
-  void integers(const Key& key, const std::vector<std::uint64_t>&, Need need);
-  void texts(const Key& key, const std::vector<std::string>&, Need need);
+  void integers(const Key& key, const std::vector<std::uint64_t>&, Need need) {
+    put(key, list_of(any_whole_number()), need);
+  }
+  void texts(const Key& key, const std::vector<std::string>&, Need need) {
+    put(key, list_of({{"type", "string"}}), need);
+  }
   void pairs(const Key& key, const std::vector<std::array<double, 2>>&, const Range& first, const Range& second,
              Need need, std::size_t least);
   template <class Target, class T, std::size_t N>
@@ -84,7 +98,9 @@ class ObjectSchema {
     put_known(key, entries.at("properties"), need);
   }
   /// Numbers by any name.
-  void any_numbers(const Key& key, const Range& range);
+  void any_numbers(const Key& key, const Range& range) {
+    put(key, {{"type", "object"}, {"additionalProperties", number_in(range)}}, Need::optional);
+  }
   void shared(std::string_view name) { shared_ = name; }
   /// Of an object whose forms differ: the property as it is.
   void put(const Key& key, Json schema, Presence presence);
@@ -100,6 +116,9 @@ class ObjectSchema {
   }
 
  private:
+  static Json number_in(const Range& range);
+  static Json any_whole_number();
+  static Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
   static Json or_null(Json schema);
   void put_known(const Key& key, const Json& entries, Need need);
 

@@ -1,16 +1,18 @@
 #include "calibrate/base/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstdio>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pastefit {
 
 namespace {
+
+using nlohmann::json;
 
 /// Letters, not bytes: in UTF-8 those that go on with a letter begin with 10.
 std::size_t letters_in(std::string_view text) {
@@ -55,23 +57,6 @@ std::string wrapped_line(std::string_view line, std::size_t columns) {
   return out + row;
 }
 
-}  // namespace
-
-std::string wrapped(std::string_view text, std::size_t columns) {
-  std::string out;
-  while (true) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    out += wrapped_line(text.substr(0, end), columns);
-    if (end == text.size()) return out;
-    out += '\n';
-    text.remove_prefix(end + 1);
-  }
-}
-
-namespace {
-
-using nlohmann::json;
-
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -87,7 +72,69 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
+
+/// A character and the bytes that it takes; 0 bytes where there is none.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+/// The first character of a text that is not empty.
+Character first_of(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return {byte(0), 1};
+  const std::size_t bytes = byte(0) >= 0xC2 && byte(0) < 0xE0   ? 2
+                            : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
+                            : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
+                                                                : 0;
+  if (bytes == 0 || text.size() < bytes) return {};
+  std::uint32_t code = byte(0) & (0x7Fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return {};
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  const bool too_long = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
+  const bool no_letter = (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF;
+  return too_long || no_letter ? Character{} : Character{code, bytes};
+}
+
+/// Controls, separators of lines, and what turns the direction of writing.
+bool is_control(std::uint32_t code) {
+  const auto within = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
+  return code < 0x20 || within(0x7F, 0x9F) || within(0x200E, 0x200F) || within(0x2028, 0x202E) ||
+         within(0x2066, 0x2069) || within(0xFFFE, 0xFFFF);
+}
+
+/// A character and what stands in its place.
+using Replacement = std::pair<std::uint32_t, std::string_view>;
+
+std::string replaced(std::string_view text, std::initializer_list<Replacement> replacements) {
+  std::string out;
+  while (!text.empty()) {
+    const Character next = first_of(text);
+    const auto other = std::ranges::find(replacements, next.code, &Replacement::first);
+    out += next.bytes == 0               ? no_character
+           : other != replacements.end() ? other->second
+           : is_control(next.code)       ? " "
+                                         : text.substr(0, next.bytes);
+    text.remove_prefix(std::max<std::size_t>(next.bytes, 1));
+  }
+  return out;
+}
+
 }  // namespace
+
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string out;
+  while (true) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    out += wrapped_line(text.substr(0, end), columns);
+    if (end == text.size()) return out;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
 
 Faults in_file(Faults faults, const std::filesystem::path& file) {
   if (file.empty()) return faults;
@@ -103,12 +150,6 @@ std::string message_of(const Faults& faults) {
     if (!fault.remedy.empty()) message += "; " + fault.remedy;
   }
   return message;
-}
-
-std::string shown(double number) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", number);
-  return text.data();
 }
 
 std::string small_letters(std::string_view text) {
@@ -149,111 +190,21 @@ std::string joined(const std::string& place, std::string_view key) {
   return place.empty() ? std::string(key) : place + "." + std::string(key);
 }
 
-namespace {
-
-constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
-
-/// A character and the bytes that it takes; 0 bytes where there is none.
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t bytes = 0;
-};
-
-/// The first character of a text that is not empty.
-Character first_of(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
-  const std::size_t bytes = byte(0) >= 0xC2 && byte(0) < 0xE0   ? 2
-                            : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
-                            : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
-                                                                : 0;
-  if (bytes == 0 || text.size() < bytes) return {};
-  std::uint32_t code = byte(0) & (0x7Fu >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0u) != 0x80u) return {};
-    code = code << 6 | (byte(i) & 0x3Fu);
-  }
-  const bool too_long = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
-  const bool no_letter = (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF;
-  return too_long || no_letter ? Character{} : Character{code, bytes};
-}
-
-/// Controls, separators of lines, and what turns the direction of writing.
-bool is_control(std::uint32_t code) {
-  const auto within = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
-  return code < 0x20 || within(0x7F, 0x9F) || within(0x200E, 0x200F) || within(0x2028, 0x202E) ||
-         within(0x2066, 0x2069) || within(0xFFFE, 0xFFFF);
-}
-
-/// The text, characters that `replacement` names replaced by what it answers; it answers null for what stays.
-template <class Replacement>
-std::string replaced(std::string_view text, Replacement replacement) {
-  std::string out;
-  while (!text.empty()) {
-    const Character next = first_of(text);
-    if (next.bytes == 0) {
-      out += no_character;
-      text.remove_prefix(1);
-      continue;
-    }
-    if (const char* other = replacement(next.code))
-      out += other;
-    else
-      out += is_control(next.code) ? " " : text.substr(0, next.bytes);
-    text.remove_prefix(next.bytes);
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string one_line(std::string_view text) {
-  return replaced(text, [](std::uint32_t) -> const char* { return nullptr; });
+  return replaced(text, {});
 }
 
 std::string lines_of(std::string_view text) {
-  return replaced(text, [](std::uint32_t code) { return code == '\n' ? "\n" : code == '\t' ? "\t" : nullptr; });
+  return replaced(text, {{'\n', "\n"}, {'\t', "\t"}});
 }
 
 std::string deck_comment(std::string_view text) {
-  return "# " +
-         replaced(text,
-                  [](std::uint32_t code) -> const char* {
-                    switch (code) {
-                      case '"':
-                      case '`':
-                        return "'";
-                      case '&':
-                        return "+";
-                      case '$':
-                      case '\\':
-                        return "/";
-                      default:
-                        return nullptr;
-                    }
-                  }) +
-         "\n";
+  return "# " + replaced(text, {{'"', "'"}, {'`', "'"}, {'&', "+"}, {'$', "/"}, {'\\', "/"}}) + "\n";
 }
 
 std::string xml_text(std::string_view text) {
-  return replaced(text, [](std::uint32_t code) -> const char* {
-    switch (code) {
-      case '&':
-        return "&amp;";
-      case '<':
-        return "&lt;";
-      case '>':
-        return "&gt;";
-      case '"':
-        return "&quot;";
-      case '\'':
-        return "&apos;";
-      case '\n':
-        return "&#10;";
-      default:
-        return nullptr;
-    }
-  });
+  return replaced(text,
+                  {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}, {'\n', "&#10;"}});
 }
 
 std::string json_text(const nlohmann::ordered_json& value) {

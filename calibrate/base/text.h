@@ -61,7 +61,9 @@ Faults in_file(Faults faults, const std::filesystem::path& file);
 std::string message_of(const Faults& faults);
 
 /// A number as it is shown to people, at most six digits.
-std::string shown(double number);
+inline std::string shown(double number) {
+  return format("%.6g", number);
+}
 
 /// The text in small letters, as far as they are ASCII.
 std::string small_letters(std::string_view text);

@@ -64,7 +64,7 @@ std::vector<CheckedReading> check_law(const Material& material, const CheckEngin
   return readings;
 }
 
-constexpr std::ptrdiff_t kQuickPackings = 2;
+constexpr std::size_t kQuickPackings = 2;
 
 /// Whether a reading says something of its own.
 bool is_checked(const Test& test, const std::string& name) {
@@ -114,8 +114,10 @@ std::string program_of(const Card& card) {
   return card.provenance.program;
 }
 
-void keep_quick(std::vector<std::uint64_t>& packings) {
-  if (std::ssize(packings) > kQuickPackings) packings.erase(packings.begin() + kQuickPackings, packings.end());
+/// Those of the packings that are simulated.
+std::vector<std::uint64_t> asked(std::vector<std::uint64_t> packings, const CheckOptions& options) {
+  if (options.quick && packings.size() > kQuickPackings) packings.resize(kQuickPackings);
+  return packings;
 }
 
 SameBits compare_bits(const std::vector<Baseline::Run>& before, const std::vector<Baseline::Run>& now) {
@@ -202,18 +204,12 @@ Test with_material_of(const Card& card, Test test) {
 
 int simulations_to_check(const Card& card, const CheckOptions& options) {
   std::size_t count = 0;
-  for (const auto& test : card.tests) {
-    auto packings = packings_of(card, test);
-    if (options.quick) keep_quick(packings);
-    count += packings.size();
-  }
+  for (const auto& test : card.tests) count += asked(packings_of(card, test), options).size();
   return static_cast<int>(count);
 }
 
 int simulations_to_check_against(const Card& card, const CheckOptions& options) {
-  auto packings = packings_of(card);
-  if (options.quick) keep_quick(packings);
-  return static_cast<int>(std::max<std::size_t>(packings.size(), kQuickPackings));
+  return static_cast<int>(std::max(asked(packings_of(card), options).size(), kQuickPackings));
 }
 
 CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine& engine) {
@@ -237,8 +233,7 @@ CardCheck check(const Card& card, const CheckOptions& options, const CheckEngine
   const double share = options.false_alarm / static_cast<double>(promised);
   std::vector<SameBits> bits;
   for (const auto& test : card.tests) {
-    auto packings = packings_of(card, test);
-    if (options.quick) keep_quick(packings);
+    const auto packings = asked(packings_of(card, test), options);
     const auto now = baseline_runs(test.test, heading_of(test), packings, engine, options.threads);
     out.simulations += static_cast<int>(packings.size());
     if (!now.ok()) return failed(std::move(out), message_of(now.faults()));
@@ -266,9 +261,8 @@ CardCheck check_against(const Card& card, const Lab& lab, const CheckOptions& op
     out.reason = "The card's grains cannot be put into this laboratory's test: " + message_of(faults);
     return out;
   }
-  auto packings = packings_of(card);
+  auto packings = asked(packings_of(card), options);
   if (packings.size() < 2) packings = {specimen_of(test).packing_seed, specimen_of(test).packing_seed + 1};
-  if (options.quick) keep_quick(packings);
   const auto now = baseline_runs(test, "", packings, engine, options.threads);
   out.simulations = static_cast<int>(packings.size());
   if (!now.ok()) return failed(std::move(out), message_of(now.faults()));

@@ -9,6 +9,18 @@
 
 namespace pastefit {
 
+namespace {
+
+/// The reading with what was simulated of it now.
+CardReading simulated_now(CardReading reading, const Sample& sample) {
+  reading.simulated = sample.mean;
+  reading.simulated_standard_deviation = sample.standard_deviation;
+  reading.packings = sample.count;
+  return reading;
+}
+
+}  // namespace
+
 Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
   // Packings that no search has seen: seeds of a search are small or derived from its own seed.
@@ -32,11 +44,8 @@ Result<Card> with_measured_bias(const Card& before, Card after, int count, const
       for (const auto& known : old_test.readings)
         if (known.name == name) reading = known;
       reading.name = name;
-      reading.simulated = sample.mean;
-      reading.simulated_standard_deviation = sample.standard_deviation;
-      reading.packings = sample.count;
       reading.band.reset();
-      test.readings.push_back(reading);
+      test.readings.push_back(simulated_now(reading, sample));
       after.rescaled.back().bias.push_back({reading_name(test, name), old_sample.mean, sample.mean,
                                             std::hypot(old_sample.standard_deviation / std::sqrt(old_sample.count),
                                                        sample.standard_deviation / std::sqrt(sample.count))});
@@ -67,10 +76,7 @@ FurtherConfirmation further_confirmation(const Card& card, const CardTest& test,
   for (const CardReading& of_card : test.readings) {
     const auto sample = sample_of(column_of(heaps, of_card.name));
     if (sample.count == 0) continue;
-    CardReading reading = of_card;
-    reading.simulated = sample.mean;
-    reading.simulated_standard_deviation = sample.standard_deviation;
-    reading.packings = sample.count;
+    CardReading reading = simulated_now(of_card, sample);
     const auto error = standard_error(reading), error_of_card = standard_error(of_card);
     FurtherConfirmation::Reading beside{of_card.name, of_card.simulated, sample.mean, sample.standard_deviation, {}};
     if (error && error_of_card) beside.standard_error = std::hypot(*error, *error_of_card);

@@ -1,44 +1,37 @@
 #include "calibrate/check/runs.h"
 
 #include <future>
+#include <utility>
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/worker_pool.h"
 
 namespace pastefit {
 
-namespace {
-
-std::vector<Outcome> run_packings(const Test& test, const std::vector<std::uint64_t>& packings,
-                                  const CheckEngine& engine, int threads) {
-  std::vector<Outcome> outcomes(packings.size());
-  WorkerPool pool(threads > 0 ? threads : processors());
-  std::vector<std::shared_future<void>> runs;
-  for (std::size_t i = 0; i < packings.size(); ++i)
-    runs.push_back(pool.submit([&, i] {
-      Test one = test;
-      specimen_of(one).packing_seed = packings[i];
-      RunOptions options;
-      options.packing = engine.prepare(one, {});
-      outcomes[i] = engine.run(one, options);
-    }));
-  for (const auto& run : runs) run.get();  // throws what the engine threw
-  return outcomes;
-}
-
-}  // namespace
-
 Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::string& heading,
                                                  const std::vector<std::uint64_t>& packings, const CheckEngine& engine,
                                                  int threads) {
-  const auto outcomes = run_packings(test, packings, engine, threads);
+  std::vector<Outcome> outcomes(packings.size());
+  {
+    WorkerPool pool(threads > 0 ? threads : processors());
+    std::vector<std::shared_future<void>> done;
+    for (std::size_t i = 0; i < packings.size(); ++i)
+      done.push_back(pool.submit([&, i] {
+        Test one = test;
+        specimen_of(one).packing_seed = packings[i];
+        RunOptions options;
+        options.packing = engine.prepare(one, {});
+        outcomes[i] = engine.run(one, options);
+      }));
+    for (const auto& one : done) one.get();  // throws what the engine threw
+  }
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (const auto& failure = outcomes[i].failure)
       return Fault{heading + "packing " + std::to_string(packings[i]),
                    "failed (" + std::string(name_of(failure->reason)) + " in " + failure->phase + ")",
                    failure->message};
-    runs.push_back({packings[i], outcomes[i].readings});
+    runs.push_back({packings[i], std::move(outcomes[i].readings)});
   }
   return runs;
 }

@@ -29,61 +29,6 @@ namespace pastefit {
 
 namespace {
 
-/// What a calibration brought, to its folder and to the person: card, summary, curves and page; without a card the page
-/// alone, and why there is none. Who interrupts gets the page with what was seen until then.
-struct Delivery {
-  const Study& study;
-  const Store& store;
-  const OutputFolder& folder;
-  int threads = 0;    ///< to simulate what is to be shown and was not seen
-  bool json = false;  ///< print the card instead of the summary
-
-  /// The program's exit status: only a confirmed material is what was asked for.
-  int deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const;
-
- private:
-  int deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
-                   RunRecordings& seen) const;
-  int say_why_not(const CalibrationResult& result) const;
-};
-
-/// The answer as JSON where there is no card to print.
-nlohmann::ordered_json without_material(const CalibrationResult& result) {
-  auto failures = nlohmann::ordered_json::object();
-  for (const auto& [reason, count] : result.counts.failures) failures[std::string(name_of(reason))] = count;
-  return {{"status", name_of(result.search.status)},
-          {"reason", result.search.reason},
-          {"simulations", result.search.simulations},
-          {"failures", failures}};
-}
-
-int Delivery::deliver(const CalibrationResult& result, const std::atomic<bool>& stop, RunRecordings& seen) const {
-  return result.card ? deliver_card(*result.card, result.inference, stop, seen) : say_why_not(result);
-}
-
-int Delivery::deliver_card(const Card& card, const std::optional<Inference>& inference, const std::atomic<bool>& stop,
-                           RunRecordings& seen) const {
-  const auto summary = summary_of(card, inference ? describe(*inference) : "");
-  const auto faults = write_card(folder, card, summary);
-  print("%s", json ? json_text(to_json(card)).c_str() : summary.c_str());
-  std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
-  refuse(faults, kFailed);
-  refuse(write_looks(folder, findings_of(card, store, inference), stop, {.threads = threads, .seen = &seen}, files),
-         kFailed);
-  for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
-  return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
-}
-
-int Delivery::say_why_not(const CalibrationResult& result) const {
-  std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
-  for (const auto& [reason, count] : result.counts.failures)
-    std::fprintf(stderr, "  %d simulations failed: %s\n", count, std::string(name_of(reason)).c_str());
-  std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
-  if (json) print("%s", json_text(without_material(result)).c_str());
-  (void)write_page(folder.path(), findings_without_card(study, store));
-  return kFailed;
-}
-
 struct CalibrateArguments {
   std::string study;
   std::string out;
@@ -97,7 +42,43 @@ struct CalibrateArguments {
   std::optional<std::uint64_t> seed;
 };
 
-constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
+/// Writes what a calibration brought to its folder, card, summary, curves and page, and prints it. The exit status:
+/// only a confirmed material is what was asked for.
+int deliver_material(const CalibrationResult& result, const Store& store, const OutputFolder& folder,
+                     const CalibrateArguments& options, const std::atomic<bool>& stop, RunRecordings& seen) {
+  const Card& card = *result.card;
+  const auto summary = summary_of(card, result.inference ? describe(*result.inference) : "");
+  const auto unwritten = write_card(folder, card, summary);
+  print("%s", (options.json ? json_text(to_json(card)) : summary).c_str());
+  refuse(unwritten, kFailed);
+  std::vector<std::string> files{kCardFile, kSummary, kPage, kStore};
+  refuse(write_looks(folder, findings_of(card, store, result.inference), stop,
+                     {.threads = options.threads, .seen = &seen}, files),
+         kFailed);
+  for (const std::string& name : files) note("wrote %s\n", folder.file(name).c_str());
+  return card.search.status == name_of(CalibrationStatus::confirmed) ? kDone : kFailed;
+}
+
+/// Says why there is no card; the page has what was seen until then.
+int say_why_not(const CalibrationResult& result, const Study& study, const Store& store, const OutputFolder& folder,
+                bool json) {
+  auto failures = nlohmann::ordered_json::object();
+  std::fprintf(stderr, "pastefit: no material to report: %s\n", result.search.reason.c_str());
+  for (const auto& [reason, count] : result.counts.failures) {
+    const std::string name(name_of(reason));
+    std::fprintf(stderr, "  %d simulations failed: %s\n", count, name.c_str());
+    failures[name] = count;
+  }
+  std::fprintf(stderr, "The evaluations are kept in %s.\n", folder.file(kStore).c_str());
+  if (json)
+    print("%s", json_text({{"status", name_of(result.search.status)},
+                           {"reason", result.search.reason},
+                           {"simulations", result.search.simulations},
+                           {"failures", failures}})
+                    .c_str());
+  (void)write_page(folder.path(), findings_without_card(study, store));
+  return kFailed;
+}
 
 /// The study with what the options say instead of its file.
 Study study_to_calibrate(const CalibrateArguments& options) {
@@ -123,17 +104,6 @@ Faults too_long_faults(const Study& study, const CalibrateArguments& options) {
                          options.threads, asked_for, "larger grains, a smaller budget, a --wall-budget");
 }
 
-OutputFolder open_folder(const Study& study, const CalibrateArguments& options) {
-  const auto earlier = options.force    ? EarlierResult::replace
-                       : options.resume ? EarlierResult::resume
-                                        : EarlierResult::refuse;
-  const auto budget = static_cast<std::uintmax_t>(study.search.budget_simulations);
-  auto folder = value_or_throw(
-      OutputFolder::open(options.out, calibration_files(study), earlier, kSpace + budget * kSpaceOfEvaluation));
-  if (options.force) folder.clear(calibration_files(study));
-  return folder;
-}
-
 WorkAhead work_ahead(const Study& study) {
   const SearchOptions& search = study.search;
   const int each = static_cast<int>(tests_of(study, false).size());
@@ -154,7 +124,8 @@ int run_calibrate(const CalibrateArguments& options) {
 
   const std::atomic<bool>& stop = listen_for_stop();
   how.stop = &stop;
-  const OutputFolder folder = open_folder(study, options);
+  const OutputFolder folder =
+      value_or_throw(open_calibration_folder(options.out, study, options.resume, options.force));
   const std::string file = folder.file(kStore);
   Store store = value_or_throw(Store::open(file, {program_identity(), inputs_of(study)}));
   refuse(strangers_in(study, store, file));
@@ -168,10 +139,11 @@ int run_calibrate(const CalibrateArguments& options) {
     if (progress.phase != "examination") page.show(study, store);
   };
   const auto count = [&](const EvaluationCounts& counts) { line.show(counts); };
-  auto result = calibrate(study, store, how, {show, count, [&] { line.look(); }, &looks});
+  auto calibrated = calibrate(study, store, how, {show, count, [&] { line.look(); }, &looks});
   line.end();
-  const Delivery delivery{study, store, folder, options.threads, options.json};
-  return delivery.deliver(value_or_throw(std::move(result), kFailed), stop, looks);
+  const auto result = value_or_throw(std::move(calibrated), kFailed);
+  return result.card ? deliver_material(result, store, folder, options, stop, looks)
+                     : say_why_not(result, study, store, folder, options.json);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/check.h"

@@ -41,34 +41,17 @@ struct ConfirmOptions {
   bool json = false;
 };
 
-/// A folder that is gone when nobody needs it any more, unless it is the user's.
-class RunsFolder {
- public:
-  explicit RunsFolder(const std::string& given) : temporary_(given.empty()) {
-    std::error_code error;
-    if (temporary_)
-      path_ = made_by_nobody_else(fs::temp_directory_path(error) / "pastefit-confirm-XXXXXX");
-    else
-      path_ = fs::absolute(given, error);
-  }
-  bool exists() const { return !path_.empty(); }
-  const fs::path& path() const { return path_; }
-  fs::path of(std::uint64_t packing) const { return path_ / ("packing-" + std::to_string(packing)); }
-  void done() const {
-    std::error_code error;
-    if (temporary_) fs::remove_all(path_, error);
-  }
-
- private:
-  /// A new folder that only this user can read; empty if none could be made.
-  static fs::path made_by_nobody_else(const fs::path& pattern) {
-    std::string name = pattern.string();
-    return ::mkdtemp(name.data()) ? fs::path(name) : fs::path();
-  }
-
-  const bool temporary_;
-  fs::path path_;
-};
+/// Where decks, logs and heaps go: the user's folder, or else a new one that only this user can read.
+fs::path folder_of_runs(const std::string& given) {
+  std::error_code error;
+  if (!given.empty()) return fs::absolute(given, error);
+  std::string name = (fs::temp_directory_path(error) / "pastefit-confirm-XXXXXX").string();
+  if (!::mkdtemp(name.data()))
+    refuse({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
+             "set TMPDIR to a folder that can be written, or name one with --runs"}},
+           kFailed);
+  return name;
+}
 
 /// The test in the grains to be simulated.
 struct Asked {
@@ -104,7 +87,7 @@ Faults unusable_options(const ConfirmOptions& options) {
 }
 
 /// Runs packing after packing. The first failure ends it.
-Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const RunsFolder& folder,
+Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const fs::path& folder,
                            const ConfirmOptions& options, const std::atomic<bool>& stop) {
   EngineRuns out;
   out.engine = options.engine;
@@ -116,7 +99,7 @@ Result<EngineRuns> run_all(const Asked& asked, const LammpsLaunch& launch, const
     if (stop) return interrupted;
     if (!scene.ok()) return scene.faults();
     note("packing %d of %d: %zu grains\n", i + 1, options.packings, scene.value().packing.centres.size());
-    auto heap = run_in_lammps(scene.value(), launch, folder.of(packing), stop);
+    auto heap = run_in_lammps(scene.value(), launch, folder / ("packing-" + std::to_string(packing)), stop);
     if (stop) return interrupted;
     if (!heap.ok()) {
       Faults faults = heap.faults();
@@ -166,11 +149,7 @@ int confirm(const ConfirmOptions& options) {
   const std::atomic<bool>& stop = listen_for_stop();
   const auto program = value_or_throw(lammps_program(options.program, stop));
 
-  const RunsFolder folder(options.runs);
-  if (!folder.exists())
-    refuse({{"the temporary folder", std::string("cannot be made: ") + std::strerror(errno),
-             "set TMPDIR to a folder that can be written, or name one with --runs"}},
-           kFailed);
+  const fs::path folder = folder_of_runs(options.runs);
   const double least_s = least_effort_s(asked.test.test);
   if (least_s > 10)
     note("%d packings, each of %s of a core or more\n", options.packings, range_of_time(least_s, least_s).c_str());
@@ -179,10 +158,11 @@ int confirm(const ConfirmOptions& options) {
   try {
     deliver(options, card, further_confirmation(card, of_card, asked.test.test, runs));
   } catch (const Refusal&) {
-    std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs goes on from there\n", folder.path().c_str());
+    std::fprintf(stderr, "pastefit: the runs are kept in %s; --runs goes on from there\n", folder.c_str());
     throw;
   }
-  folder.done();
+  std::error_code error;
+  if (options.runs.empty()) fs::remove_all(folder, error);
   return kDone;
 }
 

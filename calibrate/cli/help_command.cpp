@@ -20,8 +20,6 @@ namespace pastefit {
 
 namespace {
 
-constexpr std::string_view completed_shells[] = {"bash", "zsh", "fish"};
-
 /// The verbs of a program, in the order of its table.
 std::vector<const CLI::App*> verbs_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App*) { return true; });
@@ -62,17 +60,6 @@ std::string synopsis_of(const CLI::App& verb) {
   return out + " [OPTIONS]";
 }
 
-std::string full_name(const CLI::App& app) {
-  return app.get_parent() ? app.get_parent()->get_name() + "-" + app.get_name() : app.get_name();
-}
-
-std::string options_section(const CLI::App& app) {
-  std::string out = ".SH OPTIONS\n";
-  for (const CLI::Option* option : app.get_options())
-    out += ".TP\n.B " + roff(shape_of(*option)) + "\n" + roff(option->get_description()) + "\n";
-  return out;
-}
-
 std::string flags_of(const CLI::App& verb) {
   std::string out;
   for (const CLI::Option* option : verb.get_options())
@@ -80,19 +67,15 @@ std::string flags_of(const CLI::App& verb) {
   return out;
 }
 
-std::string names_of_verbs(const CLI::App& program) {
-  std::string out;
-  for (const CLI::App* verb : verbs_of(program)) out += (out.empty() ? "" : " ") + verb->get_name();
-  return out;
-}
-
 std::string bash_completion(const CLI::App& program) {
+  std::string verbs;
+  for (const CLI::App* verb : verbs_of(program)) verbs += verb->get_name() + " ";
   std::string out =
       "_pastefit() {\n"
       "  local word=${COMP_WORDS[COMP_CWORD]} words\n"
       "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
       "    COMPREPLY=($(compgen -W " +
-      shell_word(names_of_verbs(program) + " --help --version") +
+      shell_word(verbs + "--help --version") +
       " -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
@@ -136,17 +119,19 @@ std::string fish_completion(const CLI::App& program) {
 
 /// The page of a verb, or of the program itself, for man(1), section 1.
 std::string man_page_of(const CLI::App& app) {
-  const std::string name = full_name(app);
+  const bool is_program = app.get_parent() == nullptr;
+  const std::string name = (is_program ? "" : "pastefit-") + app.get_name();
   std::string out = ".TH " + roff(name) + " 1 \"\" \"pastefit " + roff(program_version()) + "\"\n";
   out += ".SH NAME\n" + roff(name) + " \\- " + roff(app.get_description()) + "\n.SH SYNOPSIS\n.B ";
-  const bool is_program = app.get_parent() == nullptr;
   out += is_program ? "pastefit\nVERB [OPTIONS]\n" : "pastefit " + roff(app.get_name() + synopsis_of(app)) + "\n";
   if (is_program) {
     out += ".SH VERBS\n";
     for (const CLI::App* verb : verbs_of(app))
       out += ".TP\n.BR pastefit\\-" + roff(verb->get_name()) + " (1)\n" + roff(verb->get_description()) + "\n";
   }
-  out += options_section(app);
+  out += ".SH OPTIONS\n";
+  for (const CLI::Option* option : app.get_options())
+    out += ".TP\n.B " + roff(shape_of(*option)) + "\n" + roff(option->get_description()) + "\n";
   out +=
       ".SH EXIT STATUS\n0: done, and what was asked holds; 1: it does not, or it could not be kept; 2: the input "
       "cannot be "
@@ -154,12 +139,6 @@ std::string man_page_of(const CLI::App& app) {
   return out + ".SH SEE ALSO\n" +
          (is_program ? "The README in share/doc/pastefit.\n"
                      : ".BR pastefit (1), and the README in share/doc/pastefit.\n");
-}
-
-/// Completes verbs, options and files. Requirement: `shell` is one of `completed_shells`.
-std::string completion_of(const CLI::App& program, std::string_view shell) {
-  if (shell == "bash") return bash_completion(program);
-  return shell == "zsh" ? zsh_completion(program) : fish_completion(program);
 }
 
 namespace fs = std::filesystem;
@@ -174,8 +153,9 @@ int write_manual(const CLI::App& program, const fs::path& folder) {
   };
   write("pastefit.1", man_page_of(program));
   for (const CLI::App* verb : verbs_of(program)) write("pastefit-" + verb->get_name() + ".1", man_page_of(*verb));
-  for (const std::string_view shell : completed_shells)
-    write("pastefit." + std::string(shell), completion_of(program, shell));
+  write("pastefit.bash", bash_completion(program));
+  write("pastefit.zsh", zsh_completion(program));
+  write("pastefit.fish", fish_completion(program));
   refuse(faults, kFailed);
   return kDone;
 }

@@ -9,11 +9,10 @@
 #include "calibrate/cli/terminal.h"
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
-#include "calibrate/inference/examination.h"
+#include "calibrate/report/findings.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
-#include "calibrate/study/parameters.h"
 #include "calibrate/study/tests.h"
 
 namespace pastefit {
@@ -57,7 +56,6 @@ int infer_again(const InferOptions& options) {
   for (const auto& remark : store.remarks()) note("pastefit: %s: %s\n", kStore.c_str(), remark.c_str());
   const std::string& simulated_by = store.identity().program;
   const auto record = everything_of(study, store);
-  const UnitPoint recommended = point_of(card);
   if (std::ranges::none_of(record, [](const StoredEvaluation& one) { return !one.failure && !one.run.ended_early; }))
     refuse({{store_file, "has no finished simulation of this study's tests, made by '" + simulated_by + "'",
              "the folder of a calibration of this study"}});
@@ -70,12 +68,9 @@ int infer_again(const InferOptions& options) {
     folder = value_or_throw(OutputFolder::open(options.out, kResults,
                                                options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
 
-  InferenceOptions inference_options;
-  inference_options.seed = card.search.seed;
   TrainingData evidence = training_data_of(study, record);
   evidence.conditions = card.inference.conditions;
-  Inference inference = pastefit::infer(evidence, recommended, inference_options);
-  inference.recommended_because = reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
+  const Inference inference = inference_of(card, evidence);
   card.inference = card_inference(inference);
   std::string findings = describe(inference);
   if (simulated_by != program_identity()) {

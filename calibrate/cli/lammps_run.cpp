@@ -87,35 +87,6 @@ Faults build(const std::vector<ExportFile>& sources, const fs::path& program, co
            "install Debian 12's g++, libopenmpi-dev and liblammps-dev" + kOrProgram}};
 }
 
-}  // namespace
-
-bool is_program(const std::string& name) {
-  return !program_file(name).empty();
-}
-
-Result<fs::path> lammps_program(const std::string& given, const std::atomic<bool>& stop) {
-  if (!given.empty()) {
-    const fs::path program = program_file(given);
-    if (program.empty())
-      return Fault{"--program", one_line(given) + " is no program that can be run",
-                   "check the path and its permissions"};
-    return program;
-  }
-  const auto sources = lammps_style();
-  if (!sources.ok()) return sources.faults();
-  std::string content = content_of_file(kLammpsHeaders / "version.h");
-  for (const ExportFile& file : sources.value()) content += file.name + file.content;
-  const fs::path program = cache_folder() / ("lmp_pastefit-" + content_hash(content));
-  if (!cache_folder().empty() && can_be_run(program)) return program;
-  if (auto faults = missing_for_build(); !faults.empty()) return faults;
-  if (auto faults = build(sources.value(), program, stop); !faults.empty()) return faults;
-  return program;
-}
-
-namespace fs = std::filesystem;
-
-namespace {
-
 const std::string kLog = "log.lammps", kOutput = "output.txt";
 
 /// Whether this deck ran here to its end before.
@@ -183,6 +154,29 @@ Result<LammpsHeap> read_heap(const ExportScene& scene, const fs::path& folder, c
 
 }  // namespace
 
+bool is_program(const std::string& name) {
+  return !program_file(name).empty();
+}
+
+Result<fs::path> lammps_program(const std::string& given, const std::atomic<bool>& stop) {
+  if (!given.empty()) {
+    const fs::path program = program_file(given);
+    if (program.empty())
+      return Fault{"--program", one_line(given) + " is no program that can be run",
+                   "check the path and its permissions"};
+    return program;
+  }
+  const auto sources = lammps_style();
+  if (!sources.ok()) return sources.faults();
+  std::string content = content_of_file(kLammpsHeaders / "version.h");
+  for (const ExportFile& file : sources.value()) content += file.name + file.content;
+  const fs::path program = cache_folder() / ("lmp_pastefit-" + content_hash(content));
+  if (!cache_folder().empty() && can_be_run(program)) return program;
+  if (auto faults = missing_for_build(); !faults.empty()) return faults;
+  if (auto faults = build(sources.value(), program, stop); !faults.empty()) return faults;
+  return program;
+}
+
 Result<LammpsHeap> run_in_lammps(const ExportScene& scene, const LammpsLaunch& launch, const fs::path& folder,
                                  const std::atomic<bool>& stop) {
   const auto deck = deck_of(scene);
@@ -201,7 +195,7 @@ Result<LammpsHeap> run_in_lammps(const ExportScene& scene, const LammpsLaunch& l
   try {
     StatusLine line;
     const ChildEnd end = run_in_shell(command, folder, folder / kOutput, stop, [&] {
-      if (line.is_due()) line.show(format("LAMMPS, %.0f s gone: ", line.gone_s()) + last_line_of(folder / kOutput));
+      line.look([&] { return format("LAMMPS, %.0f s gone: ", line.gone_s()) + last_line_of(folder / kOutput); });
     });
     line.clear();
     if (auto faults = ill_end(end, folder); !faults.empty()) return faults;

@@ -34,24 +34,6 @@ CLI::Validator check_that(std::string right, Holds holds) {
       "");
 }
 
-}  // namespace
-
-CLI::Validator positive_number() {
-  return check_that<double>("a number above 0, at most 1e9", [](double number) { return number > 0 && number <= 1e9; });
-}
-
-CLI::Validator number_from(double smallest, double largest) {
-  return check_that<double>("a number from " + shown(smallest) + " to " + shown(largest),
-                            [=](double number) { return number >= smallest && number <= largest; });
-}
-
-CLI::Validator whole_number(std::uint64_t smallest, std::uint64_t largest) {
-  return check_that<std::uint64_t>("a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest),
-                                   [=](std::uint64_t number) { return number >= smallest && number <= largest; });
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
 constexpr double kHour_s = 3600, kDay_s = 24 * kHour_s;
@@ -67,6 +49,20 @@ fs::path nearest_folder(fs::path folder) {
 }
 
 }  // namespace
+
+CLI::Validator positive_number() {
+  return check_that<double>("a number above 0, at most 1e9", [](double number) { return number > 0 && number <= 1e9; });
+}
+
+CLI::Validator number_from(double smallest, double largest) {
+  return check_that<double>("a number from " + shown(smallest) + " to " + shown(largest),
+                            [=](double number) { return number >= smallest && number <= largest; });
+}
+
+CLI::Validator whole_number(std::uint64_t smallest, std::uint64_t largest) {
+  return check_that<std::uint64_t>("a whole number from " + std::to_string(smallest) + " to " + std::to_string(largest),
+                                   [=](std::uint64_t number) { return number >= smallest && number <= largest; });
+}
 
 Faults long_run_faults(const std::string& where, const std::string& work, double processor_s, int threads, bool force,
                        const std::string& remedy) {

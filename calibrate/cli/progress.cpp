@@ -13,18 +13,10 @@ namespace pastefit {
 
 StatusLine::StatusLine(Clock::duration first) : terminal_(pastefit::is_terminal()), next_(start_ + first) {}
 
-double StatusLine::gone_s() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
-}
-
-bool StatusLine::is_due() const {
-  return !is_quiet() && Clock::now() >= next_;
-}
-
 void StatusLine::show(const std::string& line) {
-  if (is_quiet()) return;
+  if (is_quiet() || line == shown_) return;
   next_ = Clock::now() + std::chrono::milliseconds(terminal_ ? 200 : 4000);
-  shown_ = true;
+  shown_ = line;
   if (terminal_)
     std::fprintf(stderr, "\r%s\033[K", one_line(line).c_str());
   else
@@ -32,37 +24,55 @@ void StatusLine::show(const std::string& line) {
 }
 
 void StatusLine::clear() {
-  if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
-  shown_ = false;
+  const std::lock_guard lock(mutex_);
+  if (!shown_.empty() && terminal_) std::fputs("\r\033[K", stderr);
+  shown_.clear();
 }
 
 void StatusLine::keep() {
-  if (shown_ && terminal_) note("\n");
-  shown_ = false;
+  const std::lock_guard lock(mutex_);
+  if (!shown_.empty() && terminal_) note("\n");
+  shown_.clear();
 }
 
-std::string SignOfLife::time_left(const Snapshot& snapshot) const {
-  constexpr double enough_s = 0.5;  // that a phase is looked at before its rate says anything
-  const double taken_s = line_.gone_s() - phase_start_wall_s_;
-  const double simulated_s = snapshot.time_s - phase_start_s_;
-  if (taken_s < enough_s || simulated_s <= 0) return "";
-  const double pace = taken_s / simulated_s;
-  return " (" + range_of_time(pace * snapshot.left.least_s, pace * snapshot.left.most_s) + " left)";
-}
+namespace {
 
-void SignOfLife::show(const Snapshot& snapshot) {
-  // A test may come to a phase again, in a world whose time is an earlier one.
-  if (snapshot.phase != phase_ || snapshot.time_s < last_s_) {
-    phase_ = snapshot.phase;
-    phase_start_wall_s_ = line_.gone_s();
-    phase_start_s_ = snapshot.time_s;
+/// Where a single simulation is.
+class SignOfLife {
+ public:
+  void show(const Snapshot& snapshot) {
+    // A test may come to a phase again, in a world whose time is an earlier one.
+    if (snapshot.phase != phase_ || snapshot.time_s < last_s_) {
+      phase_ = snapshot.phase;
+      phase_start_wall_s_ = line_.gone_s();
+      phase_start_s_ = snapshot.time_s;
+    }
+    last_s_ = snapshot.time_s;
+    line_.look([&] {
+      return fitted({phase_ + time_left(snapshot), format("%.4g s simulated", snapshot.time_s),
+                     format("step %lld", static_cast<long long>(snapshot.step)),
+                     format("%.0f s gone", line_.gone_s())});
+    });
   }
-  last_s_ = snapshot.time_s;
-  if (!line_.is_due()) return;
-  line_.show(
-      fitted({phase_ + time_left(snapshot), format("%.4g s simulated", snapshot.time_s),
-              format("step %lld", static_cast<long long>(snapshot.step)), format("%.0f s gone", line_.gone_s())}));
-}
+
+ private:
+  /// In words; nothing while the phase is too young to know.
+  std::string time_left(const Snapshot& snapshot) const {
+    constexpr double enough_s = 0.5;
+    const double taken_s = line_.gone_s() - phase_start_wall_s_;
+    const double simulated_s = snapshot.time_s - phase_start_s_;
+    if (taken_s < enough_s || simulated_s <= 0) return "";
+    const double pace = taken_s / simulated_s;
+    return " (" + range_of_time(pace * snapshot.left.least_s, pace * snapshot.left.most_s) + " left)";
+  }
+
+  StatusLine line_;
+  std::string phase_;
+  double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // simulated, the second
+  double last_s_ = 0;
+};
+
+}  // namespace
 
 RunOptions shown_run(const std::atomic<bool>* stop) {
   RunOptions options;
@@ -73,36 +83,19 @@ RunOptions shown_run(const std::atomic<bool>* stop) {
   return options;
 }
 
-WorkLine::WorkLine(std::string pieces, int total) : pieces_(std::move(pieces)), total_(total) {}
-
-WorkLine::~WorkLine() {
-  clear();
-}
-
-void WorkLine::clear() {
-  const std::lock_guard lock(mutex_);
-  line_.clear();
-}
-
 void WorkLine::one_done() {
-  {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-  }
+  ++done_;
   look();
 }
 
 void WorkLine::look() {
-  const std::lock_guard lock(mutex_);
-  if (line_.is_due()) line_.show(text());
-}
-
-std::string WorkLine::text() const {
-  const int left = std::max(0, total_ - done_);
-  // Those under way are as good as begun: at least what is left without them, at most all that is.
-  const double each_s = done_ > 0 ? line_.gone_s() / done_ : 0;
-  return fitted({format("%d of %d %s", done_, total_, pieces_.c_str()), format("%.0f s gone", line_.gone_s()),
-                 done_ > 0 && left > 0 ? range_of_time(std::max(0, left - 1) * each_s, left * each_s) + " left" : ""});
+  line_.look([this] {
+    const int done = done_, left = std::max(0, total_ - done);
+    // Those under way are as good as begun: at least what is left without them, at most all that is.
+    const double each_s = done > 0 ? line_.gone_s() / done : 0;
+    return fitted({format("%d of %d %s", done, total_, pieces_.c_str()), format("%.0f s gone", line_.gone_s()),
+                   done > 0 && left > 0 ? range_of_time(std::max(0, left - 1) * each_s, left * each_s) + " left" : ""});
+  });
 }
 
 CheckEngine counted(CheckEngine engine, WorkLine& line) {
@@ -134,19 +127,19 @@ void ProgressLine::show(const Progress& progress) {
   if (new_phase) done_before_ = done();
   phase_ = progress.phase;
   best_error_ = progress.best_error;
-  rewrite(new_phase);
+  line_.look([this] { return text(); }, new_phase);
   if (!progress.note.empty()) note("%s%s\n", line_.is_terminal() ? "\n" : "", progress.note.c_str());
 }
 
 void ProgressLine::show(const EvaluationCounts& counts) {
   const std::lock_guard lock(mutex_);
   counts_ = counts;
-  rewrite(false);
+  line_.look([this] { return text(); });
 }
 
 void ProgressLine::look() {
   const std::lock_guard lock(mutex_);
-  rewrite(false);
+  line_.look([this] { return text(); });
 }
 
 std::string ProgressLine::time_left() const {
@@ -186,17 +179,9 @@ std::string ProgressLine::bar(std::size_t columns) const {
   return " [" + std::string(full, '#') + std::string(length - full, '-') + "]";
 }
 
-void ProgressLine::rewrite(bool now) {
-  if (!now && !line_.is_due()) return;
-  const auto line = text();
-  if (line == last_) return;
-  last_ = line;
-  line_.show(line);
-}
-
 void ProgressLine::end() {
   const std::lock_guard lock(mutex_);
-  rewrite(true);
+  line_.look([this] { return text(); }, true);
   line_.keep();
 }
 

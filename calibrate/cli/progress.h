@@ -4,6 +4,7 @@
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "calibrate/check/check.h"
 #include "calibrate/evaluate/evaluator.h"
@@ -13,73 +14,56 @@
 namespace pastefit {
 
 /// Where some work is, on standard error: one line that is rewritten in place on a terminal, else a plain line now and
-/// then. Nothing while the program is quiet. One caller at a time.
+/// then. Nothing while the program is quiet. Thread-safe.
 class StatusLine {
  public:
   using Clock = std::chrono::steady_clock;
   /// The first line is due after this time, another one after 0.2 s on a terminal, after 4 s elsewhere.
   explicit StatusLine(Clock::duration first = std::chrono::seconds(2));
+  ~StatusLine() { clear(); }
 
   bool is_terminal() const { return terminal_; }
-  double gone_s() const;
-  bool is_due() const;
-  void show(const std::string& line);
+  double gone_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Shows what `text()` says, if a line is due or is to come at once.
+  template <class Text>
+  void look(Text text, bool at_once = false) {
+    const std::lock_guard lock(mutex_);
+    if (at_once || Clock::now() >= next_) show(text());
+  }
   void clear();  ///< takes a rewritten line away
   void keep();   ///< leaves it as it is, and goes on below
 
  private:
+  void show(const std::string& line);
+
   const bool terminal_;
   const Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;  // guards what follows
   Clock::time_point next_;
-  bool shown_ = false;
-};
-
-/// Tells where a single simulation is, once it has taken two seconds (`StatusLine`).
-///
-/// The time that is left is that of the phase: a range from the least to the most that it still takes, at the rate of
-/// this phase so far. Of the whole test there is none: a heap rests when it does, and each phase has a pace of its own.
-class SignOfLife {
- public:
-  ~SignOfLife() { line_.clear(); }
-  void show(const Snapshot& snapshot);
-
- private:
-  /// In words; nothing while the phase is too young to know.
-  std::string time_left(const Snapshot& snapshot) const;
-
-  StatusLine line_;
-  std::string phase_;
-  double phase_start_wall_s_ = 0, phase_start_s_ = 0;  // simulated, the second
-  double last_s_ = 0;
+  std::string shown_;
 };
 
 /// Options of a run that shows where it is, as long as they live, and ends when `stop` becomes true, which has to
-/// outlive them.
+/// outlive them. The time that is left is that of the phase, a range at its rate so far. Of the whole test there is
+/// none: a heap rests when it does, and each phase has a pace of its own.
 RunOptions shown_run(const std::atomic<bool>* stop = nullptr);
 
-/// Tells how many of some pieces of work are done and what is left of them, once they have taken two seconds
-/// (`StatusLine`). Thread-safe.
+/// Tells how many of some pieces of work are done and what is left of them (`StatusLine`). Thread-safe.
 class WorkLine {
  public:
   /// `pieces`: what they are, e.g. "simulations".
-  WorkLine(std::string pieces, int total);
-  ~WorkLine();
-  WorkLine(const WorkLine&) = delete;
-  WorkLine& operator=(const WorkLine&) = delete;
+  WorkLine(std::string pieces, int total) : pieces_(std::move(pieces)), total_(total) {}
 
   void one_done();
   void look();  ///< to be called now and then while a piece is under way
   /// Leaves the line of a terminal to what is printed next.
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
-  std::string text() const;
-
   const std::string pieces_;
   const int total_;
-  std::mutex mutex_;
+  std::atomic<int> done_ = 0;
   StatusLine line_;
-  int done_ = 0;
 };
 
 /// An engine whose simulations are the pieces of this work, which it must not outlive.
@@ -107,7 +91,6 @@ class ProgressLine {
   void end();                                 ///< ends the rewritten line
 
  private:
-  void rewrite(bool now);
   std::string text() const;
   std::string bar(std::size_t columns) const;
   std::string time_left() const;
@@ -121,7 +104,6 @@ class ProgressLine {
   int done_before_ = 0;  // the phase
   double best_error_ = -1;
   EvaluationCounts counts_;
-  std::string last_;
 };
 
 }  // namespace pastefit

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <memory>
 
-#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"

@@ -2,7 +2,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/check/rescale_bias.h"

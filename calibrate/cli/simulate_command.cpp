@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/scene.h"
+#include "calibrate/card/standing.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/options.h"
 #include "calibrate/cli/output_file.h"
@@ -17,6 +19,7 @@
 #include "calibrate/cli/terminal.h"
 #include "calibrate/cli/understood.h"
 #include "calibrate/evaluate/cost.h"
+#include "calibrate/store/outcome_json.h"
 #include "calibrate/store/output_folder.h"
 
 namespace pastefit {
@@ -90,6 +93,76 @@ Faults option_faults(const SimulateOptions& options, const Scene& scene) {
   if (options.vtk_interval_s && options.out.empty()) return {{"--vtk", "has no folder to write to", "add --out DIR"}};
   if (auto faults = effort_faults(options, scene); !faults.empty()) return faults;
   return checkpoint_faults(options, scene);
+}
+
+nlohmann::ordered_json outlines_json(const std::map<std::string_view, Outline>& outlines) {
+  auto out = nlohmann::ordered_json::object();
+  for (const auto& [name, side] : outlines) {
+    auto& points = out[std::string(name)] = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < side.height_m.size(); ++k)
+      points.push_back({1e3 * (side.first_x_m + static_cast<double>(k) * side.spacing_m), 1e3 * side.height_m[k]});
+  }
+  return out;
+}
+
+/// Readings and run as JSON text, with the yield stresses that the readings say (`test`: nothing for an impact).
+/// `outlines`: of the heap, by name, written as the points of a profile in a laboratory file: {"step1": [[x_mm, z_mm],
+/// ...], ...}.
+std::string simulation_json(const Outcome& outcome, const Test* test,
+                            const std::map<std::string_view, Outline>& outlines, double wall_s) {
+  const auto& run = outcome.run;
+  nlohmann::ordered_json out;
+  out["observables"] = to_json(outcome.readings);
+  if (test && !outcome.failure)
+    if (auto stresses = yield_stresses_json(*test, outcome.readings); !stresses.empty())
+      out["yield_stress_pa"] = std::move(stresses);
+  if (!outlines.empty()) out["outlines_mm"] = outlines_json(outlines);
+  out["run"] = {{"particles", run.particles},
+                {"steps", run.steps},
+                {"time_step_s", run.time_step_s},
+                {"advised_step_s", run.advised_step_s},
+                {"energy_error", run.energy_error ? nlohmann::ordered_json(*run.energy_error) : nullptr},
+                {"simulated_s", run.simulated_s},
+                {"wall_s", wall_s},
+                {"particle_steps_per_s", wall_s > 0 ? static_cast<double>(run.particle_steps) / wall_s : 0},
+                {"settled", run.settled},
+                {"failure", to_json(outcome.failure)}};
+  return json_text(out);
+}
+
+/// The same for people, without outlines. `packed`: it was of a random packing.
+void print_simulation(const Outcome& outcome, double wall_s, bool packed) {
+  for (const auto& [name, value] : outcome.readings.all()) print("%-26s %12.6g\n", name.c_str(), value);
+  if (packed && !outcome.failure) print("One packing, error unknown: other packings (--seed) read differently.\n");
+  const auto& run = outcome.run;
+  print("%lld grain%s, %lld steps of %.3g s, %.3g s simulated in %.3g s (%.3g million\nparticle-steps a second)%s\n",
+        static_cast<long long>(run.particles), run.particles == 1 ? "" : "s", static_cast<long long>(run.steps),
+        run.time_step_s, run.simulated_s, wall_s, static_cast<double>(run.particle_steps) / wall_s / 1e6,
+        run.settled || outcome.failure ? "" : "; not quite at rest when its time was over");
+}
+
+/// One line for each point, below the names of the axes.
+std::string csv_of(const Curve& curve) {
+  std::string out = curve.x + "," + curve.y + "\n";
+  for (const CurvePoint& point : curve.points) out += format("%.6g,%.6g\n", point.x, point.y);
+  return out;
+}
+
+/// Says whether the step that the user has set is a stable one.
+void judge_step(double given_s, double advised_s) {
+  if (given_s <= advised_s)
+    note("pastefit: the time step %.3g s is within the advised %.3g s\n", given_s, advised_s);
+  else
+    note(
+        "pastefit: the time step %.3g s exceeds the advised %.3g s: the result may be wrong; leave --time-step out, or "
+        "give at most that\n",
+        given_s, advised_s);
+}
+
+void print_failure(const Failure& failure) {
+  std::fprintf(stderr, "pastefit: the simulation failed: %s in %s at %.4g s (step %lld): %s\n",
+               std::string(name_of(failure.reason)).c_str(), failure.phase.c_str(), failure.time_s,
+               static_cast<long long>(failure.step), failure.message.c_str());
 }
 
 /// One simulation, with what watches it and what is written of it.

@@ -1,7 +1,4 @@
-#include <cstdio>
 #include <memory>
-#include <set>
-#include <utility>
 
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"

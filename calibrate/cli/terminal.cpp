@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
@@ -29,6 +28,22 @@ std::string time_in_words(double seconds) {
   if (seconds < 99.5 * 3600) return format("%.0f h", seconds / 3600);
   if (seconds < kLongestToldDays * 86400) return format("%.0f days", seconds / 86400);
   return "years";
+}
+
+int first_error = 0;  // of writing to standard output
+bool quiet = false;
+
+void note_error(bool failed) {
+  if (failed && first_error == 0) first_error = errno;
+}
+
+[[gnu::format(printf, 1, 0)]] std::string harmless(const char* pattern, va_list values) {
+  va_list again;
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  return lines_of(text);
 }
 
 }  // namespace
@@ -64,26 +79,6 @@ std::string range_of_time(double least_s, double most_s) {
   const auto unit = [](const std::string& words) { return words.substr(words.find(' ')); };
   return (unit(least) == unit(most) ? least.substr(0, least.find(' ')) : least) + " to " + most;
 }
-
-namespace {
-
-int first_error = 0;  // of writing to standard output
-bool quiet = false;
-
-void note_error(bool failed) {
-  if (failed && first_error == 0) first_error = errno;
-}
-
-[[gnu::format(printf, 1, 0)]] std::string harmless(const char* pattern, va_list values) {
-  va_list again;
-  va_copy(again, values);
-  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  va_end(again);
-  return lines_of(text);
-}
-
-}  // namespace
 
 void print(const char* pattern, ...) {
   va_list values;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
@@ -40,6 +41,33 @@ std::string readings_to_be_met(const Study& study) {
            plain(reading.tolerance) + unit_at_end(reading.measurement.reading) + "\n";
   }
   return out;
+}
+
+/// What one simulation of the test takes on this machine [s]: measured with few, coarse grains of it, since the number
+/// of grains goes with 1/R^3 and that of steps with 1/R. Nothing if that could not be simulated.
+std::optional<double> seconds_of_simulation(const Test& test) {
+  constexpr double few = 300;  // grains
+  constexpr double largest_enlargement = 30, patience_s = 2;
+  Test coarse = test;
+  GrainSizes& grains = specimen_of(coarse).grains;
+  const double wanted = std::cbrt(grains_needed(test) / few);
+  // As coarse as the apparatus takes.
+  double enlarged = std::clamp(wanted, 1.0, largest_enlargement);
+  const GrainSizes own = grains;
+  for (;; enlarged = std::max(1.0, 0.9 * enlarged)) {
+    for (const auto size :
+         {&GrainSizes::radius_m, &GrainSizes::smallest_m, &GrainSizes::largest_m, &GrainSizes::standard_deviation_m})
+      grains.*size = enlarged * own.*size;
+    if (validate(coarse).empty()) break;
+    if (enlarged == 1) return std::nullopt;
+  }
+  RunOptions options;
+  options.steps.energy_balance = false;
+  const double start_s = thread_seconds();
+  const auto taken_s = [&] { return thread_seconds() - start_s; };
+  options.pulse = [&](const Snapshot&) { return taken_s() < patience_s; };
+  if (simulate(coarse, options).failure) return std::nullopt;
+  return taken_s() * std::pow(enlarged, 4);
 }
 
 std::string time_expected(const Study& study, int threads) {
@@ -81,49 +109,6 @@ std::string unseen_parameters(const Study& study) {
   return out + "\n";
 }
 
-}  // namespace
-
-std::string apparatus_in_words(const Test& test) {
-  return conditions_in_words(test) + "  grains                   " + grains_in_words(test) + "\n";
-}
-
-std::optional<double> seconds_of_simulation(const Test& test) {
-  constexpr double few = 300;  // grains
-  constexpr double largest_enlargement = 30, patience_s = 2;
-  Test coarse = test;
-  GrainSizes& grains = specimen_of(coarse).grains;
-  const double wanted = std::cbrt(grains_needed(test) / few);
-  // As coarse as the apparatus takes.
-  double enlarged = std::clamp(wanted, 1.0, largest_enlargement);
-  const GrainSizes own = grains;
-  for (;; enlarged = std::max(1.0, 0.9 * enlarged)) {
-    for (const auto size :
-         {&GrainSizes::radius_m, &GrainSizes::smallest_m, &GrainSizes::largest_m, &GrainSizes::standard_deviation_m})
-      grains.*size = enlarged * own.*size;
-    if (validate(coarse).empty()) break;
-    if (enlarged == 1) return std::nullopt;
-  }
-  RunOptions options;
-  options.steps.energy_balance = false;
-  const double start_s = thread_seconds();
-  const auto taken_s = [&] { return thread_seconds() - start_s; };
-  options.pulse = [&](const Snapshot&) { return taken_s() < patience_s; };
-  if (simulate(coarse, options).failure) return std::nullopt;
-  return taken_s() * std::pow(enlarged, 4);
-}
-
-std::string understood(const Study& study, int threads) {
-  std::string out;
-  for (const std::size_t i : tests_of(study, false)) {
-    const StudyTest& test = study.tests[i];
-    if (!test.name.empty()) out += "Test " + test.name + "\n";
-    out += apparatus_in_words(test.lab.test);
-  }
-  return out + "To be met\n" + readings_to_be_met(study) + time_expected(study, threads) + unseen_parameters(study);
-}
-
-namespace {
-
 std::vector<std::string> fitted_readings(const Study& study) {
   std::vector<std::string> names;
   for (const auto& reading : readings_of(study))
@@ -153,6 +138,20 @@ std::string readings_not_measured(const Study& study) {
 }
 
 }  // namespace
+
+std::string apparatus_in_words(const Test& test) {
+  return conditions_in_words(test) + "  grains                   " + grains_in_words(test) + "\n";
+}
+
+std::string understood(const Study& study, int threads) {
+  std::string out;
+  for (const std::size_t i : tests_of(study, false)) {
+    const StudyTest& test = study.tests[i];
+    if (!test.name.empty()) out += "Test " + test.name + "\n";
+    out += apparatus_in_words(test.lab.test);
+  }
+  return out + "To be met\n" + readings_to_be_met(study) + time_expected(study, threads) + unseen_parameters(study);
+}
 
 std::string notes_on_readings(const Study& study) {
   std::string out;

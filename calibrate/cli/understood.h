@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "calibrate/store/store.h"
@@ -10,10 +9,6 @@ namespace pastefit {
 
 /// Apparatus and grains of a test as the program took them, a line each.
 std::string apparatus_in_words(const Test& test);
-
-/// What one simulation of the test takes on this machine [s]: measured with few, coarse grains of it, since the number
-/// of grains goes with 1/R^3 and that of steps with 1/R. Nothing if that could not be simulated.
-std::optional<double> seconds_of_simulation(const Test& test);
 
 /// What a calibration will do: apparatus, grains, readings to be met, time expected; and free parameters of which the
 /// readings say nothing. Lines, each ended.

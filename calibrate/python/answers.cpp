@@ -19,6 +19,12 @@ std::optional<Failure> failure_of(const EngineAnswer& answer) {
   return failure;
 }
 
+Answers::Answers(const std::vector<Parameter>& parameters, const std::vector<StudyReading>& readings) {
+  for (const Parameter& one : parameters)
+    if (one.free) parameters_.push_back(one);
+  for (const StudyReading& one : readings) readings_.push_back(one.name);
+}
+
 namespace {
 
 /// Readings of a test, under the names that it has for them.
@@ -42,20 +48,11 @@ Result<std::unique_ptr<Answers>> StudyAnswers::open(std::shared_ptr<const Study>
 }
 
 StudyAnswers::StudyAnswers(std::shared_ptr<const Study> study, std::string study_file, Store store)
-    : study_(std::move(study)), study_file_(std::move(study_file)), store_(std::move(store)), scoring_(*study_) {}
-
-std::vector<Parameter> StudyAnswers::parameters() const {
-  std::vector<Parameter> free;
-  for (const Parameter& parameter : study_->parameters)
-    if (parameter.free) free.push_back(parameter);
-  return free;
-}
-
-std::vector<std::string> StudyAnswers::readings() const {
-  std::vector<std::string> names;
-  for (const StudyReading& reading : readings_of(*study_)) names.push_back(reading.name);
-  return names;
-}
+    : Answers(study->parameters, readings_of(*study)),
+      study_(std::move(study)),
+      study_file_(std::move(study_file)),
+      store_(std::move(store)),
+      scoring_(*study_) {}
 
 std::vector<Response> StudyAnswers::earlier() const {
   std::vector<Response> responses;

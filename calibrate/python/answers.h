@@ -32,9 +32,9 @@ class Answers {
   virtual const Scoring& scoring() const = 0;
   virtual const SearchOptions& options() const = 0;
   /// The free parameters, in the order of a point's coordinates.
-  virtual std::vector<Parameter> parameters() const = 0;
+  const std::vector<Parameter>& parameters() const { return parameters_; }
   /// That an answer has to give.
-  virtual std::vector<std::string> readings() const = 0;
+  const std::vector<std::string>& readings() const { return readings_; }
   /// What is known from earlier inputs, each point on one packing.
   virtual std::vector<Response> earlier() const { return {}; }
 
@@ -47,6 +47,13 @@ class Answers {
   virtual std::optional<Card> card(const Calibration& found, const EvaluationCounts& counts) const = 0;
   /// As `evaluations_json`.
   virtual nlohmann::ordered_json evaluations() const = 0;
+
+ protected:
+  Answers(const std::vector<Parameter>& parameters, const std::vector<StudyReading>& readings);
+
+ private:
+  std::vector<Parameter> parameters_;
+  std::vector<std::string> readings_;
 };
 
 /// The answers to a study, in a store.
@@ -59,8 +66,6 @@ class StudyAnswers : public Answers {
 
   const Scoring& scoring() const override { return scoring_; }
   const SearchOptions& options() const override { return study_->search; }
-  std::vector<Parameter> parameters() const override;
-  std::vector<std::string> readings() const override;
   std::vector<Response> earlier() const override;
   std::optional<Evaluation> find(const Candidate& candidate) const override;
   Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) override;

@@ -47,12 +47,11 @@ void AskedExamination::advance() {
 
 using nlohmann::ordered_json;
 
-AskedSearch::AskedSearch(std::unique_ptr<Answers> answers)
-    : answers_(std::move(answers)), readings_(answers_->readings()) {
+AskedSearch::AskedSearch(std::unique_ptr<Answers> answers) : answers_(std::move(answers)) {
   SearchStart start;
   start.simulations = answers_->options().budget_simulations;
   start.earlier = answers_->earlier();
-  start.readings = readings_;
+  start.readings = answers_->readings();
   for (const Parameter& parameter : answers_->parameters()) start.parameters.push_back(parameter.name);
   const auto keep = [this](const Progress& progress) {
     const std::lock_guard lock(mutex_);
@@ -115,7 +114,7 @@ Faults AskedSearch::faults_of(const EngineAnswer& answer, std::size_t place) con
              "the \"_id\" of a candidate that suggest() gave"}};
   Faults faults;
   if (answer.error) return faults;
-  for (const std::string& reading : readings_)
+  for (const std::string& reading : answers_->readings())
     if (!answer.readings.find(reading))
       faults.push_back({where, "has no \"" + reading + "\", which the laboratory measured",
                         "the number, NaN if there is none, or \"error\": why the simulation failed"});

@@ -6,7 +6,6 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -73,7 +72,6 @@ class AskedSearch {
   void tell(const Candidate& candidate, const Evaluation& evaluation);
 
   const std::unique_ptr<Answers> answers_;
-  const std::vector<std::string> readings_;
   std::map<std::size_t, Candidate> asked_;  // of those that were suggested
   EvaluationCounts counts_;
   bool stopped_ = false;

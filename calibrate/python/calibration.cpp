@@ -33,15 +33,6 @@ struct CalibrationOptions {
   double wall_budget_s = 0;
 };
 
-OutputFolder folder_for(const Study& study, const CalibrationOptions& options) {
-  const auto earlier = options.force    ? EarlierResult::replace
-                       : options.resume ? EarlierResult::resume
-                                        : EarlierResult::refuse;
-  auto folder = value_or_throw(OutputFolder::open(options.out, calibration_files(study), earlier, kSpace));
-  if (options.force) folder.clear(calibration_files(study));
-  return folder;
-}
-
 /// One calibration into a folder, as `pastefit calibrate` makes it. Made, which finds everything wrong with the input,
 /// then `run` in a thread without the interpreter's lock; `progress` may be asked from another one meanwhile.
 class CalibrationRun {
@@ -53,7 +44,8 @@ class CalibrationRun {
     if (engine) how_.engine = engine_of(engine->first, engine->second);
     elsewhere_ = engine.has_value();
     refuse(in_file(validate(*study_, how_), options_.study_file));
-    folder_ = std::make_unique<OutputFolder>(folder_for(*study_, options_));
+    folder_ = std::make_unique<OutputFolder>(
+        value_or_throw(open_calibration_folder(options_.out, *study_, options_.resume, options_.force)));
     const std::string file = folder_->file(kStore);
     store_ = std::make_unique<Store>(value_or_throw(Store::open(file, {program_identity(), inputs_of(*study_)})));
     refuse(strangers_in(*study_, *store_, file));

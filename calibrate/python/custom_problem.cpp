@@ -11,6 +11,7 @@
 #include "calibrate/base/refusal.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
+#include "calibrate/python/module.h"
 #include "calibrate/search/strategies.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/study_sections.h"
@@ -18,6 +19,8 @@
 namespace pastefit::python {
 
 namespace {
+
+using nlohmann::json;
 
 constexpr double kLargest = 1e12;
 
@@ -89,6 +92,13 @@ Faults clashing_names(const CustomProblem& problem, std::span<const std::string>
   return faults;
 }
 
+std::string key_of_candidate(const Candidate& candidate) {
+  return content_hash(json{
+      {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
+      {"seed",
+       candidate.packing}}.dump());
+}
+
 }  // namespace
 
 Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own) {
@@ -109,19 +119,6 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
   return problem;
 }
 
-using nlohmann::json;
-
-namespace {
-
-std::string key_of_candidate(const Candidate& candidate) {
-  return content_hash(json{
-      {"point", std::vector<double>(candidate.point.begin(), candidate.point.end())},
-      {"seed",
-       candidate.packing}}.dump());
-}
-
-}  // namespace
-
 Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, const std::string& file,
                                                       const std::string& engine) {
   json inputs = json::parse(problem.content);
@@ -135,7 +132,10 @@ Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, con
 }
 
 ProblemAnswers::ProblemAnswers(CustomProblem problem, Store store)
-    : problem_(std::move(problem)), store_(std::move(store)), scoring_(problem_.readings, problem_.parameters) {}
+    : Answers(problem.parameters, problem.readings),
+      problem_(std::move(problem)),
+      store_(std::move(store)),
+      scoring_(problem_.readings, problem_.parameters) {}
 
 /// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
 bool ProblemAnswers::is_answer(const StoredEvaluation& kept) const {
@@ -155,12 +155,6 @@ Evaluation ProblemAnswers::evaluation_of(const StoredEvaluation& kept) const {
     for (const StudyReading& reading : problem_.readings)
       evaluation.readings.push_back(kept.readings.find(reading.name).value());
   return evaluation;
-}
-
-std::vector<std::string> ProblemAnswers::readings() const {
-  std::vector<std::string> names;
-  for (const StudyReading& reading : problem_.readings) names.push_back(reading.name);
-  return names;
 }
 
 std::optional<Evaluation> ProblemAnswers::find(const Candidate& candidate) const {
@@ -213,17 +207,10 @@ nlohmann::ordered_json ProblemAnswers::evaluations() const {
   auto out = nlohmann::ordered_json::array();
   for (const StoredEvaluation& one : store_.all()) {
     if (!is_answer(one)) continue;
-    nlohmann::ordered_json parameters, readings = nlohmann::ordered_json::object();
+    nlohmann::ordered_json parameters;
     for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
       parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
-    for (const auto& [name, value] : one.readings.all()) readings[name] = value;
-    out.push_back({{"number", out.size()},
-                   {"packing", one.packing},
-                   {"parameters", std::move(parameters)},
-                   {"readings", std::move(readings)},
-                   {"failure", one.failure ? std::string(name_of(one.failure->reason)) : ""},
-                   {"message", one.failure ? one.failure->message : ""},
-                   {"ended_early", false}});
+    out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
   }
   return out;
 }

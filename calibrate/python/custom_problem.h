@@ -39,8 +39,6 @@ class ProblemAnswers : public Answers {
 
   const Scoring& scoring() const override { return scoring_; }
   const SearchOptions& options() const override { return problem_.search; }
-  std::vector<Parameter> parameters() const override { return problem_.parameters; }
-  std::vector<std::string> readings() const override;
   std::optional<Evaluation> find(const Candidate& candidate) const override;
   Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) override;
   TrainingData evidence(std::span<const Response> history) const override;

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +49,8 @@ nlohmann::ordered_json result_json(const CalibrationResult& result);
 
 /// One object for each evaluation, in the order of arrival: number, test's packing, parameters and readings by name.
 nlohmann::ordered_json evaluations_json(const Store& store);
+nlohmann::ordered_json evaluation_json(std::size_t number, const StoredEvaluation& one,
+                                       nlohmann::ordered_json parameters);
 
 /// Where a search is, for who asks from another thread.
 nlohmann::ordered_json progress_json(const Progress& progress, const std::string& phase);

@@ -48,20 +48,24 @@ ordered_json result_json(const CalibrationResult& result) {
   return out;
 }
 
+ordered_json evaluation_json(std::size_t number, const StoredEvaluation& one, ordered_json parameters) {
+  return {{"number", number},
+          {"packing", one.packing},
+          {"parameters", std::move(parameters)},
+          {"readings", to_json(one.readings)},
+          {"failure", one.failure ? std::string(name_of(one.failure->reason)) : ""},
+          {"message", one.failure ? one.failure->message : ""},
+          {"ended_early", one.run.ended_early}};
+}
+
 ordered_json evaluations_json(const Store& store) {
   ordered_json out = ordered_json::array();
   for (const StoredEvaluation& one : store.all()) {
     ordered_json parameters = ordered_json::object();
     for (std::size_t i = 0; i < one.values.size(); ++i)
       parameters[std::string(parameter_kinds()[i].name)] = one.values[i];
-    out.push_back({{"number", out.size()},
-                   {"packing", one.packing},
-                   {"parameters", std::move(parameters)},
-                   {"readings", to_json(one.readings)},
-                   {"failure", one.failure ? std::string(name_of(one.failure->reason)) : ""},
-                   {"message", one.failure ? one.failure->message : ""},
-                   {"ended_early", one.run.ended_early},
-                   {"wall_s", one.wall_s}});
+    out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
+    out.back()["wall_s"] = one.wall_s;
   }
   return out;
 }

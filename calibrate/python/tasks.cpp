@@ -1,4 +1,3 @@
-#include <cstdint>
 #include <future>
 #include <map>
 #include <memory>

@@ -129,13 +129,20 @@ std::string text_of(const Card& card) {
   return out;
 }
 
-namespace {
+std::vector<Measurement> laboratory_measurements(const CardTest& test) {
+  std::vector<Measurement> out;
+  for (const CardReading& one : test.readings)
+    if (one.measured) out.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
+  return out;
+}
 
-std::vector<Readings> runs_of(const CardTest& test) {
+std::string remarks_on(const CardTest& test) {
   std::vector<Readings> runs;
   for (const auto& run : test.baseline.runs) runs.push_back(run.readings);
-  return runs;
+  return remarks_on(test.test, runs);
 }
+
+namespace {
 
 void add_marginal_readings(const CardTest& test, std::vector<std::string>& out) {
   for (const CardReading& one : test.readings) {
@@ -182,8 +189,7 @@ void add_pressure(const Card& card, std::vector<std::string>& out) {
 std::vector<std::string> reservations_on(const Card& card) {
   std::vector<std::string> out;
   for (const CardTest& test : card.tests)
-    if (const std::string remarks = remarks_on(test.test, runs_of(test)); !remarks.empty())
-      out.push_back(heading_of(test) + remarks);
+    if (const std::string remarks = remarks_on(test); !remarks.empty()) out.push_back(heading_of(test) + remarks);
   for (const CardTest& test : card.tests) add_marginal_readings(test, out);
   add_bounds(card, out);
   add_implausible(card, out);

@@ -1,9 +1,8 @@
-#include "calibrate/report/curve_csv.h"
-
 #include <algorithm>
 
 #include "calibrate/base/text.h"
 #include "calibrate/laboratory/granule_test.h"
+#include "calibrate/report/views.h"
 
 namespace pastefit {
 

@@ -41,13 +41,7 @@ void infer_from(const Store& store, const std::optional<Inference>& known, Findi
         "The laboratory was out of reach, and readings that no material meets say nothing of the parameters.");
     return;
   }
-  findings.inference = known;
-  if (known) return;
-  InferenceOptions options;
-  options.seed = card.search.seed;
-  findings.inference = infer(*findings.evidence, point_of(card), options);
-  findings.inference->recommended_because =
-      reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
+  findings.inference = known ? *known : inference_of(card, *findings.evidence);
 }
 
 void take_evaluations(const Store& store, const std::optional<Inference>& inference, Findings& findings) {
@@ -73,6 +67,14 @@ void take_card(Card card, Findings& findings) {
 }
 
 }  // namespace
+
+Inference inference_of(const Card& card, const TrainingData& evidence) {
+  InferenceOptions options;
+  options.seed = card.search.seed;
+  Inference inference = infer(evidence, point_of(card), options);
+  inference.recommended_because = reason_for(card.search.status == "confirmed", card.confirmation.packings.size());
+  return inference;
+}
 
 Result<Findings> read_findings(const fs::path& folder, const std::string& store) {
   std::error_code error;

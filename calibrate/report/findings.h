@@ -35,6 +35,9 @@ Findings findings_without_card(const Study& study, const Store& store);
 /// What a calibration has found that ends now. `inference`: what it made of its simulations; none: it is made here.
 Findings findings_of(const Card& card, const Store& store, const std::optional<Inference>& inference);
 
+/// What the evaluations say of a card's material.
+Inference inference_of(const Card& card, const TrainingData& evidence);
+
 inline const std::string kCardFile = "card.json";
 
 /// Reads a folder that `pastefit calibrate` wrote to. What is damaged or not there is `missing`; the rest is read.

@@ -8,7 +8,6 @@
 #include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
-#include "calibrate/report/curve_csv.h"
 #include "calibrate/report/page_content.h"
 #include "calibrate/report/views.h"
 
@@ -109,10 +108,17 @@ Faults write_page(const std::filesystem::path& folder, const Findings& findings)
                           page_of(findings, "pastefit report " + shell_word_if_needed(folder.string())));
 }
 
-std::vector<std::string> calibration_files(const Study& study) {
+Result<OutputFolder> open_calibration_folder(const std::filesystem::path& folder, const Study& study, bool resume,
+                                             bool force) {
+  constexpr std::uintmax_t kSpaceOfEvaluation = 8u << 10;  // its row, twice: in the log and in the table
   std::vector<std::string> files{kCardFile, kSummary, kPage, kViewsFile};
   for (const StudyTest& test : study.tests) files.push_back(curve_file(test.name));
-  return with_store(std::move(files));
+  files = with_store(std::move(files));
+  const auto earlier = force ? EarlierResult::replace : resume ? EarlierResult::resume : EarlierResult::refuse;
+  const auto budget = static_cast<std::uintmax_t>(study.search.budget_simulations);
+  auto opened = OutputFolder::open(folder, files, earlier, kSpace + budget * kSpaceOfEvaluation);
+  if (opened.ok() && force) opened.value().clear(files);
+  return opened;
 }
 
 Faults write_card(const OutputFolder& folder, const Card& card, const std::string& summary) {

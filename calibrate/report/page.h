@@ -56,8 +56,10 @@ Faults write_page(const std::filesystem::path& folder, const Findings& findings)
 
 inline const std::string kSummary = "summary.txt";
 
-/// The files of a calibration's folder, those of an earlier one included.
-std::vector<std::string> calibration_files(const Study& study);
+/// Opens the folder of a calibration, with room for every evaluation. With `force` the files of an earlier one are
+/// removed. Errors: those of `OutputFolder::open`; an earlier result, without `resume` and `force`.
+Result<OutputFolder> open_calibration_folder(const std::filesystem::path& folder, const Study& study, bool resume,
+                                             bool force);
 
 /// Writes the card and its summary. Errors: the folder cannot be written.
 Faults write_card(const OutputFolder& folder, const Card& card, const std::string& summary);

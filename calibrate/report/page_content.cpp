@@ -124,13 +124,6 @@ ordered_json json_of_drawing(const Drawing& drawing) {
   return out;
 }
 
-std::vector<Measurement> measurements_of(const CardTest& test) {
-  std::vector<Measurement> out;
-  for (const CardReading& one : test.readings)
-    if (one.measured) out.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
-  return out;
-}
-
 /// The runs of the view with the card's own readings, and those of the packings that were not looked at: means over
 /// them are the card's.
 std::vector<SeenRun> runs_drawn(const CardTest& test, const TestView& view) {
@@ -177,14 +170,12 @@ ordered_json page_test(const Findings& findings, std::size_t index) {
   if (auto compared = yield_stresses_json(test); !compared.empty()) out["yield_stress"] = std::move(compared);
   if (const auto& measured = test.yield_stress)
     out["measured_yield_stress"] = {{"value", measured->value}, {"standard_deviation", measured->standard_deviation}};
-  std::vector<Readings> runs;
-  for (const auto& run : test.baseline.runs) runs.push_back(run.readings);
-  const std::string remarks = remarks_on(test.test, runs);
+  const std::string remarks = remarks_on(test);
   out["remarks"] = remarks.empty() ? "" : remarks + ".";
   out["drawings"] = ordered_json::array();
   if (index >= findings.views.size()) return out;
   const TestView& view = findings.views[index];
-  for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), measurements_of(test)))
+  for (const Drawing& drawing : drawings_of(test.test, runs_drawn(test, view), laboratory_measurements(test)))
     out["drawings"].push_back(json_of_drawing(drawing));
   out["packings_drawn"] = view.runs.size();
   if (!view.film.empty()) out["film"] = ordered_json::parse(view.film.index);
@@ -204,7 +195,7 @@ ordered_json type_in_of(const Card& card) {
   return groups;
 }
 
-ordered_json inference_of(const Inference& inference) {
+ordered_json page_inference(const Inference& inference) {
   ordered_json out{{"words", what_is_determined(inference)}, {"simulations", inference.simulations}};
   for (std::size_t i = 0; i < inference.fitted.size(); ++i)
     out["noise"][inference.fitted[i]] = rounded(inference.noise[i]);
@@ -310,7 +301,7 @@ ordered_json page_content(const Findings& findings, const std::string& command) 
                          {"program", card.provenance.program}};
   }
   if (!findings.card && findings.study) out["parameters"] = parameters_of(*findings.study);
-  if (findings.inference) out["inference"] = inference_of(*findings.inference);
+  if (findings.inference) out["inference"] = page_inference(*findings.inference);
   out["search"] = search_of(findings);
   return out;
 }

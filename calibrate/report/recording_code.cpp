@@ -145,16 +145,8 @@ ordered_json json_of(const RecordedWall& wall) {
   return out;
 }
 
-}  // namespace
-
-CodedRecording coded(const RunRecording& film) {
-  if (film.frames() == 0) return {};
-  return {recording_index(film).dump(), recording_bytes(film)};
-}
-
-ordered_json recording_index(const RunRecording& film) {
-  const Box box = box_of(film);
-  ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}, {"most_pull_n", most_pull_n(film)}};
+ordered_json index_of(const RunRecording& film, const Box& box, float most_pull) {
+  ordered_json out{{"quantum_m", box.quantum}, {"low_m", box.low}, {"most_pull_n", most_pull}};
   auto& parts = out["reels"] = ordered_json::array();
   for (const RecordingPart& part : film.parts) {
     ordered_json of_reel{{"grains", part.radii_m.size()}};
@@ -171,9 +163,7 @@ ordered_json recording_index(const RunRecording& film) {
   return out;
 }
 
-std::string recording_bytes(const RunRecording& film) {
-  const Box box = box_of(film);
-  const float most_pull = most_pull_n(film);
+std::string bytes_of(const RunRecording& film, const Box& box, float most_pull) {
   std::string bytes;
   for (const RecordingPart& part : film.parts) {
     std::vector<std::uint16_t> radii;
@@ -186,7 +176,16 @@ std::string recording_bytes(const RunRecording& film) {
       before = std::move(now);
     }
   }
-  return base64(deflated(bytes));
+  return bytes;
+}
+
+}  // namespace
+
+CodedRecording coded(const RunRecording& film) {
+  if (film.frames() == 0) return {};
+  const Box box = box_of(film);
+  const float most_pull = most_pull_n(film);
+  return {index_of(film, box, most_pull).dump(), base64(deflated(bytes_of(film, box, most_pull)))};
 }
 
 }  // namespace pastefit

@@ -65,6 +65,16 @@ bool have_grown(const RecordingPart& part, const Particles& grains) {
   return std::fabs(grains.motion[0].radius - before) > kSeen * before;
 }
 
+std::string key_of_test(const Test& test) {
+  return evaluation_key("", test);
+}
+
+/// Of the test with this material, whatever the packing.
+std::string name_of_material(Test test) {
+  specimen_of(test).packing_seed = 0;
+  return key_of_test(test);
+}
+
 }  // namespace
 
 std::size_t RunRecording::grains() const {
@@ -120,20 +130,6 @@ RunRecording RunRecorder::film() && {
   }
   return std::move(film_);
 }
-
-namespace {
-
-std::string key_of_test(const Test& test) {
-  return evaluation_key("", test);
-}
-
-/// Of the test with this material, whatever the packing.
-std::string name_of_material(Test test) {
-  specimen_of(test).packing_seed = 0;
-  return key_of_test(test);
-}
-
-}  // namespace
 
 void SeenSimulation::see(const Test& test, const Snapshot& snapshot) {
   if (snapshot.world)

@@ -97,10 +97,8 @@ std::string remark_lines(const Card& card) {
   for (const auto& test : card.tests) {
     const auto say = [&](const std::string& remark) { out += heading_of(test) + remark + ".\n"; };
     if (test.lab.twin) say("The laboratory's data were made by a simulation (a twin)");
-    std::vector<Measurement> measurements;
-    for (const auto& one : test.readings)
-      if (one.measured) measurements.push_back({one.name, *one.measured, one.standard_deviation, one.repeats});
-    for (const std::string& note : check_readings(test.test, measurements).notes) say("Laboratory: " + note);
+    for (const std::string& note : check_readings(test.test, laboratory_measurements(test)).notes)
+      say("Laboratory: " + note);
   }
   return out;
 }

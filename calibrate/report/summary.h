@@ -22,6 +22,12 @@ std::string text_of(const Card& card);
 /// What another engine made of a test of the card: what it cost, the bias of each reading, and the verdict.
 std::string further_confirmation_text(const FurtherConfirmation& confirmation);
 
+/// What the laboratory measured in a test, in the order of its readings.
+std::vector<Measurement> laboratory_measurements(const CardTest& test);
+
+/// What a person should know of the runs of a test (`laboratory/test.h`); empty: nothing.
+std::string remarks_on(const CardTest& test);
+
 /// What speaks against a card although its readings may be within their tolerances, a clause each, the gravest first:
 /// heaps that sheared off and whatever else a kind of test remarks on its runs; readings that are within their
 /// tolerance only without their standard error; parameters that ended at a bound, or beyond what is plausible. Empty:

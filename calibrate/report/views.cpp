@@ -1,6 +1,5 @@
 #include "calibrate/report/views.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>

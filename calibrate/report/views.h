@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,5 +47,14 @@ Faults write_views(const std::filesystem::path& file, const Card& card, std::spa
 /// packings.
 Result<std::vector<TestView>> read_views(const std::filesystem::path& file, const Card& card,
                                          std::span<const std::uint64_t> packings);
+
+/// What a test draws (`Curve`), over the runs of its view, as CSV: one line for each point, below the names of the
+/// columns. These are the curve's own x and y, y the mean over the runs; the lowest and the highest of them; and each
+/// reading that the laboratory took in the unit of y, e.g. a strength in Pa beside a stress, with its standard
+/// deviation, the same in every line. Nothing where no run has a curve.
+std::optional<std::string> curve_csv(const CardTest& test, const TestView& view);
+
+/// Its file in a calibration's folder: curve.csv, or curve-NAME.csv of a test that has a name.
+std::string curve_file(const std::string& test_name);
 
 }  // namespace pastefit

@@ -55,10 +55,10 @@ std::string bytes_in(const std::string& text) {
 
 TEST_CASE("a coded film says where each grain is, to half a quantum, by differences from the frame before") {
   const RunRecording film = film_of_two_frames();
-  const auto index = recording_index(film);
+  const auto index = nlohmann::json::parse(coded(film).index);
   const double quantum = index.at("quantum_m");
   CHECK(quantum == Approx(3.75 / 65535));  // wider than 16 bits of 0.05 mm
-  const std::string bytes = bytes_in(recording_bytes(film));
+  const std::string bytes = bytes_in(coded(film).grains);
   REQUIRE(bytes.size() == 2 * 2 + 2 * (3 * 2 * 2 + 2 + 2 + 2));
   std::size_t place = 0;
   const auto octet = [&] { return static_cast<unsigned char>(bytes.at(place++)); };
@@ -98,7 +98,7 @@ TEST_CASE("the index of a film names a wall again only where it has moved") {
   RunRecording film = film_of_two_frames();
   film.parts[0].frames.push_back(film.parts[0].frames.back());
   film.parts[0].frames.back().walls[0].shape = Plane{{0, 0, 1}};
-  const auto frames = recording_index(film).at("reels")[0].at("frames");
+  const auto frames = nlohmann::json::parse(coded(film).index).at("reels")[0].at("frames");
   CHECK(frames[0].contains("walls"));
   CHECK_FALSE(frames[1].contains("walls"));
   CHECK(frames[2].at("walls")[0].at("point_m")[2] == 1);
