@@ -1,6 +1,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "calibrate/base/refusal.h"
 #include "calibrate/base/text.h"
 #include "calibrate/cli/commands.h"
 #include "calibrate/cli/terminal.h"
@@ -20,12 +24,10 @@ int run_compare(const CompareArguments& options) {
   Faults faults;
   for (const std::string& file : options.files) {
     auto card = read_card(file);
-    if (card.ok())
-      cards.push_back({file, std::move(card.value())});
-    else
-      faults.insert(faults.end(), card.faults().begin(), card.faults().end());
+    append(faults, card);
+    if (card.ok()) cards.push_back({file, std::move(card).value()});
   }
-  if (!faults.empty()) return report(faults);
+  refuse(std::move(faults));
   print("%s", options.json ? json_text(comparison_json(cards)).c_str() : comparison_lines(cards).c_str());
   return kDone;
 }
