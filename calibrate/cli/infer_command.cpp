@@ -2,7 +2,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/atomic_file.h"
 #include "calibrate/base/text.h"
 #include "calibrate/card/card.h"
 #include "calibrate/cli/commands.h"
@@ -10,6 +9,7 @@
 #include "calibrate/evaluate/record.h"
 #include "calibrate/inference/description.h"
 #include "calibrate/report/findings.h"
+#include "calibrate/report/page.h"
 #include "calibrate/report/summary.h"
 #include "calibrate/store/output_folder.h"
 #include "calibrate/store/program.h"
@@ -26,8 +26,6 @@ struct InferOptions {
   bool force = false;
   bool json = false;
 };
-
-const std::vector<std::string> kResults{"card.json", "summary.txt"};
 
 /// What keeps a card from being one of the study as it is.
 Faults differences(const Card& card, const Study& study, const std::string& file) {
@@ -48,7 +46,7 @@ Faults differences(const Card& card, const Study& study, const std::string& file
 
 int infer_again(const InferOptions& options) {
   const std::filesystem::path from = options.from;
-  const std::string card_file = (from / kResults[0]).string(), store_file = (from / kStore).string();
+  const std::string card_file = (from / kCardFile).string(), store_file = (from / kStore).string();
   const Study study = value_or_throw(read_study(options.study));
   Card card = value_or_throw(read_card(card_file));
   refuse(differences(card, study, card_file));
@@ -64,9 +62,9 @@ int infer_again(const InferOptions& options) {
              "the laboratory was out of reach, and readings that no material meets say nothing of the parameters",
              "other bounds, and pastefit calibrate --resume"}});
   std::optional<OutputFolder> folder;
+  const auto earlier = options.force ? EarlierResult::replace : EarlierResult::refuse;
   if (!options.out.empty())
-    folder = value_or_throw(OutputFolder::open(options.out, kResults,
-                                               options.force ? EarlierResult::replace : EarlierResult::refuse, kSpace));
+    folder = value_or_throw(OutputFolder::open(options.out, {kCardFile, kSummary}, earlier, kSpace));
 
   TrainingData evidence = training_data_of(study, record);
   evidence.conditions = card.inference.conditions;
@@ -80,9 +78,8 @@ int infer_again(const InferOptions& options) {
   const std::string summary = summary_of(card, findings);
   print("%s", options.json ? json_text(to_json(card)).c_str() : summary.c_str());
   if (!folder) return kDone;
-  refuse(write_card(folder->file(kResults[0]), card), kFailed);
-  refuse(write_atomically(folder->file(kResults[1]), summary), kFailed);
-  note("wrote %s\nwrote %s\n", folder->file(kResults[0]).c_str(), folder->file(kResults[1]).c_str());
+  refuse(write_card(*folder, card, summary), kFailed);
+  note("wrote %s\nwrote %s\n", folder->file(kCardFile).c_str(), folder->file(kSummary).c_str());
   return kDone;
 }
 

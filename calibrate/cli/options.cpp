@@ -8,6 +8,7 @@
 
 #include "calibrate/base/machine.h"
 #include "calibrate/base/text.h"
+#include "calibrate/cli/output_file.h"
 #include "calibrate/cli/terminal.h"
 
 namespace pastefit {
@@ -40,14 +41,6 @@ constexpr double kHour_s = 3600, kDay_s = 24 * kHour_s;
 // Measured of a mould of 287 grains: 160 kB a picture in blocks of 4 kB, half of it the links.
 constexpr double kBytesPerGrain = 500, kBytesPerPicture = 12e3;
 
-/// The folder itself, or the nearest above it that is there.
-fs::path nearest_folder(fs::path folder) {
-  std::error_code error;
-  folder = fs::absolute(folder, error);
-  while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
-  return folder;
-}
-
 }  // namespace
 
 CLI::Validator positive_number() {
@@ -77,7 +70,7 @@ Faults long_run_faults(const std::string& where, const std::string& work, double
 
 Faults picture_faults(const fs::path& folder, double pictures, double grains, bool force) {
   std::error_code error;
-  const auto space = fs::space(nearest_folder(folder), error);
+  const auto space = fs::space(nearest_there(folder), error);
   const double needed = pictures * (kBytesPerPicture + grains * kBytesPerGrain);
   if (error || force || needed <= static_cast<double>(space.available)) return {};
   return {{"--vtk",

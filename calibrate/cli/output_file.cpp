@@ -45,10 +45,16 @@ Faults output_faults(const std::string& option, const fs::path& file, bool force
   return is_stream(file) ? Faults{} : output_file_faults(option, file, force);
 }
 
+fs::path nearest_there(fs::path folder) {
+  std::error_code error;
+  folder = fs::absolute(folder, error);
+  while (!fs::exists(fs::symlink_status(folder, error)) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
 Faults output_folder_faults(const std::string& option, const fs::path& folder) {
   std::error_code error;
-  fs::path there = fs::absolute(folder, error);
-  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) there = there.parent_path();
+  const fs::path there = nearest_there(folder);
   const std::string where = option + " " + folder.string();
   if (!fs::is_directory(there, error))
     return {{where, there.string() + " is no folder", "choose a folder that can be made"}};

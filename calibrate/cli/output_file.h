@@ -25,6 +25,9 @@ Faults output_faults(const std::string& option, const std::filesystem::path& fil
 /// made.
 Faults output_folder_faults(const std::string& option, const std::filesystem::path& folder);
 
+/// The folder itself, absolute, or the nearest above it that is there.
+std::filesystem::path nearest_there(std::filesystem::path folder);
+
 /// Writes to a stream, or replaces the file (`write_atomically`).
 Faults write_output(const std::filesystem::path& file, std::string_view content);
 

@@ -150,19 +150,9 @@ std::string csv_of(const Curve& curve) {
 
 /// Says whether the step that the user has set is a stable one.
 void judge_step(double given_s, double advised_s) {
-  if (given_s <= advised_s)
-    note("pastefit: the time step %.3g s is within the advised %.3g s\n", given_s, advised_s);
-  else
-    note(
-        "pastefit: the time step %.3g s exceeds the advised %.3g s: the result may be wrong; leave --time-step out, or "
-        "give at most that\n",
-        given_s, advised_s);
-}
-
-void print_failure(const Failure& failure) {
-  std::fprintf(stderr, "pastefit: the simulation failed: %s in %s at %.4g s (step %lld): %s\n",
-               std::string(name_of(failure.reason)).c_str(), failure.phase.c_str(), failure.time_s,
-               static_cast<long long>(failure.step), failure.message.c_str());
+  const bool stable = given_s <= advised_s;
+  note("pastefit: the time step %.3g s %s the advised %.3g s%s\n", given_s, stable ? "is within" : "exceeds", advised_s,
+       stable ? "" : ": the result may be wrong; leave --time-step out, or give at most that");
 }
 
 /// One simulation, with what watches it and what is written of it.
@@ -241,7 +231,10 @@ class Simulation {
         note("pastefit: %s\n", remarks.c_str());
     if (options_.time_step_s) judge_step(*options_.time_step_s, outcome.run.advised_step_s);
     if (!outcome.failure) return kDone;
-    print_failure(*outcome.failure);
+    const Failure& failure = *outcome.failure;
+    std::fprintf(stderr, "pastefit: the simulation failed: %s in %s at %.4g s (step %lld): %s\n",
+                 std::string(name_of(failure.reason)).c_str(), failure.phase.c_str(), failure.time_s,
+                 static_cast<long long>(failure.step), failure.message.c_str());
     return kFailed;
   }
 

@@ -20,11 +20,6 @@ struct VerifyOptions {
   bool formulas = false;
 };
 
-void print_header() {
-  print("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance", "",
-        "at");
-}
-
 void print_row(const std::string& name, const CheckRow& row, std::size_t points) {
   std::string at = row.point;
   if (points > 1) at += " (worst of " + std::to_string(points) + ")";
@@ -40,7 +35,8 @@ void print_notes(const std::vector<CheckRow>& rows) {
 }
 
 void print_cases(const std::vector<VerifiedCase>& cases, bool every_point) {
-  print_header();
+  print("%-23s %-28s %14s %14s %9s %9s  %-5s %s\n", "case", "reading", "expected", "got", "error", "tolerance", "",
+        "at");
   for (const auto& [file, test, rows] : cases) {
     for (const CheckRow& row : every_point ? rows : worst_rows(rows))
       print_row(test.name, row, every_point ? 1 : test.points.size());

@@ -12,40 +12,59 @@
 
 namespace pastefit::python {
 
-AskedExamination::AskedExamination(const Answers& answers, const Calibration& found, int simulations)
-    : scoring_(answers.scoring()),
-      queue_(scoring_, simulations, {}),
-      examination_([&answers](std::span<const Response> history) { return answers.evidence(history); }, found,
-                   std::min(answers.options().examination_simulations, queue_.budget_left()), answers.options().seed) {
-  queue_.enter("examination");
-  advance();
-}
-
-void AskedExamination::ingest(const CandidateResult& result) {
-  queue_.ingest({&result, 1});
-  advance();
-}
-
-void AskedExamination::stop() {
-  queue_.stop();
-  advance();
-}
-
-void AskedExamination::advance() {
-  while (!finished_ && queue_.is_answered(awaited_)) {
-    std::vector<Response> responses;
-    for (const Evaluation& one : queue_.answers(std::exchange(awaited_, {})))
-      responses.push_back(scoring_.response_of({one}));
-    examination_.ingest(std::move(responses));
-    const auto request = examination_.next(queue_.stop_requested() ? 0 : queue_.budget_left());
-    if (request)
-      awaited_ = queue_.ask(request->points, {&request->packing, 1}, Fidelity::fine, false);
-    else
-      finished_ = true;
-  }
-}
-
 using nlohmann::ordered_json;
+
+/// An `Examination` whose simulations run in another engine: its candidates are suggested and answered as those of a
+/// search are.
+class AskedExamination {
+ public:
+  /// Requirements: those of `Examination`; answers and calibration outlive it.
+  AskedExamination(const Answers& answers, const Calibration& found, int simulations)
+      : scoring_(answers.scoring()),
+        queue_(scoring_, simulations, {}),
+        examination_([&answers](std::span<const Response> history) { return answers.evidence(history); }, found,
+                     std::min(answers.options().examination_simulations, queue_.budget_left()),
+                     answers.options().seed) {
+    queue_.enter("examination");
+    advance();
+  }
+
+  std::vector<Candidate> suggest(std::size_t count) { return queue_.suggest(count); }
+  void ingest(const CandidateResult& result) {
+    queue_.ingest({&result, 1});
+    advance();
+  }
+
+  void stop() {
+    queue_.stop();
+    advance();
+  }
+
+  bool finished() const { return finished_; }
+  /// Requirement: it has finished.
+  std::optional<Inference> inference() const { return examination_.result(); }
+
+ private:
+  void advance() {
+    while (!finished_ && queue_.is_answered(awaited_)) {
+      std::vector<Response> responses;
+      for (const Evaluation& one : queue_.answers(std::exchange(awaited_, {})))
+        responses.push_back(scoring_.response_of({one}));
+      examination_.ingest(std::move(responses));
+      const auto request = examination_.next(queue_.stop_requested() ? 0 : queue_.budget_left());
+      if (request)
+        awaited_ = queue_.ask(request->points, {&request->packing, 1}, Fidelity::fine, false);
+      else
+        finished_ = true;
+    }
+  }
+
+  const Scoring& scoring_;
+  CandidateQueue queue_;
+  Examination examination_;
+  std::vector<std::size_t> awaited_;  // candidates, by their numbers
+  bool finished_ = false;
+};
 
 AskedSearch::AskedSearch(std::unique_ptr<Answers> answers) : answers_(std::move(answers)) {
   SearchStart start;
@@ -61,6 +80,8 @@ AskedSearch::AskedSearch(std::unique_ptr<Answers> answers) : answers_(std::move(
   };
   search_ = std::make_unique<Search>(answers_->scoring(), answers_->options(), std::move(start), keep);
 }
+
+AskedSearch::~AskedSearch() = default;
 
 Progress AskedSearch::progress(std::string& phase) const {
   const std::lock_guard lock(mutex_);

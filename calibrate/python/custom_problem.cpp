@@ -99,6 +99,116 @@ std::string key_of_candidate(const Candidate& candidate) {
        candidate.packing}}.dump());
 }
 
+/// A candidate that failed is off by the measured value, or ten standard deviations if that is more.
+class ProblemScoring : public ReadingScoring {
+ public:
+  using ReadingScoring::ReadingScoring;
+  int simulations_each() const override { return 1; }
+
+ protected:
+  double largest_error(const StudyReading& reading) const override {
+    return std::max(std::abs(reading.measurement.value), 10 * reading.measurement.standard_deviation);
+  }
+};
+
+/// The answers to a problem.
+class ProblemAnswers : public Answers {
+ public:
+  ProblemAnswers(CustomProblem problem, Store store)
+      : Answers(problem.parameters, problem.readings),
+        problem_(std::move(problem)),
+        store_(std::move(store)),
+        scoring_(problem_.readings, problem_.parameters) {}
+
+  const Scoring& scoring() const override { return scoring_; }
+  const SearchOptions& options() const override { return problem_.search; }
+  std::optional<Card> card(const Calibration&, const EvaluationCounts&) const override { return std::nullopt; }
+
+  std::optional<Evaluation> find(const Candidate& candidate) const override {
+    const auto kept = store_.find(key_of_candidate(candidate));
+    return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
+  }
+
+  Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) override {
+    StoredEvaluation kept;
+    kept.key = key_of_candidate(candidate);
+    kept.point.assign(candidate.point.begin(), candidate.point.end());
+    kept.values = default_values();
+    kept.packing = candidate.packing;
+    kept.failure = failure_of(answer);
+    if (!kept.failure)
+      for (const std::string& name : readings()) kept.readings.set(name, answer.readings.find(name).value());
+    if (auto faults = store_.add(kept); !faults.empty()) return faults;
+    return evaluation_of(kept);
+  }
+
+  TrainingData evidence(std::span<const Response> history) const override {
+    TrainingData data;
+    data.parameters = problem_.parameters;
+    std::vector<const Evaluation*> good;
+    std::set<std::pair<std::vector<double>, std::uint64_t>> seen;
+    for (const Response& response : history)
+      for (const Evaluation& one : response.evaluations) {
+        const bool cut_off = one.failure && one.failure->reason == FailureReason::stopped;
+        if (cut_off || !seen.insert({{one.point.begin(), one.point.end()}, one.packing}).second) continue;
+        (one.failure ? data.failed : data.points).push_back(one.point);
+        if (!one.failure) good.push_back(&one);
+      }
+    for (std::size_t k = 0; k < problem_.readings.size(); ++k) {
+      const StudyReading& reading = problem_.readings[k];
+      ReadingTrainingData one;
+      one.name = reading.name;
+      one.measured = reading.measurement.value;
+      one.deviation = reading.measurement.standard_deviation;
+      one.repeats = reading.measurement.repeats;
+      one.widening = widening(one.repeats);
+      one.weight = reading.weight;
+      one.simulated.resize(static_cast<Eigen::Index>(good.size()));
+      for (std::size_t i = 0; i < good.size(); ++i) one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings[k];
+      data.readings.push_back(std::move(one));
+    }
+    return data;
+  }
+
+  nlohmann::ordered_json evaluations() const override {
+    auto out = nlohmann::ordered_json::array();
+    for (const StoredEvaluation& one : store_.all()) {
+      if (!is_answer(one)) continue;
+      nlohmann::ordered_json parameters;
+      for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
+        parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
+      out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
+    }
+    return out;
+  }
+
+ private:
+  /// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
+  bool is_answer(const StoredEvaluation& kept) const {
+    const auto is_there = [&](const StudyReading& reading) {
+      return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
+    };
+    return kept.point.size() == problem_.parameters.size() &&
+           (kept.failure || std::ranges::all_of(problem_.readings, is_there));
+  }
+
+  Evaluation evaluation_of(const StoredEvaluation& kept) const {
+    Evaluation evaluation;
+    evaluation.point =
+        Eigen::Map<const Eigen::VectorXd>(kept.point.data(), static_cast<Eigen::Index>(kept.point.size()));
+    evaluation.packing = kept.packing;
+    evaluation.failure = kept.failure;
+    if (!kept.failure)
+      for (const StudyReading& reading : problem_.readings)
+        evaluation.readings.push_back(kept.readings.find(reading.name).value());
+    return evaluation;
+  }
+
+  const CustomProblem problem_;
+  Store store_;
+  const ProblemScoring scoring_;
+};
+
 }  // namespace
 
 Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own) {
@@ -119,8 +229,8 @@ Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::spa
   return problem;
 }
 
-Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, const std::string& file,
-                                                      const std::string& engine) {
+Result<std::unique_ptr<Answers>> answers_to_problem(CustomProblem problem, const std::string& file,
+                                                    const std::string& engine) {
   json inputs = json::parse(problem.content);
   inputs.erase("title");
   if (inputs.contains("search")) inputs["search"].erase("budget_simulations");
@@ -128,95 +238,7 @@ Result<std::unique_ptr<Answers>> ProblemAnswers::open(CustomProblem problem, con
   if (!store.ok()) return store.faults();
   if (store.value().size() > 0 && !store.value().changes().empty())
     return Fault{file, "holds the answers of another problem", "another file; nothing of it was changed"};
-  return std::unique_ptr<Answers>(new ProblemAnswers(std::move(problem), std::move(store).value()));
-}
-
-ProblemAnswers::ProblemAnswers(CustomProblem problem, Store store)
-    : Answers(problem.parameters, problem.readings),
-      problem_(std::move(problem)),
-      store_(std::move(store)),
-      scoring_(problem_.readings, problem_.parameters) {}
-
-/// Whether it has a coordinate for each parameter, and a number for each reading unless it failed.
-bool ProblemAnswers::is_answer(const StoredEvaluation& kept) const {
-  const auto is_there = [&](const StudyReading& reading) {
-    return std::isfinite(kept.readings.find(reading.name).value_or(std::nan("")));
-  };
-  return kept.point.size() == problem_.parameters.size() &&
-         (kept.failure || std::ranges::all_of(problem_.readings, is_there));
-}
-
-Evaluation ProblemAnswers::evaluation_of(const StoredEvaluation& kept) const {
-  Evaluation evaluation;
-  evaluation.point = Eigen::Map<const Eigen::VectorXd>(kept.point.data(), static_cast<Eigen::Index>(kept.point.size()));
-  evaluation.packing = kept.packing;
-  evaluation.failure = kept.failure;
-  if (!kept.failure)
-    for (const StudyReading& reading : problem_.readings)
-      evaluation.readings.push_back(kept.readings.find(reading.name).value());
-  return evaluation;
-}
-
-std::optional<Evaluation> ProblemAnswers::find(const Candidate& candidate) const {
-  const auto kept = store_.find(key_of_candidate(candidate));
-  return kept && is_answer(*kept) ? std::optional(evaluation_of(*kept)) : std::nullopt;
-}
-
-Result<Evaluation> ProblemAnswers::keep(const Candidate& candidate, const EngineAnswer& answer) {
-  StoredEvaluation kept;
-  kept.key = key_of_candidate(candidate);
-  kept.point.assign(candidate.point.begin(), candidate.point.end());
-  kept.values = default_values();
-  kept.packing = candidate.packing;
-  kept.failure = failure_of(answer);
-  if (!kept.failure)
-    for (const std::string& name : readings()) kept.readings.set(name, answer.readings.find(name).value());
-  if (auto faults = store_.add(kept); !faults.empty()) return faults;
-  return evaluation_of(kept);
-}
-
-TrainingData ProblemAnswers::evidence(std::span<const Response> history) const {
-  TrainingData data;
-  data.parameters = problem_.parameters;
-  std::vector<const Evaluation*> good;
-  std::set<std::pair<std::vector<double>, std::uint64_t>> seen;
-  for (const Response& response : history)
-    for (const Evaluation& one : response.evaluations) {
-      const bool cut_off = one.failure && one.failure->reason == FailureReason::stopped;
-      if (cut_off || !seen.insert({{one.point.begin(), one.point.end()}, one.packing}).second) continue;
-      (one.failure ? data.failed : data.points).push_back(one.point);
-      if (!one.failure) good.push_back(&one);
-    }
-  for (std::size_t k = 0; k < problem_.readings.size(); ++k) {
-    const StudyReading& reading = problem_.readings[k];
-    ReadingTrainingData one;
-    one.name = reading.name;
-    one.measured = reading.measurement.value;
-    one.deviation = reading.measurement.standard_deviation;
-    one.repeats = reading.measurement.repeats;
-    one.widening = widening(one.repeats);
-    one.weight = reading.weight;
-    one.simulated.resize(static_cast<Eigen::Index>(good.size()));
-    for (std::size_t i = 0; i < good.size(); ++i) one.simulated[static_cast<Eigen::Index>(i)] = good[i]->readings[k];
-    data.readings.push_back(std::move(one));
-  }
-  return data;
-}
-
-nlohmann::ordered_json ProblemAnswers::evaluations() const {
-  auto out = nlohmann::ordered_json::array();
-  for (const StoredEvaluation& one : store_.all()) {
-    if (!is_answer(one)) continue;
-    nlohmann::ordered_json parameters;
-    for (std::size_t i = 0; i < problem_.parameters.size(); ++i)
-      parameters[problem_.parameters[i].name] = value_between(problem_.parameters[i], one.point.at(i));
-    out.push_back(evaluation_json(out.size(), one, std::move(parameters)));
-  }
-  return out;
-}
-
-double ProblemAnswers::ProblemScoring::largest_error(const StudyReading& reading) const {
-  return std::max(std::abs(reading.measurement.value), 10 * reading.measurement.standard_deviation);
+  return std::unique_ptr<Answers>(std::make_unique<ProblemAnswers>(std::move(problem), std::move(store).value()));
 }
 
 }  // namespace pastefit::python

@@ -30,39 +30,9 @@ struct CustomProblem {
 /// Errors: every fault, each with its place; a name that candidates, answers or evaluations have themselves (`own`).
 Result<CustomProblem> problem_from_json(const nlohmann::json& document, std::span<const std::string> own);
 
-/// The answers to a problem, in a store.
-class ProblemAnswers : public Answers {
- public:
-  /// Errors: those of `Store::open`; the file holds answers to another problem.
-  static Result<std::unique_ptr<Answers>> open(CustomProblem problem, const std::string& file,
-                                               const std::string& engine);
-
-  const Scoring& scoring() const override { return scoring_; }
-  const SearchOptions& options() const override { return problem_.search; }
-  std::optional<Evaluation> find(const Candidate& candidate) const override;
-  Result<Evaluation> keep(const Candidate& candidate, const EngineAnswer& answer) override;
-  TrainingData evidence(std::span<const Response> history) const override;
-  std::optional<Card> card(const Calibration&, const EvaluationCounts&) const override { return std::nullopt; }
-  nlohmann::ordered_json evaluations() const override;
-
- private:
-  /// A candidate that failed is off by the measured value, or ten standard deviations if that is more.
-  class ProblemScoring : public ReadingScoring {
-   public:
-    using ReadingScoring::ReadingScoring;
-    int simulations_each() const override { return 1; }
-
-   protected:
-    double largest_error(const StudyReading& reading) const override;
-  };
-
-  ProblemAnswers(CustomProblem problem, Store store);
-  bool is_answer(const StoredEvaluation& kept) const;
-  Evaluation evaluation_of(const StoredEvaluation& kept) const;
-
-  const CustomProblem problem_;
-  Store store_;
-  const ProblemScoring scoring_;
-};
+/// The answers to a problem, in the store of this file. Errors: those of `Store::open`; the file holds answers to
+/// another problem.
+Result<std::unique_ptr<Answers>> answers_to_problem(CustomProblem problem, const std::string& file,
+                                                    const std::string& engine);
 
 }  // namespace pastefit::python

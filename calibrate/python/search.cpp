@@ -63,11 +63,11 @@ void add_search(py::module_& module) {
                   [](std::shared_ptr<Study> study, const std::string& study_file, const std::string& file,
                      const std::string& engine) {
                     return std::make_shared<AskedSearch>(
-                        value_or_throw(StudyAnswers::open(std::move(study), study_file, file, engine)));
+                        value_or_throw(answers_to_study(std::move(study), study_file, file, engine)));
                   })
       .def_static("of_problem",
                   [](const CustomProblem& problem, const std::string& file, const std::string& engine) {
-                    return std::make_shared<AskedSearch>(value_or_throw(ProblemAnswers::open(problem, file, engine)));
+                    return std::make_shared<AskedSearch>(value_or_throw(answers_to_problem(problem, file, engine)));
                   })
       .def(
           "suggest",

@@ -1,4 +1,3 @@
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,24 +22,25 @@ class Packings {
  public:
   std::shared_ptr<const Packing> of(const std::string& name, const Test& test) {
     constexpr std::size_t kMost = 64;
-    std::promise<std::shared_ptr<const Packing>> promise;
-    std::shared_future<std::shared_ptr<const Packing>> filled;
-    bool ours = false;
+    std::shared_ptr<Filled> one;
     {
       const std::lock_guard lock(mutex_);
       if (filled_.size() >= kMost && !filled_.contains(name)) filled_.clear();
-      const auto [entry, added] = filled_.try_emplace(name);
-      if (added) entry->second = promise.get_future().share();
-      filled = entry->second;
-      ours = added;
+      std::shared_ptr<Filled>& entry = filled_[name];
+      if (!entry) entry = std::make_shared<Filled>();
+      one = entry;
     }
-    if (ours) promise.set_value(prepare(test));
-    return filled.get();
+    std::call_once(one->once, [&] { one->packing = prepare(test); });
+    return one->packing;
   }
 
  private:
+  struct Filled {
+    std::once_flag once;
+    std::shared_ptr<const Packing> packing;
+  };
   std::mutex mutex_;
-  std::map<std::string, std::shared_future<std::shared_ptr<const Packing>>> filled_;
+  std::map<std::string, std::shared_ptr<Filled>> filled_;
 };
 
 std::string simulate_task(const std::string& text) {

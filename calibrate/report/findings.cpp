@@ -108,12 +108,6 @@ Findings findings_without_card(const Study& study, const Store& store) {
   return findings;
 }
 
-Findings findings_under_way(const Study& study, const Store& store) {
-  Findings findings = findings_without_card(study, store);
-  findings.under_way = true;
-  return findings;
-}
-
 Findings findings_of(const Card& card, const Store& store, const std::optional<Inference>& inference) {
   Findings findings;
   take_card(card, findings);

@@ -26,10 +26,7 @@ struct Findings {
   std::vector<std::string> missing;           ///< what is not there, or not whole: a sentence each
 };
 
-/// What a calibration has found so far that goes on.
-Findings findings_under_way(const Study& study, const Store& store);
-
-/// What a calibration leaves that ends without an answer.
+/// What a calibration has found so far, or leaves if it ends without an answer.
 Findings findings_without_card(const Study& study, const Store& store);
 
 /// What a calibration has found that ends now. `inference`: what it made of its simulations; none: it is made here.

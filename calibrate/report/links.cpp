@@ -26,57 +26,37 @@ double force_of(const World& world, double effective_radius, double overlap, boo
   return normal_force - pair.cohesion * scale * scale;
 }
 
-class LinkFinder {
- public:
-  explicit LinkFinder(const World& world)
-      : world_(world),
-        reaches_(with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; })),
-        yields_(with_law(NormalLaws{}, world.normal, [](auto law) { return law.yields; })) {}
+}  // namespace
 
-  void add_contacts(const ContactList& contacts) {
-    for (std::int32_t k = 0; k < contacts.count; ++k) add(contacts.first(k), contacts.second(k), contacts.contact(k));
-  }
-
-  void add_bridges(const BridgeList& bridges) {
-    for (std::int32_t k = 0; k < bridges.count; ++k) {
-      const BridgeBatch& batch = bridges.batches[k / kBatch];
-      Contact bridge;
-      bridge.bond = bridges.bond(k);
-      add(batch.i[k % kBatch], batch.j[k % kBatch], bridge);
-    }
-  }
-
-  std::vector<Link> take() { return std::move(links_); }
-
- private:
-  /// Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
-  void add(std::int32_t i, std::int32_t j, const Contact& memory) {
-    const auto& grains = world_.particles;
+std::vector<Link> links_of(const World& world) {
+  const Particles& grains = world.particles;
+  const bool reaches =
+      with_law(NormalLaws{}, acting(world.normal, world.grain_pair), [](auto law) { return law.reaches; });
+  const bool yields = with_law(NormalLaws{}, world.normal, [](auto law) { return law.yields; });
+  std::vector<Link> links;
+  // Pairs that lie apart may remember a contact of some steps ago: only a law that reaches beyond touch asks for it.
+  const auto add = [&](std::int32_t i, std::int32_t j, const Contact& memory) {
     if (i >= grains.count() || j >= grains.count()) return;  // padding
     const Motion &one = grains.motion[i], &other = grains.motion[j];
     const double overlap = one.radius + other.radius - norm(one.position - other.position);
     const double effective_radius = one.radius * other.radius / (one.radius + other.radius);
-    const double pull_off_gap = world_.grain_pair.pull_off_gap * world_.grain_pair.size_per_radius * effective_radius;
-    const bool touching = overlap > 0 || (reaches_ && memory.sqrt_contact_radius > 0 && overlap > -pull_off_gap);
+    const double pull_off_gap = world.grain_pair.pull_off_gap * world.grain_pair.size_per_radius * effective_radius;
+    const bool touching = overlap > 0 || (reaches && memory.sqrt_contact_radius > 0 && overlap > -pull_off_gap);
     if (!touching && !(memory.bond > 0)) return;
-    const double remembered = yields_ ? memory.bond : memory.sqrt_contact_radius;
-    links_.push_back({i, j, touching, overlap, force_of(world_, effective_radius, overlap, touching, remembered)});
-  }
-
-  const World& world_;
-  const bool reaches_, yields_;
-  std::vector<Link> links_;
-};
-
-}  // namespace
-
-std::vector<Link> links_of(const World& world) {
-  LinkFinder finder(world);
+    const double remembered = yields ? memory.bond : memory.sqrt_contact_radius;
+    links.push_back({i, j, touching, overlap, force_of(world, effective_radius, overlap, touching, remembered)});
+  };
   for (const Block& block : world.pairs.blocks) {
-    finder.add_contacts(block.contacts);
-    finder.add_bridges(block.bridges);
+    const ContactList& contacts = block.contacts;
+    for (std::int32_t k = 0; k < contacts.count; ++k) add(contacts.first(k), contacts.second(k), contacts.contact(k));
+    for (std::int32_t k = 0; k < block.bridges.count; ++k) {
+      const BridgeBatch& batch = block.bridges.batches[k / kBatch];
+      Contact bridge;
+      bridge.bond = block.bridges.bond(k);
+      add(batch.i[k % kBatch], batch.j[k % kBatch], bridge);
+    }
   }
-  return finder.take();
+  return links;
 }
 
 std::vector<std::uint8_t> coordination_of(std::span<const Link> links, std::int32_t grains) {

@@ -88,7 +88,9 @@ Faults look_at_tests(Findings& findings, const std::filesystem::path& folder, co
 void LivePage::show(const Study& study, const Store& store) {
   constexpr std::chrono::seconds kInterval{15};
   if (std::chrono::steady_clock::now() < next_) return;
-  (void)write_page(folder_, findings_under_way(study, store));
+  Findings findings = findings_without_card(study, store);
+  findings.under_way = true;
+  (void)write_page(folder_, findings);
   next_ = std::chrono::steady_clock::now() + kInterval;
 }
 

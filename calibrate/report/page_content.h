@@ -9,7 +9,7 @@
 
 namespace pastefit {
 
-/// All that the page says, but the grains of its films (`recording_bytes`), as the page's program reads it
+/// All that the page says, but the grains of its films (`CodedRecording`), as the page's program reads it
 /// (calibrate/report/page/content.js). What findings lack is null or empty; `missing` says why.
 /// `command`: what makes the page again, for people.
 nlohmann::ordered_json page_content(const Findings& findings, const std::string& command);
