@@ -20,12 +20,12 @@ FILES = sorted(file for part in ("core", "calibrate") for file in (SOURCE / part
 # the laws and words that its parameters have. A new kind of test needs no entry here but for decks of its own,
 # and for a sheet that `pastefit new` asks for; `Packing` is declared there, too.
 SLUMP_FILES = {
-    "laboratory/heap_shape.cpp", "laboratory/heap_shape.h", "laboratory/reading_words.cpp", "laboratory/repose_template.cpp", "laboratory/slump.cpp",
-    "laboratory/slump.h", "laboratory/slump_curves.cpp", "laboratory/slump_drawing.cpp", "laboratory/slump_template.cpp", "laboratory/test.cpp",
+    "laboratory/heap_shape.cpp", "laboratory/heap_shape.h", "laboratory/reading_words.cpp", "laboratory/slump.cpp",
+    "laboratory/slump.h", "laboratory/slump_curves.cpp", "laboratory/slump_drawing.cpp", "laboratory/test.cpp",
     "laboratory/test.h", "laboratory/yield_stress.cpp", "laboratory/yield_stress.h",
-    "exports/edem_notes.cpp", "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
+    "exports/export.cpp", "exports/export.h", "exports/heap_dump.cpp", "exports/lammps.cpp",
     "exports/lammps_deck.cpp", "exports/lammps_deck.h", "exports/liggghts.cpp", "exports/liggghts_deck.cpp",
-    "exports/liggghts_deck.h", "exports/elasto_plastic.cpp", "exports/mercurydpm.cpp",
+    "exports/liggghts_deck.h", "exports/elasto_plastic.cpp",
     "exports/parameter_table.cpp", "exports/yade.cpp",
     "python/tasks.cpp", "study/parameters.cpp", "study/sheet_columns.cpp", "study/sheet_columns.h", "study/sheet_table.cpp", "study/sheet_table.h", "study/slump_lab_template.cpp",
     "study/slump_sheet.cpp", "study/slump_study.cpp", "study/slump_sheet.h", "cli/new_command.cpp", "cli/template_command.cpp",

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
@@ -28,7 +29,7 @@ std::string rolling_in_edem(const ContactModel& contact) {
 
 /// `surface_energy` is that of two grains.
 std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
-  std::string out = "3. Walls:\n";
+  std::string out;
   for (const auto& [name, wall] : walls_of(scene.test))
     out += format(
         "   %s: shear modulus %.6g MPa, Poisson's ratio %.6g, restitution %.6g, static friction %.6g,\n"
@@ -38,18 +39,13 @@ std::string walls_in_edem(const ExportScene& scene, double surface_energy) {
   return out;
 }
 
-constexpr const char* kEdemEnd =
-    "Grains: grains.csv, if there is one, is a filled mould at rest; import it as particle positions.\n"
-    "Nothing of this has been run in EDEM: pastefit's tests have no licence for it.\n";
-
 std::string jkr_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
-  return "\nHow to use this in EDEM\n1. Base model Hertz-Mindlin with JKR: " + grains_in_edem(contact) +
-         format(
-             ", surface energy %.6g J/m2.\n   EDEM's JKR is this law; it lets go a third of a percent of the distance "
-             "sooner.\n",
-             contact.surface_energy_j_m2) +
-         rolling_in_edem(contact) + walls_in_edem(scene, contact.surface_energy_j_m2) + kEdemEnd;
+  return filled_in("exports/texts/edem_jkr.txt", {{"laws", laws_in_words(scene)},
+                                                  {"grains", grains_in_edem(contact)},
+                                                  {"energy", format("%.6g", contact.surface_energy_j_m2)},
+                                                  {"rolling", rolling_in_edem(contact)},
+                                                  {"walls", walls_in_edem(scene, contact.surface_energy_j_m2)}});
 }
 
 /// EEPA's own numbers of two grains, or of a wall with a share of their attraction. A pull-off is added to the force.
@@ -63,24 +59,21 @@ std::string eepa_numbers(const ContactModel& contact, double energy, double pull
 std::string eepa_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const double energy = eepa_surface_energy(scene), pull_off = cohesion_n(contact, scene.mean_pair());
-  std::string out =
-      "\nHow to use this in EDEM\n1. Base model Edinburgh Elasto-Plastic Adhesion (EEPA): " + grains_in_edem(contact) +
-      ";\n   " + eepa_numbers(contact, energy, pull_off, 1) + ".\n" + rolling_in_edem(contact) +
-      walls_in_edem(scene, energy);
+  std::string wall_numbers;
   for (const auto& [name, wall] : walls_of(scene.test))
-    out += "   " + name + ": " + eepa_numbers(contact, energy, pull_off, wall.cohesion_factor) + ".\n";
-  return out +
-         "4. Let two grains press on each other and part before you trust the signs: some versions take the pull-off\n"
-         "   force as a negative number. The tangential stiffness is the card's, 8 G* sqrt(R* d), with the multiplier "
-         "1\n"
-         "   if the version's formula is that.\n" +
-         kEdemEnd;
+    wall_numbers += "   " + name + ": " + eepa_numbers(contact, energy, pull_off, wall.cohesion_factor) + ".\n";
+  return filled_in("exports/texts/edem_eepa.txt", {{"laws", laws_in_words(scene)},
+                                                   {"grains", grains_in_edem(contact)},
+                                                   {"numbers", eepa_numbers(contact, energy, pull_off, 1)},
+                                                   {"rolling", rolling_in_edem(contact)},
+                                                   {"walls", walls_in_edem(scene, energy)},
+                                                   {"wall_numbers", wall_numbers}});
 }
 
 Export eepa_notes(const ExportScene& scene) {
   const double radius = scene.radius_m(), overlap = matched_overlap_ratio(scene) * 0.5 * radius;
   return {
-      law_files(scene, {{"edem.txt", laws_in_words(scene) + eepa_instructions(scene)}}),
+      law_files(scene, {{"edem.txt", eepa_instructions(scene)}}),
       {"Exponents, modulus, plasticity ratio and constant pull-off force are the card's.",
        format(
            "The adhesion ratio has no counterpart in the dialogue. EDEM's EEPA takes the pull-off of a contact from a "
@@ -102,21 +95,17 @@ std::string bridge_instructions(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
   const double touch = attraction_n(contact, scene.mean_pair(), 0);
   const double energy = jkr_energy_of_touch(touch, scene.radius_m());
-  std::string out = "\nHow to use this in EDEM\n1. Base model Hertz-Mindlin (no slip): " + grains_in_edem(contact) +
-                    ".\n   EDEM's damping is the same function of the restitution.\n" + rolling_in_edem(contact) +
-                    walls_in_edem(scene, energy);
+  std::string attraction;
   if (touch > 0)
-    out += format(
-               "4. The attraction: EDEM has no such bridge. force.csv is the curve; a physics plug-in (API contact\n"
-               "   model) that interpolates it, scaled by s for other pairs of sizes, carries the law. Its contact\n"
-               "   radius has to exceed the radius of the grains by %.6g mm, half of the rupture gap.\n",
-               500 * bridge_gaps(contact, scene.mean_pair()).rupture_m) +
-           format(
-               "   Without a plug-in, the nearest built-in model is Hertz-Mindlin with JKR with a surface energy of\n"
-               "   %.6g J/m2, which attracts two grains at touch by the same force, %.6g N. It has no attraction\n"
-               "   across a gap before touch: run a test before you trust it.\n",
-               energy, touch);
-  return out + kEdemEnd;
+    attraction = filled_in("exports/texts/edem_attraction.txt",
+                           {{"half_gap", format("%.6g", 500 * bridge_gaps(contact, scene.mean_pair()).rupture_m)},
+                            {"energy", format("%.6g", energy)},
+                            {"touch", format("%.6g", touch)}});
+  return filled_in("exports/texts/edem_bridge.txt", {{"laws", laws_in_words(scene)},
+                                                     {"grains", grains_in_edem(contact)},
+                                                     {"rolling", rolling_in_edem(contact)},
+                                                     {"walls", walls_in_edem(scene, energy)},
+                                                     {"attraction", attraction}});
 }
 
 }  // namespace
@@ -129,12 +118,12 @@ Result<Export> export_edem_notes(const ExportScene& scene) {
   if (Faults faults = unknown_laws(contact, known); !faults.empty()) return faults;
   if (contact.normal == NormalLaw::epa) return eepa_notes(scene);
   if (sticks)
-    return Export{law_files(scene, {{"edem.txt", laws_in_words(scene) + jkr_instructions(scene)}}),
+    return Export{law_files(scene, {{"edem.txt", jkr_instructions(scene)}}),
                   {"EDEM's JKR lets go of grains at 0.917 of the contact radius at which pastefit's does, a third of a "
                    "percent sooner in distance.",
                    "Not run in EDEM."}};
   Export out{
-      law_files(scene, {{"edem.txt", laws_in_words(scene) + bridge_instructions(scene)}}),
+      law_files(scene, {{"edem.txt", bridge_instructions(scene)}}),
       {"EDEM has no bridge across a gap without a plug-in; its JKR attracts only after contact.", "Not run in EDEM."}};
   if (contact.bridge.shape != BridgeShape::none)
     out.own_law = R"("contact": {"normal": "jkr", "attraction": "none"}, with "adhesion_pa" free)";

@@ -3,34 +3,21 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "calibrate/base/machine.h"
-#include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/lammps_deck.h"
 #include "calibrate/exports/nearest_law.h"
-#include "calibrate/laboratory/names.h"
 
 namespace pastefit {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
-
-/// lmp_pastefit defines the variable (data/lammps/lmp_pastefit.cpp).
-const char* const kGuard = R"guard(if "! $(is_defined(variable,pastefit_style))" then &
-  "print 'This deck needs pair style pastefit: build style/ as NOTES.txt says, and run lmp_pastefit in place of lmp.'" &
-  "quit 2"
-if "${pastefit_style} != 2" then &
-  "print 'This deck was written for version 2 of pair style pastefit: build lmp_pastefit from the style/ beside it.'" &
-  "quit 2"
-)guard";
 
 const std::string kBuild =
     "style/ is LAMMPS with the card's laws. Build it once, with Debian's liblammps-dev:\n"
@@ -39,37 +26,6 @@ const std::string kBuild =
     ")\n"
     "    ./lmp_pastefit -in DECK                  or: mpirun -np 2 ./lmp_pastefit -in DECK, which is in.slump or\n"
     "    in.two_grains\n";
-
-/// What a card says of a law, as words of a command: " &" and each name with its value on a line of its own, or all on
-/// one line. Names inside of an object have its path.
-std::string words_of(const json& object, const char* between, const std::string& path = "") {
-  std::string out;
-  for (const auto& [name, value] : object.items()) {
-    if (value.is_object())
-      out += words_of(value, between, path + name + ".");
-    else if (!value.is_null())
-      out += between + path + name + " " + (value.is_string() ? value.get<std::string>() : exact(value.get<double>()));
-  }
-  return out;
-}
-
-constexpr const char* kOnALine = " &\n             ";
-
-std::string pair_style(const ExportScene& scene) {
-  json contact;
-  ObjectWriter writer(contact);
-  describe_contact(writer, scene.contact());
-  if (scene.contact().bridge.shape == BridgeShape::none) contact.erase("bridge");
-  return std::string("pair_style   pastefit") + kOnALine + "reference_radius_m " + exact(scene.radius_m()) +
-         words_of(contact, kOnALine) + "\npair_coeff   * *\n";
-}
-
-std::string wall_words(const WallContact& wall) {
-  json words;
-  ObjectWriter writer(words);
-  describe_wall(writer, wall);
-  return words_of(words, " ").substr(1);
-}
 
 /// LAMMPS of 2025 has the law, Debian's does not; not run by us.
 std::string note_of_granular(const ExportScene& scene) {
@@ -133,8 +89,6 @@ Result<Export> export_lammps(const ExportScene& scene) {
   if (Faults faults = unknown_laws(scene.contact(), known); !faults.empty()) return faults;
   auto style = lammps_style();
   if (!style.ok()) return style.faults();
-  LammpsLaws laws{kGuard, pair_style(scene), {}};
-  for (const auto& [name, wall] : walls_in_deck(scene)) laws.walls.push_back({name, wall_words(wall)});
   Export out;
   out.notes.push_back(
       "The laws are pastefit's own, memory and walls included. LAMMPS integrates them with steps of a tenth of "
@@ -150,7 +104,7 @@ Result<Export> export_lammps(const ExportScene& scene) {
                  test->drop->drops));
   }
   out.instructions = kBuild;
-  out.files = lammps_deck(scene, laws, out.notes, scene.packing.radii);
+  out.files = lammps_deck(scene, out.notes);
   for (auto& file : style.value()) out.files.push_back({"style/" + file.name, std::move(file.content)});
   if (scene.slump()) out.heap = "heap.dump";
   return out;

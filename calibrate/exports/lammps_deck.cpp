@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <locale>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
 
+#include "calibrate/base/embedded_text.h"
+#include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
+#include "calibrate/laboratory/names.h"
 #include "calibrate/store/program.h"
 #include "core/laws/constants.h"
 #include "core/laws/epa.h"
@@ -19,19 +23,8 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kRelaxDrag = 40;  // [1/s], as in our own relaxation of the fill
-constexpr double kRelaxTime = 0.25;
-constexpr double kRestTime = 4.0;
-constexpr double kFallTime = 2.0;     // [s] at most
+constexpr double kRelaxDrag = 40;     // [1/s], as in our own relaxation of the fill
 constexpr double kGroundDepth = 0.1;  // [m] below the table, as in our own test
-const std::string kRest = R"(
-# the heap comes to rest
-run          ${first}
-fix          over all halt 100 v_speed < 0.0005 error continue message no
-run          ${rest}
-unfix        over
-)";
-const std::string kDump = "id type x y z radius modify sort id format float %.9g\n";
 
 std::string header(const ExportScene& scene, const std::vector<std::string>& notes) {
   std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
@@ -42,49 +35,139 @@ std::string header(const ExportScene& scene, const std::vector<std::string>& not
          "ranks\n";
 }
 
-/// "fix ..." of a wall, whose law is the variable NAME_law.
-std::string wall_fix(const std::string& name) {
-  return "fix          " + name + " all wall/pastefit " + name + " ${" + name + "_law}\n";
+std::string full(double value) {
+  return format("%.17g", value);
 }
 
-std::string deck_begin(const char* comment) {
-  return std::string(comment) + R"(
-units        si
-atom_style   sphere
-boundary     f f f
-newton       off
-comm_modify  mode single vel yes
-)";
+std::string short_of(double value) {
+  return format("%.6g", value);
 }
 
-double grain_mass(const ExportScene& scene, double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * scene.grain_density_kg_m3;
+/// The walls of the test; of a slump test besides the ground, where grains land that flow over the table's edge.
+std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
+  auto walls = walls_of(scene.test);
+  if (!scene.slump()) return walls;
+  walls.push_back({"ground", scene.slump()->table_wall});
+  walls.back().contact.rolling_friction = 1;  // as in our own test
+  return walls;
 }
 
+/// The fixes of the walls, whose laws are the variables NAME_law.
+std::string wall_fixes(const ExportScene& scene, const std::string& before = "") {
+  std::string out;
+  for (const ExportWall& wall : walls_in_deck(scene))
+    out += before + "fix          " + wall.name + " all wall/pastefit " + wall.name + " ${" + wall.name + "_law}\n";
+  return out;
+}
+
+/// What a card says of a law, as words of a command: " &" and each name with its value on a line of its own, or all on
+/// one line. Names inside of an object have its path.
+std::string words_of(const nlohmann::json& object, const char* between, const std::string& path = "") {
+  std::string out;
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_object())
+      out += words_of(value, between, path + name + ".");
+    else if (!value.is_null())
+      out += between + path + name + " " + (value.is_string() ? value.get<std::string>() : exact(value.get<double>()));
+  }
+  return out;
+}
+
+std::string contact_words(const ContactModel& contact) {
+  nlohmann::json words;
+  ObjectWriter writer(words);
+  describe_contact(writer, contact);
+  if (contact.bridge.shape == BridgeShape::none) words.erase("bridge");
+  return words_of(words, " &\n             ");
+}
+
+std::string wall_laws(const ExportScene& scene) {
+  std::string out;
+  for (const ExportWall& wall : walls_in_deck(scene)) {
+    nlohmann::json words;
+    ObjectWriter writer(words);
+    describe_wall(writer, wall.contact);
+    out += "variable     " + wall.name + "_law string \"" + words_of(words, " ").substr(1) + "\"\n";
+  }
+  return out;
+}
+
+/// Of each size class, such that all grains slow down alike.
 std::string drag(const ExportScene& scene) {
   const auto& sizes = scene.sizes.radii_m;
-  std::string out = format("fix          drag all viscous %.10g", kRelaxDrag * grain_mass(scene, sizes[0]));
+  const double mass = 4.0 / 3.0 * std::numbers::pi * sizes[0] * sizes[0] * sizes[0] * scene.grain_density_kg_m3;
+  std::string out = format("%.10g", kRelaxDrag * mass);
   for (std::size_t i = 1; i < sizes.size(); ++i)
     out += format(" scale %zu %.10g", i + 1, std::pow(sizes[i] / sizes[0], 3));
-  return out + "\n";
+  return out;
 }
 
 /// Step 2. Turning up takes the way of our own test; then the plate falls by its own weight and that of the heap.
-std::string drop_deck(const DropPlate& drop) {
-  const double angle = std::asin(drop.lift_height_m / drop.length_m);
-  std::string out = "\n# step 2: the plate turns up about its hinge\nvariable     start equal $(time)\n";
-  out += format("variable     share equal (time-v_start)/%.17g\n", drop.lift_duration_s);
-  out += format("variable     tilt equal %.17g*v_share*v_share*(3-2*v_share)\n", -angle);
-  out += format("variable     raise equal floor(%.6g/dt)\nrun          ${raise}\n", drop.lift_duration_s);
-  out += format("variable     tilt equal %.17g\n", -angle) + kRest;
-  out += "\n# it falls, until it is level\n";
-  out += format("fix          plate all hinge/pastefit table mass_kg %.17g inertia_kg_m2 %.17g arm_m %.17g &\n",
-                drop.mass_kg, drop.mass_kg * drop.length_m * drop.length_m / 3, 0.5 * drop.length_m);
-  out += format("             x_m %.17g z_m 0 angle_rad %.17g\n", -0.5 * drop.length_m, -angle);
-  out += "variable     tilt equal f_plate\nfix          level all halt 1 v_tilt >= 0 error continue message no\n";
-  out += format("variable     fall equal ceil(%.6g/dt)\nrun          ${fall}\n", kFallTime);
-  out += "unfix        level\nvariable     tilt equal 0\nunfix        plate\n" + kRest;
-  return out + "write_dump   all custom heap2.dump " + kDump;
+std::string drop_of(const DropPlate& drop) {
+  return filled_in("exports/texts/lammps_drop.in", {{"duration", short_of(drop.lift_duration_s)},
+                                                    {"duration_exact", full(drop.lift_duration_s)},
+                                                    {"angle", full(-std::asin(drop.lift_height_m / drop.length_m))},
+                                                    {"mass", full(drop.mass_kg)},
+                                                    {"inertia", full(drop.mass_kg * drop.length_m * drop.length_m / 3)},
+                                                    {"arm", full(0.5 * drop.length_m)}});
+}
+
+/// material.inc: the laws alone, to be included once the grains are there, by the decks and by scripts of others.
+std::string material_file(const ExportScene& scene) {
+  return filled_in("exports/texts/lammps_material.in", {{"title", deck_comment(scene.title)},
+                                                        {"program", program_identity()},
+                                                        {"density", grain_density_in_words(scene)},
+                                                        {"radius", format("%.9g", scene.radius_m())},
+                                                        {"time_step", short_of(deck_time_step_s(scene))},
+                                                        {"walls", wall_fixes(scene, "#   ")},
+                                                        {"reference_radius", exact(scene.radius_m())},
+                                                        {"contact", contact_words(scene.contact())},
+                                                        {"wall_laws", wall_laws(scene)}});
+}
+
+/// The slump test: relax in the mould, lift, rest; and, where the card has a drop plate, step 2: turn the plate up,
+/// rest, let it fall, rest. Notes become comments.
+std::string slump_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
+  const SlumpTest& test = *scene.slump();
+  const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
+  const bool falls = test.drop && test.drop->motion == TableMotion::hinged;
+  return filled_in("exports/texts/lammps_slump.in",
+                   {{"header", header(scene, notes)},
+                    {"skin", short_of(0.15 * scene.sizes.radii_m[0])},
+                    {"time_step", short_of(deck_time_step_s(scene))},
+                    {"half", full(half)},
+                    {"middle", full(-0.5 * kGroundDepth)},
+                    {"tilt", falls ? "variable     tilt equal 0" : ""},
+                    {"turning", falls ? " rotate v_tilt " + full(-half) + " 0 0 0 1 0" : ""},
+                    {"ground", full(-kGroundDepth)},
+                    {"base_radius", full(test.mould.base_radius_m)},
+                    {"top_radius", full(test.mould.top_radius_m)},
+                    {"height", full(test.mould.height_m)},
+                    {"walls", wall_fixes(scene)},
+                    {"drag", drag(scene)},
+                    {"velocity", full(test.lift_velocity_m_s)},
+                    {"lift_time", short_of(1.2 * test.mould.height_m / test.lift_velocity_m_s)},
+                    {"drop", falls ? drop_of(*test.drop) : ""}});
+}
+
+std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
+  const double radius = scene.sizes.radii_m[0];
+  const auto legs = two_grain_legs(scene.contact(), radius);
+  std::string ways;
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    ways += filled_in("exports/texts/lammps_leg.in", {{"word", legs[i].word},
+                                                      {"steps", std::to_string(legs[i].steps)},
+                                                      {"number", std::to_string(i + 1)},
+                                                      {"way", full((legs[i].to_m - legs[i].from_m) / legs[i].steps)}});
+  return filled_in("exports/texts/lammps_two_grains.in", {{"header", header(scene, notes)},
+                                                          {"near", short_of(4 * radius)},
+                                                          {"far", short_of(8 * radius)},
+                                                          {"types", std::to_string(scene.sizes.radii_m.size())},
+                                                          {"first", full(legs[0].from_m)},
+                                                          {"diameter", full(2 * radius)},
+                                                          {"density", full(scene.grain_density_kg_m3)},
+                                                          {"skin", short_of(0.15 * radius)},
+                                                          {"legs", ways}});
 }
 
 }  // namespace
@@ -106,65 +189,6 @@ double deck_time_step_s(const ExportScene& scene) {
   return std::floor(step / digit) * digit;
 }
 
-std::string material_file(const ExportScene& scene, const LammpsLaws& laws) {
-  std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
-  out += "#\n# Names and numbers of the laws are those of the card; style/README.md explains them.\n#\n";
-  out += "# Include it where the grains are there (read_data, create_box), in a script with:\n";
-  out += "#   units si, atom_style sphere, newton off, comm_modify mode single vel yes\n";
-  out += "#   density of a grain " + grain_density_in_words(scene) +
-         format(",\n#   mean radius %.9g m, time steps of %.6g s at most\n", scene.radius_m(), deck_time_step_s(scene));
-  for (const auto& wall : laws.walls) out += "#   " + wall_fix(wall.name);
-  out += "\n" + laws.guard + laws.pairs;
-  for (const auto& wall : laws.walls) out += "variable     " + wall.name + "_law string \"" + wall.law + "\"\n";
-  return out;
-}
-
-std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes) {
-  const SlumpTest& test = *scene.slump();
-  const auto& mould = test.mould;
-  std::string out = header(scene, notes) + deck_begin("\n# the scene");
-  out += "processors   * * 1\nread_data    grains.data\ninclude      material.inc\n";
-  out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\ntimestep     %.6g\n",
-                0.15 * scene.sizes.radii_m[0], deck_time_step_s(scene));
-  out += format("fix          weight all gravity %.6g vector 0 0 -1\nfix          motion all nve/sphere\n", kGravity);
-  const double half = 0.5 * (test.drop ? test.drop->length_m : test.table_length_m);
-  const bool falls = test.drop && test.drop->motion == TableMotion::hinged;
-  if (falls) out += "variable     tilt equal 0\n";
-  out += format("region       table block %.17g %.17g %.17g %.17g %.17g 0 side out", -half, half, -half, half,
-                -0.5 * kGroundDepth);
-  out += falls ? format(" rotate v_tilt %.17g 0 0 0 1 0\n", -half) : "\n";
-  out += format("region       ground plane 0 0 %.17g 0 0 1\n", -kGroundDepth);
-  out += "variable     rise equal 0\n";
-  out += format("region       mould cone z 0 0 %.17g %.17g 0 %.17g open 1 open 2 move NULL NULL v_rise\n",
-                mould.base_radius_m, mould.top_radius_m, mould.height_m);
-  for (const auto& wall : laws.walls) out += wall_fix(wall.name);
-  out += "compute      top all reduce max z\n";
-  out += "variable     speed equal sqrt(2*ke/mass(all))   # root mean square [m/s]\n";
-  out += "thermo_style custom step time atoms ke c_top v_speed\nthermo       1000\n";
-  out += "thermo_modify norm no lost error\n\n";
-
-  out += "# the fill feels its attraction: relax in the mould, with drag\n";
-  out += drag(scene);
-  out += format("variable     relax equal ceil(%.6g/dt)\nrun          ${relax}\n", kRelaxTime);
-  out += "unfix        drag\nwrite_dump   all custom filled.dump " + kDump;
-
-  out += "\n# step 1: the mould rises at constant speed until it is above the heap\n";
-  out += "variable     start equal $(time)\n";
-  out += format("variable     rise equal %.17g*(time-v_start)\n", test.lift_velocity_m_s);
-  out += "variable     below equal c_top-v_rise\n";
-  out += "fix          over all halt 100 v_below < 0 error continue message no\n";
-  out += format("variable     lift equal ceil(%.6g/dt)\nrun          ${lift}\n",
-                1.2 * mould.height_m / test.lift_velocity_m_s);
-  out += "unfix        over\nunfix        mould\nregion       mould delete\n";
-
-  out += format("variable     rest equal ceil(%.6g/dt)\nvariable     first equal ceil(0.2/dt)\n", kRestTime);
-  out += kRest;
-  out += "write_dump   all custom heap.dump " + kDump;
-  if (falls) out += drop_deck(*test.drop);
-  out += "run          0 post no\nprint        \"highest grain centre $(c_top) m\"\n";
-  return out;
-}
-
 std::vector<std::string> lammps_dumps(const ExportScene& scene) {
   if (!scene.slump()) return {};
   std::vector<std::string> names{"filled.dump", "heap.dump"};
@@ -172,66 +196,30 @@ std::vector<std::string> lammps_dumps(const ExportScene& scene) {
   return names;
 }
 
-std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
-  const double radius = scene.sizes.radii_m[0];
-  const auto legs = two_grain_legs(scene.contact(), radius);
-  std::string out = header(scene, notes);
-  out += deck_begin(
-      "\n# force of two grains against their distance; prints \"apart r F\", then \"back r F\"; of a law\n"
-      "# with a memory of the overlap \"path r F\"");
-  out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g\n", -4 * radius, 8 * radius, -4 * radius,
-                4 * radius, -4 * radius, 4 * radius);
-  out += format("create_box   %zu box\ncreate_atoms 1 single 0 0 0\n", scene.sizes.radii_m.size());
-  out += format("create_atoms 1 single %.17g 0 0\n", legs[0].from_m);
-  out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
-                scene.grain_density_kg_m3);
-  out += "include      material.inc\n";
-  out += format("neighbor     %.6g bin\nneigh_modify delay 0 every 1 check yes\n", 0.15 * radius);
-  out += "fix          motion all nve/sphere\n";
-  out += "group        second id 2\ncompute      push second reduce sum fx\ncompute      at second reduce sum x\n";
-  out += "thermo_style custom step c_push c_at\n";
-  out += "variable     push equal c_push\nvariable     at equal c_at\n";
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    const Leg& leg = legs[i];
-    out += format("variable     n loop %d\nlabel        next_%zu\nrun          0 post no\n", leg.steps, i + 1);
-    out += format("print        \"%s $(v_at:%%.17g) $(v_push:%%.17g)\"\n", leg.word);
-    out += format("displace_atoms second move %.17g 0 0 units box\n", (leg.to_m - leg.from_m) / leg.steps);
-    out += format("next         n\njump         SELF next_%zu\n", i + 1);
-  }
-  return out;
-}
-
-std::vector<ExportWall> walls_in_deck(const ExportScene& scene) {
-  auto walls = walls_of(scene.test);
-  if (!scene.slump()) return walls;
-  walls.push_back({"ground", scene.slump()->table_wall});
-  walls.back().contact.rolling_friction = 1;  // as in our own test
-  return walls;
-}
-
-std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
-                                    const std::vector<std::string>& notes, std::span<const double> radii) {
-  const ExportFile material{"material.inc", material_file(scene, laws)};
+std::vector<ExportFile> lammps_deck(const ExportScene& scene, const std::vector<std::string>& notes) {
+  const ExportFile material{"material.inc", material_file(scene)};
   if (!scene.slump()) return {{"in.two_grains", two_grains_deck(scene, notes)}, material};
-  return {{kLammpsDeck, slump_deck(scene, laws, notes)},
+  const DataFile data{static_cast<int>(scene.sizes.radii_m.size()), true, -kGroundDepth, 2, " # sphere"};
+  return {{kLammpsDeck, slump_deck(scene, notes)},
           {"in.two_grains", two_grains_deck(scene, {})},
           material,
-          {"grains.data", grains_data(scene, radii)}};
+          {"grains.data", grains_data(scene, data)}};
 }
 
-std::string grains_data(const ExportScene& scene, std::span<const double> radii) {
+std::string grains_data(const ExportScene& scene, const DataFile& file) {
   const SlumpTest& test = *scene.slump();
-  const auto& grains = scene.packing.centres;
-  const double margin = 4 * std::ranges::max(radii);
+  const Packing& grains = scene.packing;
+  const double margin = 4 * std::ranges::max(grains.radii);
   const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
   std::string out = "grains of a filled mould, written by pastefit\n\n";
-  out += format("%zu atoms\n%zu atom types\n\n", grains.size(), scene.sizes.radii_m.size());
+  out += format("%zu atoms\n%d atom types\n\n", grains.centres.size(), file.types);
   out += format("%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n%.9g %.9g zlo zhi\n\n", -half, half, -half, half,
-                -kGroundDepth - margin, 2 * test.mould.height_m + margin);
-  out += "Atoms # sphere\n\n";
-  for (std::size_t i = 0; i < grains.size(); ++i)
-    out += format("%zu %d %.17g %.17g %.17g %.17g %.17g\n", i + 1, scene.sizes.class_of[i] + 1, 2 * radii[i],
-                  scene.grain_density_kg_m3, grains[i].x, grains[i].y, grains[i].z);
+                file.lowest_m - margin, file.mould_heights * test.mould.height_m + margin);
+  out += std::string("Atoms") + file.style + "\n\n";
+  for (std::size_t i = 0; i < grains.centres.size(); ++i)
+    out += format("%zu %d %.17g %.17g %.17g %.17g %.17g\n", i + 1, file.by_size ? scene.sizes.class_of[i] + 1 : 1,
+                  2 * grains.radii[i], scene.grain_density_kg_m3, grains.centres[i].x, grains.centres[i].y,
+                  grains.centres[i].z);
   return out;
 }
 

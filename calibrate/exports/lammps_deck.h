@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,20 +7,6 @@
 #include "calibrate/exports/export.h"
 
 namespace pastefit {
-
-/// The law of a wall, for the variable NAME_law of a material file.
-struct LammpsWall {
-  std::string name;  ///< of its region
-  std::string law;   ///< words of the fix
-};
-
-/// The contact laws of a scene in the words of pair style pastefit (data/lammps); everything else of a deck does not
-/// depend on them.
-struct LammpsLaws {
-  std::string guard;              ///< commands that stop a program which would misread the deck
-  std::string pairs;              ///< pair style and coefficients
-  std::vector<LammpsWall> walls;  ///< in the order of `walls_in_deck`
-};
 
 /// The sources of the style, with the headers of the engine's laws that it is made of: `lammps` of the data folders,
 /// and beside it, or where the sources lie, `core` and `calibrate`. Error: in none of them.
@@ -31,13 +16,6 @@ Result<std::vector<ExportFile>> lammps_style();
 /// Debian's liblammps-dev is installed.
 std::string lammps_style_build(const std::string& program);
 
-/// material.inc: the laws alone, to be included once the grains are there, by the decks and by scripts of others.
-std::string material_file(const ExportScene& scene, const LammpsLaws& laws);
-
-/// The slump test: relax in the mould, lift, rest; and, where the card has a drop plate, step 2: turn the plate up,
-/// rest, let it fall, rest. Notes become comments.
-std::string slump_deck(const ExportScene& scene, const LammpsLaws& laws, const std::vector<std::string>& notes);
-
 /// The file of the deck of the whole test.
 inline const std::string kLammpsDeck = "in.slump";
 
@@ -45,20 +23,23 @@ inline const std::string kLammpsDeck = "in.slump";
 /// such deck.
 std::vector<std::string> lammps_dumps(const ExportScene& scene);
 
-/// Two grains of the first class on their way (`two_grain_legs`): from an overlap to beyond rupture, and back. Prints
-/// "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each, repulsion positive; of elasto-plastic grains "path
-/// DISTANCE FORCE". Where there is no other deck it has the notes.
-std::string two_grains_deck(const ExportScene& scene, const std::vector<std::string>& notes);
+/// material.inc, in.two_grains and, of a slump test, in.slump and grains.data. The laws are in the words of pair style
+/// pastefit (data/lammps). in.two_grains takes two grains of the first class their way (`two_grain_legs`), from an
+/// overlap to beyond rupture, and back. It prints "apart DISTANCE FORCE", then "back DISTANCE FORCE" for each,
+/// repulsion positive; of elasto-plastic grains "path DISTANCE FORCE". Notes become comments of the first deck.
+std::vector<ExportFile> lammps_deck(const ExportScene& scene, const std::vector<std::string>& notes);
 
-/// material.inc, in.two_grains and, of a slump test, in.slump and grains.data with these radii.
-std::vector<ExportFile> lammps_deck(const ExportScene& scene, const LammpsLaws& laws,
-                                    const std::vector<std::string>& notes, std::span<const double> radii_m);
+/// How a program's `read_data` takes grains.
+struct DataFile {
+  int types = 1;
+  bool by_size = false;      ///< a grain has the type of its size class; else all have the first
+  double lowest_m = 0;       ///< of the box, which is wider by four of the largest radii
+  double mould_heights = 2;  ///< its top over that of the mould
+  const char* style = "";    ///< behind "Atoms"
+};
 
-/// The filled mould: id, type, diameter, density, position. Types are size classes; `radii_m` one for each grain.
-std::string grains_data(const ExportScene& scene, std::span<const double> radii_m);
-
-/// The walls of the test; of a slump test besides the ground, where grains land that flow over the table's edge.
-std::vector<ExportWall> walls_in_deck(const ExportScene& scene);
+/// The filled mould: id, type, diameter, density, position.
+std::string grains_data(const ExportScene& scene, const DataFile& file);
 
 /// Tenth of the Rayleigh time of the smallest grain [s], rounded down to two digits: pi R sqrt(rho/G)/(0.1631 nu +
 /// 0.8766). With a viscous bridge at most half of what its dampers are stable with, as those styles do not weaken them;

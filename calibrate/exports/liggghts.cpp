@@ -242,7 +242,7 @@ Result<Export> export_liggghts(const ExportScene& scene) {
   out.notes = liggghts_losses(scene, written);
   if (scene.slump())
     out.files = {{"in.slump", liggghts_slump(scene, written, models, out.notes)},
-                 {"grains.data", liggghts_data(scene)},
+                 {"grains.data", grains_data(scene, {.types = 3, .mould_heights = 2.5})},
                  {"mould.stl", mould_stl(scene.slump()->mould)}};
   out.files.push_back({"in.two_grains", liggghts_two_grains(scene, written, out.notes)});
   out.files.push_back({"material.inc", liggghts_material(scene, written, models)});

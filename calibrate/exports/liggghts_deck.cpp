@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/store/program.h"
@@ -65,33 +66,25 @@ std::string atom_modify(const ContactModel& contact) {
 std::string liggghts_slump(const ExportScene& scene, const Written& written, const Models& models,
                            const std::vector<std::string>& notes) {
   const SlumpTest& test = *scene.slump();
-  const double step = written.time_step_s;
-  const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / step)); };
-  std::string out = liggghts_begin(scene, "the slump test, step 1", notes);
-  out += yields(scene.contact().normal) ? "# liggghts -in in.slump, on one process\n"
-                                        : "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump\n";
-  out += "\nread_data    grains.data\n";
-  out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * test.grains.radius_m);
-  out += "include      material.inc\n";
+  const auto steps = [&](double seconds) { return static_cast<long>(std::ceil(seconds / written.time_step_s)); };
+  const double mass = 4.0 / 3.0 * std::numbers::pi * std::pow(test.grains.radius_m, 3) * scene.grain_density_kg_m3;
   std::optional<Takeover> takeover;
   if (scene.contact().normal == NormalLaw::epa) takeover.emplace(scene, models, steps(0.1));
-  if (takeover) out += takeover->before;
-  out += format("timestep     %.6g\nfix          weight all gravity 9.81 vector 0 0 -1\n", step);
-  out += "fix          cone all mesh/surface file mould.stl type 2\n" + slump_walls(models);
-  out += "fix          motion all nve/sphere\ncompute      energy all ke\ncompute      top all reduce max z\n";
-  out += "thermo_style custom step c_energy c_top\nthermo       1000\nthermo_modify norm no lost error\n\n";
-  const double mass = 4.0 / 3.0 * std::numbers::pi * std::pow(test.grains.radius_m, 3) * scene.grain_density_kg_m3;
-  out += format("# relax in the mould, with drag\nfix          drag all viscous %.10g\nrun          %ld\n", 40 * mass,
-                steps(0.25));
-  if (takeover) out += takeover->after;
-  out += "unfix        drag\n";
-  out += "dump         filled all custom 1 filled.dump id type x y z radius\nrun          0\nundump       filled\n\n";
-  out += format(
-      "# step 1: the mould rises\nfix          lift all move/mesh mesh cone linear 0 0 %.17g\nrun          "
-      "%ld\nunfix        lift\n\n",
-      test.lift_velocity_m_s, steps(test.mould.height_m / test.lift_velocity_m_s));
-  out += format("# the heap comes to rest\nrun          %ld\n", steps(2.0));
-  return out + "dump         heap all custom 1 heap.dump id type x y z radius\nrun          0\n";
+  return filled_in(
+      "exports/texts/liggghts_slump.in",
+      {{"header", liggghts_begin(scene, "the slump test, step 1", notes)},
+       {"use", yields(scene.contact().normal) ? "# liggghts -in in.slump, on one process"
+                                              : "# liggghts -in in.slump, or mpirun -np 2 liggghts -in in.slump"},
+       {"skin", format("%.6g", 0.3 * test.grains.radius_m)},
+       {"elastic", takeover ? takeover->before : ""},
+       {"time_step", format("%.6g", written.time_step_s)},
+       {"walls", slump_walls(models)},
+       {"drag", format("%.10g", 40 * mass)},
+       {"relax", std::to_string(steps(0.25))},
+       {"plastic", takeover ? takeover->after : ""},
+       {"velocity", format("%.17g", test.lift_velocity_m_s)},
+       {"lift", std::to_string(steps(test.mould.height_m / test.lift_velocity_m_s))},
+       {"rest", std::to_string(steps(2.0))}});
 }
 
 /// Grains are held and moved so slowly that damping does not count, with a step as long as need be.
@@ -100,25 +93,24 @@ std::string liggghts_two_grains(const ExportScene& scene, const Written& written
   const double radius = scene.radius_m(), speed = 1e-9;
   const auto legs = liggghts_legs(scene, written);
   const std::string word = legs[0].word;
-  std::string out = liggghts_begin(scene, "force of two grains against their distance; prints \"" + word + " r F\"",
-                                   scene.slump() ? std::vector<std::string>{} : notes);
-  out += format("region       box block %.6g %.6g %.6g %.6g %.6g %.6g units box\ncreate_box   %zu box\n", -4 * radius,
-                8 * radius, -4 * radius, 4 * radius, -4 * radius, 4 * radius, walls_of(scene.test).size() + 1);
-  out += format("create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single %.17g 0 0 units box\n", legs[0].from_m);
-  out += format("set          type 1 diameter %.17g\nset          type 1 density %.17g\n", 2 * radius,
-                scene.grain_density_kg_m3);
-  out += format("neighbor     %.6g bin\nneigh_modify delay 0\n", 0.3 * radius);
-  out += "include      material.inc\n";
-  out += format("timestep     %.17g\n", std::fabs(legs[0].to_m - legs[0].from_m) / legs[0].steps / speed);
-  out += "group        first id 1\ngroup        second id 2\n";
-  out += "fix          hold first move linear 0 0 0 units box\n";
-  out += "compute      push second reduce sum fx\ncompute      at second reduce sum x\n";
-  out += "variable     push equal c_push\nvariable     at equal c_at\n";
-  out += "thermo_style custom step c_push c_at\nfix          out all print 1 \"" + word + " ${at} ${push}\"\n";
+  std::string ways;
   for (const Leg& leg : legs)
-    out += format("fix          pull second move linear %.17g 0 0 units box\nrun          %d\nunfix        pull\n",
-                  std::copysign(speed, leg.to_m - leg.from_m), leg.steps);
-  return out;
+    ways += format("fix          pull second move linear %.17g 0 0 units box\nrun          %d\nunfix        pull\n",
+                   std::copysign(speed, leg.to_m - leg.from_m), leg.steps);
+  return filled_in(
+      "exports/texts/liggghts_two_grains.in",
+      {{"header", liggghts_begin(scene, "force of two grains against their distance; prints \"" + word + " r F\"",
+                                 scene.slump() ? std::vector<std::string>{} : notes)},
+       {"near", format("%.6g", 4 * radius)},
+       {"far", format("%.6g", 8 * radius)},
+       {"types", std::to_string(walls_of(scene.test).size() + 1)},
+       {"first", format("%.17g", legs[0].from_m)},
+       {"diameter", format("%.17g", 2 * radius)},
+       {"density", format("%.17g", scene.grain_density_kg_m3)},
+       {"skin", format("%.6g", 0.3 * radius)},
+       {"time_step", format("%.17g", std::fabs(legs[0].to_m - legs[0].from_m) / legs[0].steps / speed)},
+       {"word", word},
+       {"legs", ways}});
 }
 
 std::string mould_stl(const Mould& mould) {
@@ -140,22 +132,6 @@ std::string mould_stl(const Mould& mould) {
       facet(corner(i, k), corner(next, k + 1), corner(i, k + 1));
     }
   return out + "endsolid mould\n";
-}
-
-/// As LAMMPS's, but grains keep their radii: the law belongs to no type.
-std::string liggghts_data(const ExportScene& scene) {
-  std::string out = "grains of a filled mould, written by pastefit\n\n";
-  const SlumpTest& test = *scene.slump();
-  const auto& grains = scene.packing.centres;
-  const double margin = 4 * *std::ranges::max_element(scene.packing.radii);
-  const double half = std::max(test.table_length_m, 4 * test.mould.height_m) + margin;
-  out += format("%zu atoms\n3 atom types\n\n", grains.size());
-  out += format("%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n%.9g %.9g zlo zhi\n\nAtoms\n\n", -half, half, -half, half,
-                -margin, 2.5 * test.mould.height_m + margin);
-  for (std::size_t i = 0; i < grains.size(); ++i)
-    out += format("%zu 1 %.17g %.17g %.17g %.17g %.17g\n", i + 1, 2 * scene.packing.radii[i], scene.grain_density_kg_m3,
-                  grains[i].x, grains[i].y, grains[i].z);
-  return out;
 }
 
 }  // namespace pastefit

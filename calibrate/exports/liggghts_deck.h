@@ -49,8 +49,7 @@ std::string liggghts_slump(const ExportScene& scene, const Written& written, con
 std::string liggghts_two_grains(const ExportScene& scene, const Written& written,
                                 const std::vector<std::string>& notes);
 
-/// The mould's side, and the grains in it.
+/// The mould's side.
 std::string mould_stl(const Mould& mould);
-std::string liggghts_data(const ExportScene& scene);
 
 }  // namespace pastefit

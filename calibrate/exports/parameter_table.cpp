@@ -1,5 +1,6 @@
 #include "calibrate/exports/parameter_table.h"
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/lammps_deck.h"
@@ -132,62 +133,47 @@ std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFi
 
 namespace {
 
-/// Elasto-plastic adhesion, core/laws/epa.h.
-std::string yielding_in_words(NormalLaw normal) {
-  const bool linear = normal == NormalLaw::luding;
-  return std::string(
-             "  d > 0, normal      F = k1 d^m on loading, k2 (d^m - l D^m) on un- and reloading, -kc d^m on the\n"
-             "                     adhesion branch, less s^2 cohesion_n; besides 2 sqrt(5/6) beta sqrt(S_n m*) v_n\n") +
-         (linear ? "                     m = 1, k1 = 4/3 E* R*, S_n = k1"
-                 : "                     m = 3/2, k1 = 4/3 E* sqrt(R*), S_n = 2 E* sqrt(R* d)") +
-         R"(, k2 = k1/(1 - l), D the deepest overlap of the
-                     contact, which shrinks on the adhesion branch: D^m = d^m (1 + (1 - l) kc/k1)/l
-                     beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
-  d > 0, tangential  spring S_t = 4 G*/E* S_n on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu times
-                     F + s^2 cohesion_n + kc d^m
-)";
+std::string normal_in_words(NormalLaw normal) {
+  if (!yields(normal))
+    return filled_in(normal == NormalLaw::jkr ? "exports/texts/law_jkr.txt" : "exports/texts/law_hertz.txt", {});
+  return filled_in("exports/texts/law_yielding.txt",
+                   {{"springs", normal == NormalLaw::luding ? "m = 1, k1 = 4/3 E* R*, S_n = k1"
+                                                            : "m = 3/2, k1 = 4/3 E* sqrt(R*), S_n = 2 E* sqrt(R* d)"}});
+}
+
+std::string rolling_in_words(RollingModel rolling) {
+  switch (rolling) {
+    case RollingModel::spring_dashpot:
+      return "  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)";
+    case RollingModel::constant_torque:
+      return "  d > 0, rolling     torque mu_r N R* against the relative spin";
+    default:
+      return "";
+  }
 }
 
 }  // namespace
 
 std::string laws_in_words(const ExportScene& scene) {
   const ContactModel& contact = scene.contact();
-  std::string out =
-      R"(The contact law of two grains. d is the overlap: positive when they overlap, negative across a gap.
-R* = r1 r2/(r1 + r2), m* = m1 m2/(m1 + m2), 1/E* = 2 (1 - nu^2)/E, 1/G* = 4 (2 - nu)(1 + nu)/E, s = 2 R*/R.
-
-)";
-  out +=
-      yields(contact.normal) ? yielding_in_words(contact.normal)
-      : contact.normal == NormalLaw::jkr
-          ? R"(  contact, normal      4 E* a^3/(3 R*) - 4 sqrt(pi gamma E*) a^1.5, d = a^2/R* - sqrt(4 pi gamma a/E*), once the
-                       grains have touched, until d < -3 a_t^2/R*, a_t^3 = pi gamma R*^2/(4 E*); gamma the surface
-                       energy; besides 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n (the latter for d > 0)
-                       S_n = 2 E* a, beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
-  contact, tangential  spring S_t = 8 G* a on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu N
-)"
-          : R"(  d > 0, normal      4/3 E* sqrt(R*) d^1.5 + 2 sqrt(5/6) beta sqrt(S_n m*) v_n - s^2 cohesion_n
-                     S_n = 2 E* sqrt(R* d), beta = -ln e/sqrt(ln^2 e + pi^2), v_n the speed of approach
-  d > 0, tangential  spring S_t = 8 G* sqrt(R* d) on the slip, damper 2 sqrt(5/6) beta sqrt(S_t m*), at most mu N
-)";
-  if (contact.rolling == RollingModel::spring_dashpot)
-    out += "  d > 0, rolling     spring 2.25 S_n (mu_r R*)^2 and dashpot, at most mu_r N R* (Ai et al. 2011)\n";
-  if (contact.rolling == RollingModel::constant_torque)
-    out += "  d > 0, rolling     torque mu_r N R* against the relative spin\n";
+  std::string bridge, cohesion, numbers;
   if (contact.bridge.shape != BridgeShape::none)
-    out += "  d <= 0, bridge     " + bridge_formula(contact.bridge.shape) + R"(, attraction,
+    bridge = "  d <= 0, bridge     " + bridge_formula(contact.bridge.shape) + R"(, attraction,
                      from touch to rupture at d = s d_c; it forms when the gap falls to s formation_gap_m, and lives
-                     until the gap exceeds s |d_c|
-)";
+                     until the gap exceeds s |d_c|)";
   if (touch_excess_n(contact, scene.mean_pair()) != 0)
-    out += format(
+    cohesion = format(
         "  d > 0, cohesion    passes over from the bridge's s^2 c at touch to s^2 cohesion_n in a straight line,\n"
-        "                     as far as d = s %.6g m\n",
+        "                     as far as d = s %.6g m",
         kPassage * scene.radius_m());
-  out += "\nHere: " + laws_chosen(contact) + ".\n\n";
   for (const auto& row : parameter_rows(scene))
-    out += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
-  return out;
+    numbers += format("  %-28s %16.9g   %s\n", row.name.c_str(), row.value, row.meaning.c_str());
+  return filled_in("exports/texts/laws.txt", {{"normal", normal_in_words(contact.normal)},
+                                              {"rolling", rolling_in_words(contact.rolling)},
+                                              {"bridge", bridge},
+                                              {"cohesion", cohesion},
+                                              {"chosen", laws_chosen(contact)},
+                                              {"numbers", numbers}});
 }
 
 Result<Export> export_csv(const ExportScene& scene) {

@@ -20,12 +20,6 @@
 
 namespace pastefit {
 
-/// The commented starting files of a kind of test; the study names its laboratory file "lab.json", beside it. A line
-/// "  %provenance%" of the laboratory's is where it says where the data come from, in the words of all kinds.
-struct Templates {
-  std::string_view lab, study;
-};
-
 /// An outline that a laboratory file may take as it is.
 struct NamedOutline {
   std::string_view name;  ///< the stage of the test, e.g. "step1"

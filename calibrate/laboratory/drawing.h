@@ -61,6 +61,10 @@ struct Drawing {
   std::vector<DrawnLength> lengths;
 };
 
+/// What the runs drew, as the mean and, of several, the band from the lowest to the highest.
+/// Requirement: curves of one kind, whose points stand at the same places; the longer ones count as far as all go.
+Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs);
+
 /// Mean of a reading over the runs; nothing if some run, or every one, lacks it.
 std::optional<double> mean_reading(std::span<const SeenRun> runs, std::string_view name);
 

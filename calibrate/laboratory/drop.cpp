@@ -16,69 +16,6 @@
 namespace pastefit {
 namespace {
 
-constexpr std::string_view drop_lab =
-    R"(// What a laboratory measured in a drop test: a ball of the material falls on a plate. Lines like this one are comments;
-// the unit is in each key.
-{
-  "format": "pastefit-lab-1",
-  "test": "drop",
-  "title": "my gravel, batch 1",
-
-  %provenance%
-
-  // The plate is of the ball's material: a slab of it, or grains of it cast in and ground flat.
-  "apparatus": {
-    "drop_height_mm": 500,  // the ball falls so far until it touches the plate
-    "plate_tilt_deg": 40    // in a second series of drops; leave it out if there is none
-  },
-
-  // Of the ball: there is nothing between grains.
-  "material": {"bulk_density_kg_m3": 2650},
-
-  // The ball: one grain. Others of its size, or nearly so, are the repeats.
-  "grains": {"distribution": "mono", "radius_mm": 10},
-
-  // Either value and standard deviation of one reading, or all repeats. Heights: the highest rise of the ball above where
-  // it touched. Spin: after it left the plate. It tells the friction if the ball slides throughout the contact, as it does
-  // where the tangent of the tilt is above 3.5 friction (1 + restitution); a ball that sticks may spin as much.
-  "measurements": {
-    "level.rebound_height_mm": {"repeats": [311, 324, 330, 318], "standard_deviation": 5},
-    "tilted.rebound_height_mm": {"repeats": [8, 10, 7]},
-    "tilted.spin_rad_s": {"value": 86, "standard_deviation": 4}
-  }
-}
-)";
-
-constexpr std::string_view drop_study =
-    R"(// Which contact parameters are fitted to a drop test, and how. Lines like this one are comments.
-{
-  "format": "pastefit-study-1",
-  "title": "restitution and friction of my gravel",
-  "lab": "lab.json",  // path as seen from this file
-
-  // A dry ball. The attraction of wet ones: as in the study of a slump test, `pastefit template study`.
-  "contact": {"attraction": "none"},
-
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
-  "parameters": {
-    "restitution": {"free": [0.3, 1]},
-    "friction": {"free": [0.02, 0.5]},
-    "rolling_friction": {"value": 0},
-    "youngs_modulus_pa": {"value": 5e10}
-  },
-
-  "search": {
-    "screening": 8,              // candidates spread over the bounds at the start
-    "budget_simulations": 300,   // in all, confirmation included; one takes milliseconds
-    "packings": 1,               // nothing in this test is random
-    "confirmation_packings": 2,
-    "examination_simulations": 40,
-    "tolerance_mm": 5,           // good enough, for heights; for a spin the laboratory's deviation
-    "seed": 1
-  }
-}
-)";
-
 template <class Fields>
 void describe_drop_apparatus(Fields& apparatus, DropTest& test, Need need) {
   read_dimensions(apparatus, test, drop_dimensions, need);
@@ -145,10 +82,6 @@ void read_test(ObjectReader& reader, DropTest& test) {
 
 void tell_schema(ObjectSchema& schema, DropTest any) {
   describe_drop(schema, any);
-}
-
-Templates templates_of(const DropTest&) {
-  return {drop_lab, drop_study};
 }
 
 std::optional<double> grain_density_of(const DropTest& test, const Readings&) {

@@ -37,7 +37,6 @@ DropTest default_test(const DropTest&);
 void read_test(ObjectReader& reader, DropTest& test);
 void tell_schema(ObjectSchema& schema, DropTest any);
 
-Templates templates_of(const DropTest& test);
 std::optional<double> grain_density_of(const DropTest& test, const Readings& means);
 std::string_view why_of_that_size(const DropTest& test);
 

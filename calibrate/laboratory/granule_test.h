@@ -58,8 +58,4 @@ void read_tools(Fields& apparatus, std::string_view meaning, WallContact& tools)
                    [&](auto& fields) { read_dimensions(fields, tools, surface_dimensions, Need::optional); });
 }
 
-/// What the runs drew, as the mean and, of several, the band from the lowest to the highest.
-/// Requirement: curves of one kind, whose points stand at the same places; the longer ones count as far as all go.
-Drawing drawing_of_curves(std::string name, std::string x, std::string y, std::span<const SeenRun> runs);
-
 }  // namespace pastefit

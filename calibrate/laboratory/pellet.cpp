@@ -13,75 +13,6 @@
 namespace pastefit {
 namespace {
 
-constexpr std::string_view pellet_lab =
-    R"(// What a laboratory measured in a pellet crush: wet granules are pressed in a die, and the pellet is crushed between two
-// plates. Lines like this one are comments; the unit is in each key.
-{
-  "format": "pastefit-lab-1",
-  "test": "pellet",
-  "title": "my granules, batch 1",
-
-  %provenance%
-
-  "apparatus": {
-    "die_diameter_mm": 25,
-    "fill_height_mm": 29,       // granules are poured in and struck off at this height
-    "pressed_height_mm": 22,    // of the bed when the punch turns round
-    "punch_speed_mm_s": 1.5,
-    "press_speedup": 50,        // the simulation presses so many times as fast as that, and waits for rest
-    "platen_speed_mm_s": 100,
-    "final_strain": 0.2         // of the pellet, at which the platen stops
-    // How the granules arrive in the die decides how densely they lie: "pour_speed_mm_s": 1000
-    // Polished steel, to which nothing sticks: "tools": {"friction": 0, "rolling_friction": 0, "restitution": 0.2, "cohesion_factor": 0}
-  },
-
-  // Of a granule, not of the bed: how much of the die the granules fill is a reading.
-  "material": {"bulk_density_kg_m3": 1000},
-
-  // Granules may be coarser than the laboratory's: forces keep their share of R^2. At least six across the pellet.
-  "grains": {"distribution": "normal", "radius_mm": 1.05, "standard_deviation_mm": 0.315, "smallest_mm": 1.05, "largest_mm": 1.5},
-
-  // Either value and standard deviation of one reading, or all repeats. The strength is the peak of force over the die's
-  // area. Besides: die.mass_g, of the granules that fill the die; pellet.height_mm, when the die is away;
-  // pellet.strain_at_peak.
-  "measurements": {
-    "pellet.dynamic_yield_strength_pa": {"value": 3000, "standard_deviation": 300}
-  }
-}
-)";
-
-constexpr std::string_view pellet_study =
-    R"(// Which contact parameters are fitted to a pellet crush, and how. Lines like this one are comments.
-{
-  "format": "pastefit-study-1",
-  "title": "surface energy of my granules",
-  "lab": "lab.json",  // path as seen from this file
-
-  // Granules that stick where they touch. More laws: `pastefit template study`.
-  "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
-
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
-  "parameters": {
-    "adhesion_pa": {"free": [800, 12000]},  // surface energy over R, the mean radius
-    "friction": {"value": 0.4},
-    "rolling_friction": {"value": 0.01},
-    "restitution": {"value": 0.2},
-    "youngs_modulus_pa": {"value": 2400000},
-    "poissons_ratio": {"value": 0.2}
-  },
-
-  "search": {
-    "screening": 6,              // candidates spread over the bounds at the start
-    "budget_simulations": 40,    // in all, confirmation included
-    "packings": 2,               // random packings of a candidate with coarse grains
-    "confirmation_packings": 6,  // fresh packings for the best candidate
-    "examination_simulations": 6,
-    "tolerance_mm": 1,           // good enough, for heights; for a strength the laboratory's deviation
-    "seed": 1
-  }
-}
-)";
-
 template <class Fields>
 void describe_pellet_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
   read_dimensions(apparatus, test, pellet_dimensions, need);
@@ -134,10 +65,6 @@ void read_test(ObjectReader& reader, PelletCrush& test) {
 
 void tell_schema(ObjectSchema& schema, PelletCrush any) {
   describe_pellet(schema, any);
-}
-
-Templates templates_of(const PelletCrush&) {
-  return {pellet_lab, pellet_study};
 }
 
 nlohmann::ordered_json conditions_of(const PelletCrush& test) {

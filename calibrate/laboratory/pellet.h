@@ -35,8 +35,6 @@ PelletCrush default_test(const PelletCrush&);
 void read_test(ObjectReader& reader, PelletCrush& test);
 void tell_schema(ObjectSchema& schema, PelletCrush any);
 
-Templates templates_of(const PelletCrush& test);
-
 nlohmann::ordered_json conditions_of(const PelletCrush& test);
 std::string conditions_in_words(const PelletCrush& test);
 

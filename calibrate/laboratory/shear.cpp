@@ -13,78 +13,6 @@
 namespace pastefit {
 namespace {
 
-constexpr std::string_view shear_lab =
-    R"(// What a laboratory measured in a shear cell: granules between a ribbed base that moves and a ribbed lid that is pressed on.
-// Lines like this one are comments; the unit is in each key.
-{
-  "format": "pastefit-lab-1",
-  "test": "shear",
-  "title": "my granules, batch 1",
-
-  %provenance%
-
-  "apparatus": {
-    "length_mm": 18,             // of the piece that is simulated, along the motion; it repeats without end
-    "width_mm": 23,              // between the sides
-    "fill_height_mm": 16,        // above the base plate, to which granules are poured and struck off
-    "lid_ribs": {"height_mm": 3, "thickness_mm": 0.8, "pitch_mm": 10.5},
-    "base_ribs": {"height_mm": 2, "thickness_mm": 1, "pitch_mm": 5.35},
-    "normal_stress_pa": 2000,    // of the lid, its weight and what presses on it
-    "shear_speed_mm_s": 0.03813, // of the base
-    "shear_speedup": 500,        // the simulation shears so many times as fast
-    "final_displacement_mm": 11.4 // of the base
-    // How the granules arrive in the cell decides how densely they lie: "pour_speed_mm_s": 1000
-    // How fast the lid sinks where nothing resists: "lid_speed_mm_s": 100
-    // Polished steel, to which nothing sticks: "tools": {"friction": 0, "rolling_friction": 0, "restitution": 0.2, "cohesion_factor": 0}
-  },
-
-  // Of a granule, not of the bed: how much of the cell the granules fill is a reading.
-  "material": {"bulk_density_kg_m3": 1000},
-
-  // Granules may be coarser than the laboratory's: forces keep their share of R^2. At least five between the ribs.
-  "grains": {"distribution": "normal", "radius_mm": 0.7, "standard_deviation_mm": 0.21, "smallest_mm": 0.7, "largest_mm": 1},
-
-  // Either value and standard deviation of one reading, or all repeats. The stress is what drags the lid along over its
-  // area, once it is steady. Besides: shear.peak_stress_pa, shear.height_mm of the lid above the base while sheared,
-  // bed.height_mm before that, bed.mass_g.
-  "measurements": {
-    "shear.stress_pa": {"value": 1050, "standard_deviation": 60}
-  }
-}
-)";
-
-constexpr std::string_view shear_study =
-    R"(// Which contact parameters are fitted to a shear cell, and how. Lines like this one are comments.
-{
-  "format": "pastefit-study-1",
-  "title": "friction of my granules",
-  "lab": "lab.json",  // path as seen from this file
-
-  // Granules that stick where they touch. More laws: `pastefit template study`.
-  "contact": {"normal": "jkr", "attraction": "none", "rolling_model": "constant_torque", "friction_basis": "elastic"},
-
-  // Free: [lower, upper] bounds. Fixed: a value. Parameters that are not named have their default value.
-  "parameters": {
-    "friction": {"free": [0.1, 1]},
-    "adhesion_pa": {"value": 1286},  // surface energy over R, the mean radius
-    "rolling_friction": {"value": 0.01},
-    "restitution": {"value": 0.2},
-    "youngs_modulus_pa": {"value": 2400000},
-    "poissons_ratio": {"value": 0.2}
-  },
-
-  "search": {
-    "screening": 6,              // candidates spread over the bounds at the start
-    "budget_simulations": 40,    // in all, confirmation included
-    "packings": 2,               // random packings of a candidate with coarse grains
-    "confirmation_packings": 6,  // fresh packings for the best candidate
-    "examination_simulations": 6,
-    "tolerance_mm": 1,           // good enough, for heights; for a stress the laboratory's deviation
-    "seed": 1
-  }
-}
-)";
-
 template <class Fields>
 void describe_shear_apparatus(Fields& apparatus, ShearCell& test, Need need) {
   read_dimensions(apparatus, test, shear_dimensions, need);
@@ -146,10 +74,6 @@ void read_test(ObjectReader& reader, ShearCell& test) {
 
 void tell_schema(ObjectSchema& schema, ShearCell any) {
   describe_shear(schema, any);
-}
-
-Templates templates_of(const ShearCell&) {
-  return {shear_lab, shear_study};
 }
 
 nlohmann::ordered_json conditions_of(const ShearCell& test) {

@@ -35,8 +35,6 @@ ShearCell default_test(const ShearCell&);
 void read_test(ObjectReader& reader, ShearCell& test);
 void tell_schema(ObjectSchema& schema, ShearCell any);
 
-Templates templates_of(const ShearCell& test);
-
 nlohmann::ordered_json conditions_of(const ShearCell& test);
 std::string conditions_in_words(const ShearCell& test);
 

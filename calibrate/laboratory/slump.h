@@ -61,11 +61,6 @@ void read_test(ObjectReader& reader, SlumpTest& test);
 /// The schema of the same; `any` is any test of the kind.
 void tell_schema(ObjectSchema& schema, SlumpTest any);
 
-Templates templates_of(const SlumpTest& test);
-
-/// Starting files for a mould whose tests are of other materials than pastes: the lifted cylinder. Nothing for others.
-std::optional<Templates> templates_of_mould(std::string_view preset);
-
 /// Of the grains, such that the mould holds the bulk density.
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means);
 

@@ -5,7 +5,6 @@
 
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/granule_test.h"
 #include "calibrate/laboratory/slump.h"
 #include "calibrate/laboratory/test.h"
 

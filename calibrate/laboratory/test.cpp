@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/object_schema.h"
-#include "calibrate/base/template_lines.h"
 #include "calibrate/base/units.h"
 #include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
@@ -28,36 +28,6 @@ void each_kind(const Visitor& visit) {
     (void)(visit(std::variant_alternative_t<row, Test>{}) || ...);
   };
   all(std::make_index_sequence<std::variant_size_v<Test>>{});
-}
-
-/// The starting files of all kinds, by name.
-std::vector<std::pair<std::string, std::string_view>> all_templates() {
-  std::vector<std::pair<std::string, std::string_view>> all;
-  each_kind([&](const auto& kind) {
-    const std::string word = all.empty() ? "" : std::string(kind_of(kind)) + "-";
-    const Templates own = templates_of(kind);
-    all.emplace_back(word + "lab", own.lab);
-    all.emplace_back(word + "study", own.study);
-    return false;
-  });
-  return all;
-}
-
-/// What every laboratory file begins with, in the place that its starting file has for it.
-std::string with_provenance(std::string text) {
-  constexpr std::string_view place = "  %provenance%\n", provenance = R"(
-  // Where the data come from; it is carried through to the material card.
-  "provenance": {
-    "source": "laboratory, person, date",
-    "licence": "",
-    "notes": "",
-    "twin": false  // true: not measured, but made by a simulation with known parameters
-  },
-)";
-  static_assert(provenance.find(kSourceToFillIn) != std::string_view::npos);
-  if (const auto at = text.find(place); at != std::string::npos)
-    text.replace(at, place.size(), provenance.substr(1));  // without the line break that it begins with here
-  return text;
 }
 
 }  // namespace
@@ -282,20 +252,20 @@ Fault no_such_kind(std::string where, std::string_view word) {
 
 std::vector<std::string> template_names() {
   std::vector<std::string> names;
-  for (const auto& [name, text] : all_templates()) names.push_back(name);
+  for (const std::string_view kind : kinds_of_tests()) {
+    const std::string before = names.empty() ? "" : std::string(kind) + "-";
+    names.insert(names.end(), {before + "lab", before + "study"});
+  }
   return names;
 }
 
-std::optional<std::string> template_text(std::string_view wanted) {
-  for (const auto& [name, text] : all_templates())
-    if (name == wanted) return with_provenance(std::string(text));
-  return std::nullopt;
+std::optional<std::string> template_text(std::string_view name) {
+  return std::optional<std::string>(embedded_text("laboratory/templates/" + std::string(name) + ".json"));
 }
 
 std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset) {
-  const auto templates = templates_of_mould(preset);
-  if (!templates || (name != "lab" && name != "study")) return std::nullopt;
-  return with_provenance(std::string(name == "lab" ? templates->lab : templates->study));
+  if (name != "lab" && name != "study") return std::nullopt;
+  return template_text(std::string(name) + "-" + std::string(preset));
 }
 
 std::vector<ReadingKind> all_reading_kinds() {

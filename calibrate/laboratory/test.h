@@ -49,7 +49,6 @@ concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initiali
   { default_test(given) } -> std::same_as<T>;
   {read_test(reader, test)};
   {tell_schema(schema, test)};
-  { templates_of(given) } -> std::same_as<Templates>;
   { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
   { why_of_that_size(given) } -> std::same_as<std::string_view>;
   { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
@@ -132,11 +131,12 @@ Fault no_such_kind(std::string where, std::string_view word);
 /// The names of all starting files: "lab" and "study" of the first kind, of others with their word before.
 std::vector<std::string> template_names();
 
-/// A commented starting file, fit to be read as it is. Nothing if there is none of that name.
+/// A commented starting file (laboratory/templates), fit to be read as it is; the study names its laboratory file
+/// "lab.json", beside it. Nothing if there is none of that name.
 std::optional<std::string> template_text(std::string_view name);
 
-/// "lab" or "study" for an apparatus preset that has starting files of its own (`templates_of_mould`); nothing for
-/// others.
+/// "lab" or "study" for an apparatus preset that has starting files of its own: the lifted cylinder, whose tests are of
+/// other materials than pastes. Nothing for others.
 std::optional<std::string> template_text_of_mould(std::string_view name, std::string_view preset);
 
 /// The readings of all kinds of tests, with the default values.
