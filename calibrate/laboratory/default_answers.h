@@ -12,6 +12,7 @@
 #include "calibrate/base/json_reader.h"
 #include "calibrate/laboratory/drawing.h"
 #include "calibrate/laboratory/measurement.h"
+#include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/reading_kind.h"
 #include "core/apparatus/specimen.h"
 #include "core/observe/outline.h"
@@ -51,6 +52,12 @@ struct PredictedReading {
 // What a kind of test answers of which nothing else is said: one that has no grains to pour and no random packing. A
 // kind for which it is otherwise has an overload for its own value (calibrate/laboratory/slump.h).
 
+/// A test that has every part, with default values.
+template <class Kind>
+Kind default_test(const Kind&) {
+  return {};
+}
+
 inline std::shared_ptr<const Packing> prepare(const Specimen&, const RunOptions&) {
   return nullptr;
 }
@@ -71,9 +78,16 @@ inline void read_outline(ObjectReader&, const ReadingKind&, Specimen&) {}
 /// (`ReadingKind::on_request`).
 inline void ask_for(Specimen&, const ReadingKind&) {}
 
-/// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known.
-inline std::optional<double> grain_density_of(const Specimen&, const Readings&) {
-  return std::nullopt;
+/// The surfaces that have parameters of a study. None: tools are of steel, and what is known of them is part of the
+/// apparatus, or they are of the grains' material.
+inline std::vector<Surface> surfaces_of(Specimen&) {
+  return {};
+}
+
+/// Density of a grain [kg/m^3], from the mean readings of some runs; nothing if it is not known. What the laboratory
+/// file calls the bulk density is that of a grain.
+inline std::optional<double> grain_density_of(const Specimen& test, const Readings&) {
+  return test.bulk_density_kg_m3;
 }
 
 /// Why the grains have to be as large as the laboratory's, for a person; empty: their size is the simulation's choice.

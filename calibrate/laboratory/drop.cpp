@@ -1,31 +1,15 @@
 #include "calibrate/laboratory/drop.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
-#include "calibrate/base/object_schema.h"
-#include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/specimen_json.h"
 #include "core/world/world.h"
 
 namespace pastefit {
 namespace {
-
-template <class Fields>
-void describe_drop_apparatus(Fields& apparatus, DropTest& test, Need need) {
-  read_dimensions(apparatus, test, drop_dimensions, need);
-}
-
-template <class Fields, class Test>
-void describe_drop(Fields& fields, Test& test) {
-  describe_dimensions(fields, test, drop_dimensions);
-  describe_specimen(fields, test);
-}
 
 /// Half of a free flight that ends at `end_s`: from the top to touch (`half_s` < 0), or from touch to the top.
 std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
@@ -41,10 +25,6 @@ std::vector<DrawnPoint> flight(double height_m, double end_s, double half_s) {
 
 }  // namespace
 
-std::vector<Surface> surfaces_of(DropTest&) {
-  return {};
-}
-
 double grains_needed(const DropTest&) {
   return 1;
 }
@@ -55,37 +35,10 @@ std::vector<FilePlace> places_in_files(const DropTest&) {
   return places;
 }
 
-void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need) {
-  describe_drop_apparatus(apparatus, test, need);
-}
-
-void tell_apparatus(ObjectSchema& schema, DropTest any, Need need) {
-  describe_drop_apparatus(schema, any, need);
-}
-
-nlohmann::json to_json(const DropTest& test) {
-  nlohmann::json document;
-  ObjectWriter writer(document);
-  describe_drop(writer, test);
-  return document;
-}
-
 DropTest default_test(const DropTest&) {
   DropTest test;
   test.plate_tilt_rad = 0.5;
   return test;
-}
-
-void read_test(ObjectReader& reader, DropTest& test) {
-  describe_drop(reader, test);
-}
-
-void tell_schema(ObjectSchema& schema, DropTest any) {
-  describe_drop(schema, any);
-}
-
-std::optional<double> grain_density_of(const DropTest& test, const Readings&) {
-  return test.bulk_density_kg_m3;
 }
 
 std::string_view why_of_that_size(const DropTest&) {

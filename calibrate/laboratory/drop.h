@@ -16,28 +16,29 @@
 
 namespace pastefit {
 
-// The drop test in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind.
+// The drop test in the words of files and people: what calibrate/laboratory/test.h asks of a kind.
 
 inline constexpr std::string_view kind_of(const DropTest&) {
   return "drop";
 }
 
-/// None: the plate is of the ball's material.
-std::vector<Surface> surfaces_of(DropTest& test);
-
 double grains_needed(const DropTest& test);
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and degrees.
-void read_apparatus(ObjectReader& apparatus, DropTest& test, Need need);
-void tell_apparatus(ObjectSchema& schema, DropTest any, Need need);
+template <class Fields>
+void describe_apparatus(Fields& apparatus, DropTest& test, Need need) {
+  read_dimensions(apparatus, test, drop_dimensions, need);
+}
 std::vector<FilePlace> places_in_files(const DropTest&);
 
-nlohmann::json to_json(const DropTest& test);
-DropTest default_test(const DropTest&);
-void read_test(ObjectReader& reader, DropTest& test);
-void tell_schema(ObjectSchema& schema, DropTest any);
+template <class Fields>
+void describe_test(Fields& fields, DropTest& test) {
+  describe_dimensions(fields, test, drop_dimensions);
+  describe_specimen(fields, test);
+}
 
-std::optional<double> grain_density_of(const DropTest& test, const Readings& means);
+DropTest default_test(const DropTest&);
+
 std::string_view why_of_that_size(const DropTest& test);
 
 nlohmann::ordered_json conditions_of(const DropTest& test);

@@ -22,12 +22,6 @@ namespace pastefit {
 template <class T>
 concept GranuleTest = std::same_as<T, PelletCrush> || std::same_as<T, ShearCell>;
 
-/// None that has parameters: the tools are of steel, and what is known of them is part of the apparatus.
-template <GranuleTest T>
-std::vector<Surface> surfaces_of(T&) {
-  return {};
-}
-
 template <GranuleTest T>
 double grains_needed(const T& test) {
   return poured_grains(test);
@@ -43,12 +37,6 @@ std::span<const std::string_view> series_of(const T&) {
 template <GranuleTest T>
 std::size_t series_at(const T&, const Snapshot& snapshot) {
   return snapshot.phase.starts_with("fill.") ? 0 : 1;
-}
-
-/// What a laboratory file calls the bulk density is that of a granule, not of the bed.
-template <GranuleTest T>
-std::optional<double> grain_density_of(const T& test, const Readings&) {
-  return test.bulk_density_kg_m3;
 }
 
 /// The surface of the tools in laboratory and apparatus files. `meaning`: which tools these are.

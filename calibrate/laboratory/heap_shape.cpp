@@ -103,24 +103,27 @@ std::string in_words(const SlumpTest& test, const Heap& heap) {
 /// Nothing of a heap's volume is left for a width beyond this many cones': a peak on a skirt is below it.
 constexpr double widest_skirt = 1.5;
 
-Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
+/// Height and width that do not belong to one heap: why, and the width of the extreme one.
+Fault contradiction(const SlumpTest& test, const Heap& heap, const std::string& why, double extreme_mm,
+                    std::string remedy) {
   return {"measurements",
           heap.height.reading + format(" (%.4g) contradicts ", heap.height.value) + heap.width.reading +
-              format(" (%.4g): the mould holds too little for it; a cone of this height, the widest heap, is %.4g mm "
-                     "wide",
-                     heap.width.value, cone_width_mm(test, heap.height.value)) +
+              format(" (%.4g): ", heap.width.value) + why + format(" heap, is %.4g mm wide", extreme_mm) +
               slips_of(test, heap),
-          "look for a slump that was given as a height, for a reading of another test, and at the mould"};
+          std::move(remedy)};
+}
+
+Fault too_much_volume(const SlumpTest& test, const Heap& heap) {
+  return contradiction(test, heap, "the mould holds too little for it; a cone of this height, the widest",
+                       cone_width_mm(test, heap.height.value),
+                       "look for a slump that was given as a height, for a reading of another test, and at the mould");
 }
 
 Fault missing_volume(const SlumpTest& test, const Heap& heap) {
-  return {"measurements",
-          heap.height.reading + format(" (%.4g) contradicts ", heap.height.value) + heap.width.reading +
-              format(" (%.4g): what the mould holds does not fit in; a flat cylinder of this height, the narrowest "
-                     "heap, is %.4g mm wide",
-                     heap.width.value, narrowest_mm(test, heap.height.value)) +
-              slips_of(test, heap),
-          "look for a slump that was given as a height, for a radius that was given as a width, and at the mould"};
+  return contradiction(
+      test, heap, "what the mould holds does not fit in; a flat cylinder of this height, the narrowest",
+      narrowest_mm(test, heap.height.value),
+      "look for a slump that was given as a height, for a radius that was given as a width, and at the mould");
 }
 
 }  // namespace

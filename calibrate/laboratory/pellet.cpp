@@ -1,32 +1,12 @@
 #include "calibrate/laboratory/pellet.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/object_schema.h"
-#include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/specimen_json.h"
 
 namespace pastefit {
-namespace {
-
-template <class Fields>
-void describe_pellet_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
-  read_dimensions(apparatus, test, pellet_dimensions, need);
-  read_tools(apparatus, "the surface of die, punch, platen and floor", test.tools);
-}
-
-template <class Fields, class Test>
-void describe_pellet(Fields& fields, Test& test) {
-  describe_dimensions(fields, test, pellet_dimensions);
-  describe_specimen(fields, test);
-  fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });
-}
-
-}  // namespace
 
 std::vector<FilePlace> places_in_files(const PelletCrush&) {
   std::vector<FilePlace> places;
@@ -38,33 +18,6 @@ std::vector<FilePlace> places_in_files(const PelletCrush&) {
 double moved_time_s(const PelletCrush& test) {
   return (test.fill_height_m - test.pressed_height_m) / (test.punch_speed_m_s * test.press_speedup) +
          test.final_strain * test.pressed_height_m / test.platen_speed_m_s;
-}
-
-void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need) {
-  describe_pellet_apparatus(apparatus, test, need);
-}
-
-void tell_apparatus(ObjectSchema& schema, PelletCrush any, Need need) {
-  describe_pellet_apparatus(schema, any, need);
-}
-
-nlohmann::json to_json(const PelletCrush& test) {
-  nlohmann::json document;
-  ObjectWriter writer(document);
-  describe_pellet(writer, test);
-  return document;
-}
-
-PelletCrush default_test(const PelletCrush&) {
-  return {};
-}
-
-void read_test(ObjectReader& reader, PelletCrush& test) {
-  describe_pellet(reader, test);
-}
-
-void tell_schema(ObjectSchema& schema, PelletCrush any) {
-  describe_pellet(schema, any);
 }
 
 nlohmann::ordered_json conditions_of(const PelletCrush& test) {

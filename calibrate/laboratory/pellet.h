@@ -15,25 +15,30 @@
 
 namespace pastefit {
 
-// The pellet crush in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a
-// kind, besides calibrate/laboratory/granule_test.h.
+// The pellet crush in the words of files and people: what calibrate/laboratory/test.h asks of a kind, besides
+// calibrate/laboratory/granule_test.h.
 
 inline constexpr std::string_view kind_of(const PelletCrush&) {
   return "pellet";
 }
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
-void read_apparatus(ObjectReader& apparatus, PelletCrush& test, Need need);
-void tell_apparatus(ObjectSchema& schema, PelletCrush any, Need need);
+template <class Fields>
+void describe_apparatus(Fields& apparatus, PelletCrush& test, Need need) {
+  read_dimensions(apparatus, test, pellet_dimensions, need);
+  read_tools(apparatus, "the surface of die, punch, platen and floor", test.tools);
+}
 std::vector<FilePlace> places_in_files(const PelletCrush&);
 
 /// Of the punch and the platen.
 double moved_time_s(const PelletCrush& test);
 
-nlohmann::json to_json(const PelletCrush& test);
-PelletCrush default_test(const PelletCrush&);
-void read_test(ObjectReader& reader, PelletCrush& test);
-void tell_schema(ObjectSchema& schema, PelletCrush any);
+template <class Fields>
+void describe_test(Fields& fields, PelletCrush& test) {
+  describe_dimensions(fields, test, pellet_dimensions);
+  describe_specimen(fields, test);
+  fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });
+}
 
 nlohmann::ordered_json conditions_of(const PelletCrush& test);
 std::string conditions_in_words(const PelletCrush& test);

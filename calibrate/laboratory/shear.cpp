@@ -1,40 +1,12 @@
 #include "calibrate/laboratory/shear.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/object_schema.h"
-#include "calibrate/base/object_writer.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/specimen_json.h"
 
 namespace pastefit {
-namespace {
-
-template <class Fields>
-void describe_shear_apparatus(Fields& apparatus, ShearCell& test, Need need) {
-  read_dimensions(apparatus, test, shear_dimensions, need);
-  const auto ribs = [need](auto* own) {
-    return [own, need](auto& fields) { read_dimensions(fields, *own, rib_dimensions, need); };
-  };
-  apparatus.object({"lid_ribs", "of the plate above"}, need, ribs(&test.lid_ribs));
-  apparatus.object({"base_ribs", "of the plate below"}, need, ribs(&test.base_ribs));
-  read_tools(apparatus, "the surface of plates, ribs and sides", test.tools);
-}
-
-template <class Fields, class Test>
-void describe_shear(Fields& fields, Test& test) {
-  describe_dimensions(fields, test, shear_dimensions);
-  const auto ribs = [](auto* own) { return [own](auto& inner) { describe_dimensions(inner, *own, rib_dimensions); }; };
-  fields.object({"lid_ribs", "of the plate above"}, required, ribs(&test.lid_ribs));
-  fields.object({"base_ribs", "of the plate below"}, required, ribs(&test.base_ribs));
-  describe_specimen(fields, test);
-  fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });
-}
-
-}  // namespace
 
 std::vector<FilePlace> places_in_files(const ShearCell&) {
   std::vector<FilePlace> places;
@@ -47,33 +19,6 @@ std::vector<FilePlace> places_in_files(const ShearCell&) {
 
 double moved_time_s(const ShearCell& test) {
   return test.final_displacement_m / (test.shear_speed_m_s * test.shear_speedup);
-}
-
-void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need) {
-  describe_shear_apparatus(apparatus, test, need);
-}
-
-void tell_apparatus(ObjectSchema& schema, ShearCell any, Need need) {
-  describe_shear_apparatus(schema, any, need);
-}
-
-nlohmann::json to_json(const ShearCell& test) {
-  nlohmann::json document;
-  ObjectWriter writer(document);
-  describe_shear(writer, test);
-  return document;
-}
-
-ShearCell default_test(const ShearCell&) {
-  return {};
-}
-
-void read_test(ObjectReader& reader, ShearCell& test) {
-  describe_shear(reader, test);
-}
-
-void tell_schema(ObjectSchema& schema, ShearCell any) {
-  describe_shear(schema, any);
 }
 
 nlohmann::ordered_json conditions_of(const ShearCell& test) {

@@ -15,7 +15,7 @@
 
 namespace pastefit {
 
-// The shear cell in the words of files and people: what `LaboratoryTest` (calibrate/laboratory/test.h) asks of a kind,
+// The shear cell in the words of files and people: what calibrate/laboratory/test.h asks of a kind,
 // besides calibrate/laboratory/granule_test.h.
 
 inline constexpr std::string_view kind_of(const ShearCell&) {
@@ -23,17 +23,30 @@ inline constexpr std::string_view kind_of(const ShearCell&) {
 }
 
 /// The keys of "apparatus" in laboratory and apparatus files: millimetres and millimetres a second.
-void read_apparatus(ObjectReader& apparatus, ShearCell& test, Need need);
-void tell_apparatus(ObjectSchema& schema, ShearCell any, Need need);
+template <class Fields>
+void describe_apparatus(Fields& apparatus, ShearCell& test, Need need) {
+  read_dimensions(apparatus, test, shear_dimensions, need);
+  const auto ribs = [need](auto* own) {
+    return [own, need](auto& fields) { read_dimensions(fields, *own, rib_dimensions, need); };
+  };
+  apparatus.object({"lid_ribs", "of the plate above"}, need, ribs(&test.lid_ribs));
+  apparatus.object({"base_ribs", "of the plate below"}, need, ribs(&test.base_ribs));
+  read_tools(apparatus, "the surface of plates, ribs and sides", test.tools);
+}
 std::vector<FilePlace> places_in_files(const ShearCell&);
 
 /// Of the base.
 double moved_time_s(const ShearCell& test);
 
-nlohmann::json to_json(const ShearCell& test);
-ShearCell default_test(const ShearCell&);
-void read_test(ObjectReader& reader, ShearCell& test);
-void tell_schema(ObjectSchema& schema, ShearCell any);
+template <class Fields>
+void describe_test(Fields& fields, ShearCell& test) {
+  describe_dimensions(fields, test, shear_dimensions);
+  const auto ribs = [](auto* own) { return [own](auto& inner) { describe_dimensions(inner, *own, rib_dimensions); }; };
+  fields.object({"lid_ribs", "of the plate above"}, required, ribs(&test.lid_ribs));
+  fields.object({"base_ribs", "of the plate below"}, required, ribs(&test.base_ribs));
+  describe_specimen(fields, test);
+  fields.object({"tools", "surface of all tools"}, required, [&](auto& wall) { describe_wall(wall, test.tools); });
+}
 
 nlohmann::ordered_json conditions_of(const ShearCell& test);
 std::string conditions_in_words(const ShearCell& test);

@@ -4,13 +4,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "calibrate/base/object_schema.h"
-#include "calibrate/base/object_writer.h"
 #include "calibrate/base/statistics.h"
 #include "calibrate/base/text.h"
 #include "calibrate/base/units.h"
-#include "calibrate/laboratory/names.h"
-#include "calibrate/laboratory/specimen_json.h"
 #include "core/apparatus/slump/ruler.h"
 #include "core/world/world.h"
 
@@ -18,95 +14,7 @@ namespace pastefit {
 namespace {
 
 constexpr double diameter_mm = 2000;  // diameter in millimetres of a circle with a radius of one metre
-constexpr std::array<Named<HeightReading>, 2> height_readings{
-    {{"axis", HeightReading::axis}, {"highest", HeightReading::highest}}};
-constexpr std::array<Named<TableMotion>, 2> table_motions{
-    {{"hinged", TableMotion::hinged}, {"vertical", TableMotion::vertical}}};
 constexpr std::array<std::string_view, 3> series{"filling", "grains", "grains-second-drop"};
-
-template <class Fields>
-void describe_slump_apparatus(Fields& apparatus, SlumpTest& test, Need need) {
-  apparatus.object({"mould", "a frustum, open above and below"}, need,
-                   [&](auto& mould) { read_dimensions(mould, test.mould, mould_dimensions, need); });
-  read_dimensions(apparatus, test, slump_dimensions, need);
-  const bool has_plate = test.drop || (!Fields::reads && need == Need::optional);
-  const Need plate_need = has_plate ? Need::optional : Need::required;
-  apparatus.nullable_object(
-      {"drop_plate", "the plate of step 2, and of all drops after it; null: the test ends with step 1"}, test.drop,
-      Need::optional, [&](auto& plate, DropPlate& drop) {
-        plate.choice(
-            {"motion",
-             "hinged: a square plate turns up about an edge (EN 12350-5); vertical: a round table falls upright "
-             "(EN 1015-3, ASTM C230); default hinged"},
-            drop.motion, table_motions, Need::optional);
-        if constexpr (Fields::reads)
-          if (drop.motion == TableMotion::vertical)
-            plate.refuse("lift_duration_s",
-                         "is of a hinged plate: a cam raises a table so slowly that it takes no simulated time",
-                         "leave it out");
-        read_dimensions(plate, drop, plate_dimensions, plate_need);
-        plate.integer({"drops", "how often it drops; default 1, and the test ends with step 2"}, drop.drops, 1,
-                      kMostDrops, Need::optional);
-        read_dimensions(plate, drop, rhythm_dimensions, Need::optional);
-      });
-  apparatus.object({"reading", "how the ruler is held"}, need, [&](auto& reading) {
-    reading.choice(
-        {"height",
-         "axis: at the middle of the struck-off top where that has gone (ASTM C143); highest: at the highest "
-         "point (EN 12350-2)"},
-        test.reading.height, height_readings, need);
-    read_dimensions(reading, test.reading, reading_dimensions, need);
-    reading.nullable_object({"flow",
-                             "how the flow is timed, from the beginning of the lift; null or left out: not timed, "
-                             "unless a time was measured"},
-                            test.reading.flow, Need::optional, [&](auto& flow, FlowTiming& timing) {
-                              read_dimensions(flow, timing, flow_dimensions, need);
-                            });
-    reading.nullable_object({"flank",
-                             "the part of the flank along which the angle of repose after step 1 is read; null or left "
-                             "out: not read, unless it was measured"},
-                            test.reading.flank, Need::optional, [&](auto& flank, Flank& shares) {
-                              read_dimensions(flank, shares, flank_dimensions, need);
-                            });
-  });
-}
-
-template <class Fields, class Test>
-void describe_slump(Fields& fields, Test& test) {
-  fields.object({"mould", "a frustum"}, required,
-                [&](auto& mould) { describe_dimensions(mould, test.mould, mould_dimensions); });
-  describe_dimensions(fields, test, slump_dimensions);
-  fields.nullable_object(
-      {"drop", "plate of step 2, and of all drops after it; null: the test ends with step 1"}, test.drop, required,
-      [](auto& drop, auto& plate) {
-        const DropPlate usual;
-        describe_dimensions(drop, plate, plate_dimensions);
-        drop.choice({"motion", "hinged where it is not said"}, plate.motion, table_motions, Default{usual.motion});
-        drop.integer({"drops", "how often it drops; once where it is not said"}, plate.drops, 1, kMostDrops,
-                     Default{usual.drops});
-        drop.number({"period_s", "from one drop to the next; 2 where it is not said"}, plate.period_s, any_number,
-                    Default{usual.period_s});
-      });
-  fields.object({"reading", "how the ruler is held"}, required, [&](auto& reading) {
-    reading.choice({"height", "where, as in laboratory files"}, test.reading.height, height_readings, required);
-    describe_dimensions(reading, test.reading, reading_dimensions);
-    reading.pairs({"spread_curve_s_m", "measured spread against time, [s, m]"}, test.reading.spread_curve, any_number,
-                  any_number, Need::optional, 0);
-    reading.optional_object({"flow", "how the flow is timed"}, test.reading.flow,
-                            [](auto& flow, auto& timing) { describe_dimensions(flow, timing, flow_dimensions); });
-    reading.optional_object({"flank", "where the angle of repose is read"}, test.reading.flank,
-                            [](auto& flank, auto& shares) { describe_dimensions(flank, shares, flank_dimensions); });
-    reading.pairs({"outline_step1_m", "measured outline, [x, z]"}, test.reading.outline_step1, any_number, any_number,
-                  Need::optional, 0);
-    reading.pairs({"outline_step2_m", "measured outline, [x, z]"}, test.reading.outline_step2, any_number, any_number,
-                  Need::optional, 0);
-  });
-  describe_specimen(fields, test);
-  fields.object({"mould_wall", "surface of the mould"}, required,
-                [&](auto& wall) { describe_wall(wall, test.mould_wall); });
-  fields.object({"table_wall", "surface of the table"}, required,
-                [&](auto& wall) { describe_wall(wall, test.table_wall); });
-}
 
 double largest_pressure_pa(const SlumpTest& test) {
   return test.bulk_density_kg_m3 * kGravity * test.mould.height_m;
@@ -185,33 +93,10 @@ double moved_time_s(const SlumpTest& test) {
   return lift_s + (test.drop->drops - 1) * moving_time_s(*test.drop);
 }
 
-void read_apparatus(ObjectReader& apparatus, SlumpTest& test, Need need) {
-  describe_slump_apparatus(apparatus, test, need);
-}
-
-void tell_apparatus(ObjectSchema& schema, SlumpTest any, Need need) {
-  describe_slump_apparatus(schema, any, need);
-}
-
-nlohmann::json to_json(const SlumpTest& test) {
-  nlohmann::json document;
-  ObjectWriter writer(document);
-  describe_slump(writer, test);
-  return document;
-}
-
 SlumpTest default_test(const SlumpTest&) {
   SlumpTest test;
   test.drop.emplace();
   return test;
-}
-
-void read_test(ObjectReader& reader, SlumpTest& test) {
-  describe_slump(reader, test);
-}
-
-void tell_schema(ObjectSchema& schema, SlumpTest any) {
-  describe_slump(schema, any);
 }
 
 std::optional<double> grain_density_of(const SlumpTest& test, const Readings& means) {

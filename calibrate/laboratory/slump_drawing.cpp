@@ -74,15 +74,9 @@ class HeapDrawing {
         line.points.push_back({x, mm * seen.outline->at(x / mm)});
       drawing_.lines.push_back(std::move(line));
     }
-    const auto count = static_cast<double>(std::ranges::count_if(outlines_, &Seen::accepted));
-    if (count == 0) return;
+    if (std::ranges::none_of(outlines_, &Seen::accepted)) return;
     DrawnLine mean{"simulated, mean", DrawnBy::simulation, {}};
-    for (double x = -half_width_; x <= half_width_; x += kStep) {
-      double sum = 0;
-      for (const Seen& seen : outlines_)
-        if (seen.accepted) sum += mm * seen.outline->at(x / mm);
-      mean.points.push_back({x, sum / count});
-    }
+    for (double x = -half_width_; x <= half_width_; x += kStep) mean.points.push_back({x, mean_height_at(x)});
     drawing_.lines.push_back(std::move(mean));
   }
 
@@ -166,20 +160,22 @@ class HeapDrawing {
     });
   }
 
+  /// Of the accepted heaps [mm].
+  double mean_height_at(double x) const {
+    double sum = 0, count = 0;
+    for (const Seen& seen : outlines_)
+      if (seen.accepted) {
+        sum += mm * seen.outline->at(x / mm);
+        ++count;
+      }
+    return count > 0 ? sum / count : 0;
+  }
+
   /// Half the width of the mean outline of the accepted heaps at this height [mm].
   std::optional<double> radius_of_runs(double height) const {
-    const auto mean_at = [&](double x) {
-      double sum = 0, count = 0;
-      for (const Seen& seen : outlines_)
-        if (seen.accepted) {
-          sum += mm * seen.outline->at(x / mm);
-          ++count;
-        }
-      return count > 0 ? sum / count : 0;
-    };
     double left = 0, right = 0;
-    while (left < half_width_ && mean_at(-left) >= height) left += kStep;
-    while (right < half_width_ && mean_at(right) >= height) right += kStep;
+    while (left < half_width_ && mean_height_at(-left) >= height) left += kStep;
+    while (right < half_width_ && mean_height_at(right) >= height) right += kStep;
     return left > 0 && right > 0 ? std::optional((left + right) / 2) : std::nullopt;
   }
 

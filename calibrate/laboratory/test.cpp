@@ -6,6 +6,7 @@
 
 #include "calibrate/base/embedded_text.h"
 #include "calibrate/base/object_schema.h"
+#include "calibrate/base/object_writer.h"
 #include "calibrate/base/units.h"
 #include "calibrate/judge/verdict.h"
 #include "core/apparatus/field_checker.h"
@@ -14,12 +15,6 @@ namespace pastefit {
 namespace {
 
 using nlohmann::json;
-
-template <class... Kinds>
-constexpr bool are_laboratory_tests(const std::variant<Kinds...>*) {
-  return (LaboratoryTest<Kinds> && ...);
-}
-static_assert(are_laboratory_tests(static_cast<const Test*>(nullptr)), "a kind of test lacks something");
 
 /// Calls `visit(Kind{})` for every kind until one returns true.
 template <class Visitor>
@@ -32,101 +27,8 @@ void each_kind(const Visitor& visit) {
 
 }  // namespace
 
-Specimen& specimen_of(Test& test) {
-  return std::visit([](auto& one) -> Specimen& { return one; }, test);
-}
-
-const Specimen& specimen_of(const Test& test) {
-  return std::visit([](const auto& one) -> const Specimen& { return one; }, test);
-}
-
-std::string_view kind_of(const Test& test) {
-  return std::visit([](const auto& one) { return kind_of(one); }, test);
-}
-
-std::vector<Surface> surfaces_of(Test& test) {
-  return std::visit([](auto& one) { return surfaces_of(one); }, test);
-}
-
-std::shared_ptr<const Packing> prepare(const Test& test, const RunOptions& options) {
-  return std::visit([&](const auto& one) { return prepare(one, options); }, test);
-}
-
-std::string preparation_key(const Test& test) {
-  return std::visit([](const auto& one) { return preparation_key(one); }, test);
-}
-
-double moved_time_s(const Test& test) {
-  return std::visit([](const auto& one) { return moved_time_s(one); }, test);
-}
-
-double grains_needed(const Test& test) {
-  return std::visit([](const auto& one) { return grains_needed(one); }, test);
-}
-
-Outcome simulate(const Test& test, const RunOptions& options) {
-  return std::visit([&](const auto& one) { return simulate(one, options); }, test);
-}
-
-std::vector<ReadingKind> reading_kinds(const Test& test) {
-  return std::visit([](const auto& one) { return reading_kinds(one); }, test);
-}
-
 void read_apparatus(ObjectReader& apparatus, Test& test, Need need) {
-  std::visit([&](auto& one) { read_apparatus(apparatus, one, need); }, test);
-}
-
-void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test) {
-  std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
-}
-
-void ask_for(Test& test, const ReadingKind& kind) {
-  std::visit([&](auto& one) { ask_for(one, kind); }, test);
-}
-
-std::optional<double> grain_density_of(const Test& test, const Readings& means) {
-  return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
-}
-
-std::string_view why_of_that_size(const Test& test) {
-  return std::visit([](const auto& one) { return why_of_that_size(one); }, test);
-}
-
-std::span<const std::string_view> series_of(const Test& test) {
-  return std::visit([](const auto& one) { return series_of(one); }, test);
-}
-
-std::size_t series_at(const Test& test, const Snapshot& snapshot) {
-  return std::visit([&](const auto& one) { return series_at(one, snapshot); }, test);
-}
-
-std::optional<Outline> heap_at(const Test& test, const Snapshot& snapshot) {
-  return std::visit([&](const auto& one) { return heap_at(one, snapshot); }, test);
-}
-
-std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot) {
-  return std::visit([&](const auto& one) { return outline_at(one, snapshot); }, test);
-}
-
-std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
-                                 std::span<const Measurement> measured) {
-  return std::visit([&](const auto& one) { return drawings_of(one, runs, measured); }, test);
-}
-
-nlohmann::ordered_json conditions_of(const Test& test) {
-  return std::visit([](const auto& one) { return conditions_of(one); }, test);
-}
-
-std::string conditions_in_words(const Test& test) {
-  return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
-}
-
-std::optional<double> rejection_index(const Test& test, const Readings& run) {
-  return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
-}
-
-std::string_view rejected_runs(const Test& test) {
-  return std::visit([](const auto& one) { return rejected_runs(one); }, test);
+  std::visit([&](auto& one) { describe_apparatus(apparatus, one, need); }, test);
 }
 
 bool is_rejected(const Test& test, const Readings& run) {
@@ -137,43 +39,6 @@ std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> ru
   std::vector<bool> rejected;
   for (const Readings& run : runs) rejected.push_back(is_rejected(test, run));
   return accepted(rejected);
-}
-
-std::string remarks_on(const Test& test, std::span<const Readings> runs) {
-  return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
-}
-
-ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements) {
-  return std::visit([&](const auto& one) { return check_readings(one, measurements); }, test);
-}
-
-std::vector<YieldStress> yield_stresses_of(const Test& test, const Readings& means) {
-  return std::visit([&](const auto& one) { return yield_stresses_of(one, means); }, test);
-}
-
-std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test, double yield_stress_pa) {
-  return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
-}
-
-std::optional<LikelyRange> likely_strength_pa(const Test& test, const Readings& readings) {
-  return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
-}
-
-double default_tolerance(const Test& test, const Measurement& measured) {
-  return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
-}
-
-std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
-                      std::span<const std::string_view> parameters) {
-  return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
-}
-
-std::vector<FilePlace> places_in_files(const Test& test) {
-  return std::visit([](const auto& one) { return places_in_files(one); }, test);
-}
-
-std::vector<Experience> experience_of(const Test& test) {
-  return std::visit([](const auto& one) { return experience_of(one); }, test);
 }
 
 Faults validate(const Test& test) {
@@ -279,7 +144,9 @@ std::vector<ReadingKind> all_reading_kinds() {
 }
 
 json to_json(const Test& test) {
-  json document = std::visit([](const auto& one) { return to_json(one); }, test);
+  json document;
+  ObjectWriter writer(document);
+  std::visit([&](auto one) { describe_test(writer, one); }, test);
   document["kind"] = kind_of(test);
   return document;
 }
@@ -294,7 +161,7 @@ Result<Test> test_from_json(const json& document) {
     reader.text("kind", word, Need::optional);
     test = test_of_kind(word);
     if (!test) return no_such_kind("kind", word);
-    std::visit([&](auto& one) { read_test(reader, one); }, *test);
+    std::visit([&](auto& one) { describe_test(reader, one); }, *test);
   }
   if (faults.empty()) faults = validate(*test);
   if (!faults.empty()) return faults;
@@ -303,11 +170,11 @@ Result<Test> test_from_json(const json& document) {
 
 nlohmann::ordered_json schema_of_tests(ObjectSchema& schema) {
   auto forms = nlohmann::ordered_json::array();
-  each_kind([&](const auto& kind) {
+  each_kind([&](auto kind) {
     forms.push_back(schema.described([&](ObjectSchema& form) {
       const Need need = kind_of(kind) == "slump" ? Need::optional : Need::required;
       form.constant({"kind", "which laboratory test; a slump test where it is not said"}, kind_of(kind), need);
-      tell_schema(form, kind);
+      describe_test(form, kind);
     }));
     return false;
   });
@@ -321,10 +188,11 @@ nlohmann::ordered_json schema_of_apparatus(ObjectSchema& schema, bool presets) {
       form.text({"preset",
                  "name of a file of data/apparatus without .json; what stands beside it replaces what the file says"},
                 "", Need::required);
-      tell_apparatus(form, SlumpTest(), Need::optional);
+      SlumpTest any;
+      describe_apparatus(form, any, Need::optional);
     }));
-  each_kind([&](const auto& kind) {
-    forms.push_back(schema.described([&](ObjectSchema& form) { tell_apparatus(form, kind, Need::required); }));
+  each_kind([&](auto kind) {
+    forms.push_back(schema.described([&](ObjectSchema& form) { describe_apparatus(form, kind, Need::required); }));
     return false;
   });
   return {{"oneOf", forms}};
@@ -344,8 +212,8 @@ json differing_part(const json& value, const json& by_default) {
 }
 
 json identity_of(const Test& test) {
-  const auto by_default = std::visit([](const auto& one) { return to_json(default_test(one)); }, test);
-  return {kind_of(test), differing_part(std::visit([](const auto& one) { return to_json(one); }, test), by_default)};
+  const Test by_default = std::visit([](const auto& one) -> Test { return default_test(one); }, test);
+  return {kind_of(test), differing_part(to_json(test), to_json(by_default))};
 }
 
 }  // namespace pastefit

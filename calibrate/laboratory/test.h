@@ -21,97 +21,152 @@
 namespace pastefit {
 
 /// A laboratory test of any kind. To add a kind: a folder in core/apparatus with the apparatus as a value that begins
-/// with a `Specimen`, a pair of files here with what `LaboratoryTest` asks for (calibrate/laboratory/slump.h says what
-/// each does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
+/// with a `Specimen`, a pair of files here with what is asked of each kind below (calibrate/laboratory/slump.h says
+/// what each does, calibrate/laboratory/default_answers.h what a kind need not say), and its row in this list.
 using Test = std::variant<SlumpTest, DropTest, PelletCrush, ShearCell>;
 
+inline Specimen& specimen_of(Test& test) {
+  return std::visit([](auto& one) -> Specimen& { return one; }, test);
+}
+
+inline const Specimen& specimen_of(const Test& test) {
+  return std::visit([](const auto& one) -> const Specimen& { return one; }, test);
+}
+
+// What each kind answers, of a test of any kind. Not of one by itself: what a kind lacks does not compile.
+
 template <class T>
-concept LaboratoryTest = std::derived_from<T, Specimen> && std::default_initializable<T> &&
-    requires(T test, const T given, const RunOptions& options, ObjectReader& reader, ObjectSchema& schema,
-             const ReadingKind& reading, std::span<const Readings> runs, const Readings& means,
-             const Snapshot& snapshot, std::span<const Measurement> measurements, std::span<const SeenRun> seen,
-             std::span<const std::string_view> names) {
-  { kind_of(given) } -> std::convertible_to<std::string_view>;
-  { surfaces_of(test) } -> std::same_as<std::vector<Surface>>;
-  { validate(given) } -> std::same_as<Faults>;
-  { prepare(given, options) } -> std::same_as<std::shared_ptr<const Packing>>;
-  { preparation_key(given) } -> std::same_as<std::string>;
-  { grains_needed(given) } -> std::same_as<double>;
-  { simulate(given, options) } -> std::same_as<Outcome>;
-  { moved_time_s(given) } -> std::same_as<double>;
-  { reading_kinds(given) } -> std::same_as<std::vector<ReadingKind>>;
-  {read_apparatus(reader, test, Need::required)};
-  {tell_apparatus(schema, test, Need::required)};
-  {read_outline(reader, reading, test)};
-  {ask_for(test, reading)};
-  { places_in_files(given) } -> std::same_as<std::vector<FilePlace>>;
-  { to_json(given) } -> std::same_as<nlohmann::json>;
-  { default_test(given) } -> std::same_as<T>;
-  {read_test(reader, test)};
-  {tell_schema(schema, test)};
-  { grain_density_of(given, means) } -> std::same_as<std::optional<double>>;
-  { why_of_that_size(given) } -> std::same_as<std::string_view>;
-  { series_of(given) } -> std::same_as<std::span<const std::string_view>>;
-  { series_at(given, snapshot) } -> std::same_as<std::size_t>;
-  { heap_at(given, snapshot) } -> std::same_as<std::optional<Outline>>;
-  { outline_at(given, snapshot) } -> std::same_as<std::optional<NamedOutline>>;
-  { drawings_of(given, seen, measurements) } -> std::same_as<std::vector<Drawing>>;
-  { conditions_of(given) } -> std::same_as<nlohmann::ordered_json>;
-  { conditions_in_words(given) } -> std::same_as<std::string>;
-  { rejection_index(given, means) } -> std::same_as<std::optional<double>>;
-  { rejected_runs(given) } -> std::same_as<std::string_view>;
-  { remarks_on(given, runs) } -> std::same_as<std::string>;
-  { check_readings(given, measurements) } -> std::same_as<ReadingCheck>;
-  { yield_stresses_of(given, means) } -> std::same_as<std::vector<YieldStress>>;
-  { readings_of_fluid(given, double{}) } -> std::same_as<std::optional<std::vector<PredictedReading>>>;
-  { likely_strength_pa(given, means) } -> std::same_as<std::optional<LikelyRange>>;
-  { unseen_by(given, names, names) } -> std::same_as<std::string>;
-  { experience_of(given) } -> std::same_as<std::vector<Experience>>;
-  { default_tolerance(given, Measurement{}) } -> std::same_as<double>;
-};
+concept AnyKind = std::same_as<T, Test>;
 
-Specimen& specimen_of(Test& test);
-const Specimen& specimen_of(const Test& test);
+std::string_view kind_of(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return kind_of(one); }, test);
+}
 
-// The same for a test of any kind, as each kind has it.
-std::string_view kind_of(const Test& test);
-std::vector<Surface> surfaces_of(Test& test);
-std::shared_ptr<const Packing> prepare(const Test& test, const RunOptions& options = {});
-std::string preparation_key(const Test& test);
-double grains_needed(const Test& test);
-double moved_time_s(const Test& test);
-Outcome simulate(const Test& test, const RunOptions& options = {});
-std::vector<ReadingKind> reading_kinds(const Test& test);
-void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
-void read_outline(ObjectReader& reader, const ReadingKind& kind, Test& test);
-void ask_for(Test& test, const ReadingKind& kind);
-std::optional<double> grain_density_of(const Test& test, const Readings& means);
-std::string_view why_of_that_size(const Test& test);
-std::span<const std::string_view> series_of(const Test& test);
-std::size_t series_at(const Test& test, const Snapshot& snapshot);
-std::optional<Outline> heap_at(const Test& test, const Snapshot& snapshot);
-std::optional<NamedOutline> outline_at(const Test& test, const Snapshot& snapshot);
-std::vector<Drawing> drawings_of(const Test& test, std::span<const SeenRun> runs,
-                                 std::span<const Measurement> measured);
-nlohmann::ordered_json conditions_of(const Test& test);
-std::string conditions_in_words(const Test& test);
-std::optional<double> rejection_index(const Test& test, const Readings& run);
-std::string_view rejected_runs(const Test& test);
+std::vector<Surface> surfaces_of(AnyKind auto& test) {
+  return std::visit([](auto& one) { return surfaces_of(one); }, test);
+}
+
+std::shared_ptr<const Packing> prepare(const AnyKind auto& test, const RunOptions& options = {}) {
+  return std::visit([&](const auto& one) { return prepare(one, options); }, test);
+}
+
+std::string preparation_key(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return preparation_key(one); }, test);
+}
+
+double grains_needed(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return grains_needed(one); }, test);
+}
+
+double moved_time_s(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return moved_time_s(one); }, test);
+}
+
+Outcome simulate(const AnyKind auto& test, const RunOptions& options = {}) {
+  return std::visit([&](const auto& one) { return simulate(one, options); }, test);
+}
+
+std::vector<ReadingKind> reading_kinds(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return reading_kinds(one); }, test);
+}
+
+void read_outline(ObjectReader& reader, const ReadingKind& kind, AnyKind auto& test) {
+  std::visit([&](auto& one) { read_outline(reader, kind, one); }, test);
+}
+
+void ask_for(AnyKind auto& test, const ReadingKind& kind) {
+  std::visit([&](auto& one) { ask_for(one, kind); }, test);
+}
+
+std::optional<double> grain_density_of(const AnyKind auto& test, const Readings& means) {
+  return std::visit([&](const auto& one) { return grain_density_of(one, means); }, test);
+}
+
+std::string_view why_of_that_size(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return why_of_that_size(one); }, test);
+}
+
+std::span<const std::string_view> series_of(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return series_of(one); }, test);
+}
+
+std::size_t series_at(const AnyKind auto& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return series_at(one, snapshot); }, test);
+}
+
+std::optional<Outline> heap_at(const AnyKind auto& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return heap_at(one, snapshot); }, test);
+}
+
+std::optional<NamedOutline> outline_at(const AnyKind auto& test, const Snapshot& snapshot) {
+  return std::visit([&](const auto& one) { return outline_at(one, snapshot); }, test);
+}
+
+std::vector<Drawing> drawings_of(const AnyKind auto& test, std::span<const SeenRun> runs,
+                                 std::span<const Measurement> measured) {
+  return std::visit([&](const auto& one) { return drawings_of(one, runs, measured); }, test);
+}
+
+nlohmann::ordered_json conditions_of(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return conditions_of(one); }, test);
+}
+
+std::string conditions_in_words(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return conditions_in_words(one); }, test);
+}
+
+std::optional<double> rejection_index(const AnyKind auto& test, const Readings& run) {
+  return std::visit([&](const auto& one) { return rejection_index(one, run); }, test);
+}
+
+std::string_view rejected_runs(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return rejected_runs(one); }, test);
+}
+
+std::string remarks_on(const AnyKind auto& test, std::span<const Readings> runs) {
+  return std::visit([&](const auto& one) { return remarks_on(one, runs); }, test);
+}
+
+ReadingCheck check_readings(const AnyKind auto& test, std::span<const Measurement> measurements) {
+  return std::visit([&](const auto& one) { return check_readings(one, measurements); }, test);
+}
+
+std::vector<YieldStress> yield_stresses_of(const AnyKind auto& test, const Readings& means) {
+  return std::visit([&](const auto& one) { return yield_stresses_of(one, means); }, test);
+}
+
+std::optional<std::vector<PredictedReading>> readings_of_fluid(const AnyKind auto& test, double yield_stress_pa) {
+  return std::visit([&](const auto& one) { return readings_of_fluid(one, yield_stress_pa); }, test);
+}
+
+std::optional<LikelyRange> likely_strength_pa(const AnyKind auto& test, const Readings& readings) {
+  return std::visit([&](const auto& one) { return likely_strength_pa(one, readings); }, test);
+}
+
+std::string unseen_by(const AnyKind auto& test, std::span<const std::string_view> readings,
+                      std::span<const std::string_view> parameters) {
+  return std::visit([&](const auto& one) { return unseen_by(one, readings, parameters); }, test);
+}
+
+std::vector<Experience> experience_of(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return experience_of(one); }, test);
+}
+
+/// The fields of the apparatus, and where laboratory files have them; an object behind those that it holds.
+std::vector<FilePlace> places_in_files(const AnyKind auto& test) {
+  return std::visit([](const auto& one) { return places_in_files(one); }, test);
+}
+
+double default_tolerance(const AnyKind auto& test, const Measurement& measured) {
+  return std::visit([&](const auto& one) { return default_tolerance(one, measured); }, test);
+}
+
 /// Whether the standards have a laboratory reject this run and repeat it.
 bool is_rejected(const Test& test, const Readings& run);
 /// The runs of a test that a laboratory would accept (`judge/verdict.h`).
 std::vector<std::size_t> accepted(const Test& test, std::span<const Readings> runs);
-std::string remarks_on(const Test& test, std::span<const Readings> runs);
-ReadingCheck check_readings(const Test& test, std::span<const Measurement> measurements);
-std::vector<YieldStress> yield_stresses_of(const Test& test, const Readings& means);
-std::optional<std::vector<PredictedReading>> readings_of_fluid(const Test& test, double yield_stress_pa);
-std::optional<LikelyRange> likely_strength_pa(const Test& test, const Readings& readings);
-std::string unseen_by(const Test& test, std::span<const std::string_view> readings,
-                      std::span<const std::string_view> parameters);
-std::vector<Experience> experience_of(const Test& test);
-/// The fields of the apparatus, and where laboratory files have them; an object behind those that it holds.
-std::vector<FilePlace> places_in_files(const Test& test);
-double default_tolerance(const Test& test, const Measurement& measured);
+
+void read_apparatus(ObjectReader& apparatus, Test& test, Need need);
 
 /// Every fault that keeps the test from being simulated; places are paths in its JSON.
 Faults validate(const Test& test);
