@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -27,6 +27,20 @@ std::optional<nlohmann::json> parse_json(std::string_view text, Faults& faults);
 
 /// Reads a file of at most 16 MB with `parse_json`; a file that cannot be read is a fault too.
 std::optional<nlohmann::json> read_json(const std::filesystem::path& file, Faults& faults);
+
+/// What `from_json` makes of the file's content, a `Result`; its faults begin with the file's name.
+template <class FromJson>
+auto read_file(const std::filesystem::path& file, const FromJson& from_json)
+    -> decltype(from_json(std::declval<nlohmann::json&>())) {
+  Faults faults;
+  auto document = read_json(file, faults);
+  if (!document) return faults;
+  auto read = from_json(*document);
+  if (read.ok() && faults.empty()) return read;
+  if (!read.ok())
+    for (Fault& fault : in_file(read.faults(), file)) faults.push_back(std::move(fault));
+  return faults;
+}
 
 /// Whether the document's "format" is the expected one, e.g. "pastefit-lab-1".
 /// False only if going on makes no sense: it is no object, or another kind of pastefit file.

@@ -295,14 +295,7 @@ ordered_json card_schema() {
 }
 
 Result<Card> read_card(const std::filesystem::path& file) {
-  Faults faults;
-  const auto document = read_json(file, faults);
-  if (!document) return faults;
-  auto card = card_from_json(*document);
-  if (card.ok() && faults.empty()) return card;
-  if (!card.ok())
-    for (auto& fault : in_file(card.faults(), file)) faults.push_back(std::move(fault));
-  return faults;
+  return read_file(file, card_from_json);
 }
 
 Result<std::string> readable_text(const Card& card) {

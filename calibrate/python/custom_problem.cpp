@@ -14,7 +14,7 @@
 #include "calibrate/python/module.h"
 #include "calibrate/search/strategies.h"
 #include "calibrate/study/parameters.h"
-#include "calibrate/study/study_sections.h"
+#include "calibrate/study/schemas.h"
 
 namespace pastefit::python {
 

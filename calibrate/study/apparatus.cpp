@@ -331,15 +331,11 @@ Result<Apparatus> apparatus_from_json(const json& document) {
 }
 
 Result<Apparatus> read_apparatus_file(const fs::path& file) {
-  Faults faults;
-  const std::optional<json> document = read_json(file, faults);
-  if (!document) return faults;
-  Result<Apparatus> apparatus = apparatus_from_json(*document);
-  if (apparatus.ok()) apparatus.value().file = file;
-  if (apparatus.ok() && faults.empty()) return apparatus;
-  if (!apparatus.ok())
-    for (Fault& fault : in_file(apparatus.faults(), file)) faults.push_back(std::move(fault));
-  return faults;
+  return read_file(file, [&](const json& document) {
+    Result<Apparatus> apparatus = apparatus_from_json(document);
+    if (apparatus.ok()) apparatus.value().file = file;
+    return apparatus;
+  });
 }
 
 }  // namespace pastefit

@@ -36,9 +36,9 @@ void read_direction(ObjectReader& reader, std::string_view key, Vec3& target) {
 }
 
 /// A vector, or a speed and the angle between the downward vertical and the direction, towards +x.
-void read_velocity(ObjectReader& reader, const json& object, Vec3& target) {
-  const auto given = object.find("velocity_m_s");
-  if (given == object.end() || !given->is_object()) {
+void read_velocity(ObjectReader& reader, Vec3& target) {
+  const json* given = reader.content("velocity_m_s");
+  if (!given || !given->is_object()) {
     read_vector(reader, "velocity_m_s", target, Need::optional);
     return;
   }
@@ -48,28 +48,6 @@ void read_velocity(ObjectReader& reader, const json& object, Vec3& target) {
     polar.number("angle_deg", angle, {-180, 180}, Need::required, 180 / std::numbers::pi);
     target = {speed * std::sin(angle), 0, -speed * std::cos(angle)};
   });
-}
-
-/// Calls `body(ObjectReader&, const json&, index)` for every object of a list.
-template <class Body>
-void read_list(ObjectReader& reader, const json& object, const std::string& key, Body body) {
-  reader.known(key);
-  const auto list = object.find(key);
-  if (list == object.end()) return;
-  if (!list->is_array()) {
-    reader.fault(key, "is " + text_of(*list), "a list [ ... ] of objects");
-    return;
-  }
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string place = reader.place(key) + "[" + std::to_string(i) + "]";
-    const json& element = (*list)[i];
-    if (!element.is_object()) {
-      reader.faults().push_back({place, "is " + text_of(element), "an object { ... }"});
-      continue;
-    }
-    ObjectReader inner(element, place, reader.faults());
-    body(inner, element);
-  }
 }
 
 void read_bridge(ObjectReader& reader, Bridge& bridge) {
@@ -104,33 +82,30 @@ void read_impact_contact(ObjectReader& reader, ContactModel& contact) {
   reader.choice("rolling", contact.rolling, rolling_models, Need::optional);
   reader.choice("friction_basis", contact.friction_basis, friction_bases, Need::optional);
   reader.nullable_number("cohesion_n", contact.cohesion_n, {0, 1e9}, Need::optional);
-  if (reader.has("bridge"))
-    reader.object("bridge", Need::optional, [&](ObjectReader& b) { read_bridge(b, contact.bridge); });
-  else
-    reader.known("bridge");
+  reader.object("bridge", Need::optional, [&](ObjectReader& b) { read_bridge(b, contact.bridge); });
 }
 
-void read_grain(ObjectReader& reader, const json& object, ImpactGrain& grain) {
+void read_grain(ObjectReader& reader, ImpactGrain& grain) {
   reader.number("radius_m", grain.radius_m, kLength, Need::required);
   read_vector(reader, "centre_m", grain.centre_m, Need::required);
-  read_velocity(reader, object, grain.velocity_m_s);
+  read_velocity(reader, grain.velocity_m_s);
   read_vector(reader, "spin_rad_s", grain.spin_rad_s, Need::optional);
   reader.flag("held", grain.held, Need::optional);
   reader.nullable_number("turns_at_s", grain.turns_at_s, {0, 1e6}, Need::optional);
 }
 
-void read_shape(ObjectReader& reader, const json& object, ImpactWall& wall) {
-  const int shapes = static_cast<int>(object.contains("plane")) + object.contains("plate") + object.contains("shell");
+void read_shape(ObjectReader& reader, ImpactWall& wall) {
+  const int shapes = static_cast<int>(reader.has("plane")) + reader.has("plate") + reader.has("shell");
   if (shapes != 1) reader.fault("plane", "one shape is needed", "give \"plane\", \"plate\" or \"shell\", and only one");
   for (const char* key : {"plane", "plate", "shell"}) reader.known(key);
-  if (object.contains("plane"))
+  if (reader.has("plane"))
     reader.object("plane", Need::required, [&](ObjectReader& of) {
       Plane plane;
       read_vector(of, "point_m", plane.point, Need::optional);
       read_direction(of, "normal", plane.normal);
       wall.shape = plane;
     });
-  if (object.contains("plate"))
+  if (reader.has("plate"))
     reader.object("plate", Need::required, [&](ObjectReader& of) {
       Plate plate;
       read_vector(of, "centre_m", plate.centre, Need::optional);
@@ -142,7 +117,7 @@ void read_shape(ObjectReader& reader, const json& object, ImpactWall& wall) {
         of.fault("across", "is not at a right angle to \"along\"", "two orthogonal directions");
       wall.shape = plate;
     });
-  if (object.contains("shell"))
+  if (reader.has("shell"))
     reader.object("shell", Need::required, [&](ObjectReader& of) {
       Shell shell;
       read_vector(of, "base_m", shell.base, Need::optional);
@@ -153,8 +128,8 @@ void read_shape(ObjectReader& reader, const json& object, ImpactWall& wall) {
     });
 }
 
-void read_wall(ObjectReader& reader, const json& object, ImpactWall& wall) {
-  read_shape(reader, object, wall);
+void read_wall(ObjectReader& reader, ImpactWall& wall) {
+  read_shape(reader, wall);
   wall.surface.friction = wall.surface.rolling_friction = 0;
   wall.surface.restitution = 1;
   reader.number("youngs_modulus_pa", wall.surface.youngs_modulus_pa, kModulus, Need::required);
@@ -169,14 +144,14 @@ void read_wall(ObjectReader& reader, const json& object, ImpactWall& wall) {
   reader.nullable_number("rotor_mass_kg", wall.rotor_mass_kg, {0, 1e9, true}, Need::optional);
 }
 
-void read_step(ObjectReader& reader, const json& object, Impact& test) {
-  const auto given = object.find("time_step");
-  if (given != object.end() && *given == "engine") {
+void read_step(ObjectReader& reader, Impact& test) {
+  const json* given = reader.content("time_step");
+  if (given && *given == "engine") {
     reader.known("time_step");
     test.step = ImpactStep::engine;
     return;
   }
-  if (given == object.end()) return reader.known("time_step");
+  if (!given) return reader.known("time_step");
   reader.object("time_step", Need::optional, [&](ObjectReader& step) {
     if (step.number("fixed_s", test.step_s, {0, 1, true}, Need::optional))
       test.step = ImpactStep::fixed;
@@ -185,8 +160,8 @@ void read_step(ObjectReader& reader, const json& object, Impact& test) {
   });
 }
 
-void read_duration(ObjectReader& reader, const json& object, Impact& test) {
-  const bool in_contacts = object.contains("duration_contacts");
+void read_duration(ObjectReader& reader, Impact& test) {
+  const bool in_contacts = reader.has("duration_contacts");
   double contacts = 0;
   reader.number("duration_contacts", contacts, {0, 1e6, true}, Need::optional);
   reader.number("duration_s", test.duration_s, {0, 1e6, true}, in_contacts ? Need::optional : Need::required);
@@ -201,7 +176,7 @@ void read_duration(ObjectReader& reader, const json& object, Impact& test) {
 
 }  // namespace
 
-void read_impact(ObjectReader& reader, const json& object, Impact& test) {
+void read_impact(ObjectReader& reader, Impact& test) {
   const std::size_t before = reader.faults().size();
   test.contact = {};
   test.contact.restitution = 1;
@@ -209,17 +184,15 @@ void read_impact(ObjectReader& reader, const json& object, Impact& test) {
   test.contact.rolling = RollingModel::none;
   reader.object("contact", Need::required, [&](ObjectReader& contact) { read_impact_contact(contact, test.contact); });
   reader.number("density_kg_m3", test.density_kg_m3, {0, 1e12, true}, Need::required);
-  read_list(reader, object, "grains",
-            [&](ObjectReader& inner, const json& element) { read_grain(inner, element, test.grains.emplace_back()); });
-  read_list(reader, object, "walls",
-            [&](ObjectReader& inner, const json& element) { read_wall(inner, element, test.walls.emplace_back()); });
+  reader.list("grains", test.grains, Need::optional, read_grain);
+  reader.list("walls", test.walls, Need::optional, read_wall);
   if (!test.grains.empty()) test.reference_radius_m = test.grains[0].radius_m;
   reader.number("reference_radius_m", test.reference_radius_m, kLength, Need::optional);
   reader.number("gravity_m_s2", test.gravity_m_s2, {0, 1e4}, Need::optional);
   reader.numbers("pull_gaps_m", test.pull_gaps_m, {-1e3, 1e3}, Need::optional, 1);
-  read_step(reader, object, test);
+  read_step(reader, test);
   if (reader.faults().size() == before) {
-    read_duration(reader, object, test);
+    read_duration(reader, test);
   } else {
     reader.known("duration_s");
     reader.known("duration_contacts");
@@ -237,7 +210,7 @@ Result<Impact> impact_from_json(const json& document) {
     std::string title;
     reader.known("format");
     reader.text("title", title, Need::optional);
-    read_impact(reader, document, test);
+    read_impact(reader, test);
   }
   if (!faults.empty()) return faults;
   return test;

@@ -163,15 +163,15 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
     read_grains(reader, lab.test, preset ? Need::optional : Need::required);
     lab.test = with_default_contact(lab.test);
     // A test with a faulty section would only be judged by values nobody gave.
-    if (values_are_good(faults, before))
-      for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
-        faults.push_back(std::move(fault));
+    const auto judge_test = [&] {
+      if (values_are_good(faults, before))
+        for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
+          faults.push_back(std::move(fault));
+    };
+    judge_test();
     if (values_are_good(faults, before)) ask_about_sizes(lab.test, questions);
     lab.measurements = read_measurements(reader, lab.test, lab.yield_stress, questions);
-    // A reading that was taken has the test read it, by default in a way that the apparatus may not admit.
-    if (values_are_good(faults, before))
-      for (Fault& fault : with_defaults_named(validate_in_file_words(lab.test), document, preset.has_value()))
-        faults.push_back(std::move(fault));
+    judge_test();  // a reading has the test take it, by default in a way that the apparatus may not admit
     read_repeats(reader, lab, lab.repeats);
     for (const FilePlace& one : places_in_files(lab.test))
       if (one.often_unstated && has_place(document, one.place) && std::ranges::count(assumed, one.place) == 0)
@@ -197,15 +197,10 @@ Result<Lab> lab_from_json(const nlohmann::json& document, const std::filesystem:
 }
 
 Result<Lab> read_lab(const std::filesystem::path& file, const std::function<void(nlohmann::json&)>& change) {
-  Faults faults;
-  std::optional<nlohmann::json> document = read_json(file, faults);
-  if (!document) return faults;
-  if (change) change(*document);
-  Result<Lab> lab = lab_from_json(*document, file.parent_path());
-  if (lab.ok() && faults.empty()) return lab;
-  if (!lab.ok())
-    for (Fault& fault : in_file(lab.faults(), file)) faults.push_back(std::move(fault));
-  return faults;
+  return read_file(file, [&](nlohmann::json& document) {
+    if (change) change(document);
+    return lab_from_json(document, file.parent_path());
+  });
 }
 
 ObjectSchema::Json lab_schema() {

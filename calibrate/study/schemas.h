@@ -28,7 +28,13 @@ void tell_yield_stress(ObjectSchema& material);
 void tell_measurements(ObjectSchema& lab);
 
 void tell_tests(ObjectSchema& study);
+
+/// "free", "scale" and "prior" of a parameter. `range`: where it is admissible.
+void read_free(ObjectReader& reader, const Range& range, Parameter& parameter);
 void tell_parameter(ObjectSchema& parameters, const ParameterKind& kind);
+
+/// "search" of a study in which so many tests are fitted.
+void read_search_options(ObjectReader& document, int fitted_tests, SearchOptions& search);
 void tell_search_options(ObjectSchema& study);
 
 }  // namespace pastefit

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <regex>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -49,44 +48,28 @@ std::string cell_of(const CsvLine& line, std::size_t column) {
   return column < line.cells.size() ? line.cells[column] : std::string();
 }
 
-/// What people and Excel write where nothing was measured, in small letters.
+/// Whether the word stands in a list "|one|two|".
+bool is_one_of(std::string_view words, const std::string& word) {
+  return words.find("|" + word + "|") != std::string_view::npos;
+}
+
+/// What people and Excel write where nothing was measured.
 bool is_missing(const std::string& cell) {
-  static const std::set<std::string, std::less<>> words{
-      "",    "-",    "–",    "—",     "/",   "?",    "x",       "n/a",          "n.a.",          "na",
-      "nan", "n.b.", "k.a.", "k. a.", "#nv", "#n/a", "#div/0!", "not measured", "nicht gemessen"};
-  return words.contains(small_letters(cell));
+  return is_one_of("||-|–|—|/|?|x|n/a|n.a.|na|nan|n.b.|k.a.|k. a.|#nv|#n/a|#div/0!|not measured|nicht gemessen|",
+                   small_letters(cell));
 }
 
 /// Rows that a laboratory adds below its samples.
 bool is_of_statistics(const std::string& sample) {
-  static const std::set<std::string, std::less<>> words{"mean",
-                                                        "average",
-                                                        "mittel",
-                                                        "mittelwert",
-                                                        "durchschnitt",
-                                                        "median",
-                                                        "stabw",
-                                                        "standardabweichung",
-                                                        "standard deviation",
-                                                        "std",
-                                                        "st dev",
-                                                        "sd",
-                                                        "min",
-                                                        "max",
-                                                        "minimum",
-                                                        "maximum",
-                                                        "sum",
-                                                        "summe",
-                                                        "n",
-                                                        "anzahl",
-                                                        "count"};
-  return words.contains(folded(sample));
+  return is_one_of(
+      "|mean|average|mittel|mittelwert|durchschnitt|median|stabw|standardabweichung|standard deviation|std|st "
+      "dev|sd|min|max|minimum|maximum|sum|summe|n|anzahl|count|",
+      folded(sample));
 }
 
 /// Takes a line below the head that holds units only.
 void take_units(Layout& layout) {
   if (layout.first >= layout.lines.size()) return;
-  static const std::set<std::string, std::less<>> words{"unit", "units", "einheit", "einheiten", "%"};
   const CsvLine& line = layout.lines[layout.first];
   const auto unit_in = [&](std::size_t i) {
     std::string cell = cell_of(line, i);
@@ -95,7 +78,7 @@ void take_units(Layout& layout) {
   };
   bool any = false;
   for (std::size_t i = 0; i < line.cells.size(); ++i) {
-    if (is_missing(line.cells[i]) || words.contains(small_letters(unit_in(i)))) continue;
+    if (is_missing(line.cells[i]) || is_one_of("|unit|units|einheit|einheiten|%|", small_letters(unit_in(i)))) continue;
     if (!unit_of_word(unit_in(i))) return;
     any = true;
   }

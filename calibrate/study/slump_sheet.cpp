@@ -49,6 +49,14 @@ std::string reading_fault_place(std::string_view name) {
   return "reading " + printable(name);
 }
 
+/// The value; nothing, and its faults added to the others, where there are some.
+template <class T>
+std::optional<T> taken(const Result<T>& result, Faults& faults) {
+  if (result.ok()) return result.value();
+  faults.insert(faults.end(), result.faults().begin(), result.faults().end());
+  return std::nullopt;
+}
+
 /// Base, top and height of a mould [mm], "200/100/300" or "8/4/12 in". Nothing if it is none.
 std::optional<std::vector<double>> lengths_in(std::string mould) {
   const bool three = std::ranges::count(mould, '/') == 2;
@@ -111,15 +119,12 @@ ordered_json grains_json(const Test& test, bool preset) {
 /// Those of the sheet, or those of the mould.
 ordered_json grains_json(const Sheet& sheet, const Test& test, Faults& faults) {
   if (sheet.grains.empty()) return grains_json(test, !lengths_in(sheet.mould));
-  const auto read = written_readings("grains", sheet.grains, "mm");
-  if (!read.ok()) {
-    faults.insert(faults.end(), read.faults().begin(), read.faults().end());
-    return {};
-  }
-  const std::vector<double>& radii = read.value();
-  if (radii.size() == 1) return {{"distribution", "mono"}, {"radius_mm", radii[0]}};
-  if (radii.size() == 2) return {{"distribution", "uniform"}, {"smallest_mm", radii[0]}, {"largest_mm", radii[1]}};
-  faults.push_back({"grains", "are " + std::to_string(radii.size()) + " numbers",
+  const auto radii = taken(written_readings("grains", sheet.grains, "mm"), faults);
+  if (!radii) return {};
+  if (radii->size() == 1) return {{"distribution", "mono"}, {"radius_mm", radii->at(0)}};
+  if (radii->size() == 2)
+    return {{"distribution", "uniform"}, {"smallest_mm", radii->at(0)}, {"largest_mm", radii->at(1)}};
+  faults.push_back({"grains", "are " + std::to_string(radii->size()) + " numbers",
                     "their radius, \"8\", or the smallest and the largest, \"6, 10\""});
   return {};
 }
@@ -222,14 +227,10 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
       faults.push_back({reading_fault_place(name), "is given twice", "once, repeats as \"180, 175, 190\""});
       continue;
     }
-    const auto values = values_of_reading(name, text, key, slump_of(test));
-    if (!values.ok()) {
-      faults.insert(faults.end(), values.faults().begin(), values.faults().end());
-      continue;
-    }
+    const auto values = taken(values_of_reading(name, text, key, slump_of(test)), faults);
+    if (!values) continue;
     const auto stated = deviation_in(sheet, key, faults);
-    out[std::string(key)] =
-        reading_json(values.value(), stated ? *stated : deviation_of(*kind, test, values.value()[0]));
+    out[std::string(key)] = reading_json(*values, stated ? *stated : deviation_of(*kind, test, values->front()));
   }
   for (const auto& [name, text] : sheet.deviations)
     if (!out.contains(std::string(key_of_reading(name))))
@@ -240,12 +241,9 @@ ordered_json measurements_of(const Sheet& sheet, const Test& test, Faults& fault
 /// What a vane read, as the sheet says; nothing if it does not.
 std::vector<double> yield_stresses_in(const Sheet& sheet, Faults& faults) {
   if (sheet.yield_stress.empty()) return {};
-  const auto read = written_readings("yield stress", sheet.yield_stress, "pa");
-  if (!read.ok()) {
-    faults.insert(faults.end(), read.faults().begin(), read.faults().end());
-    return {};
-  }
-  if (std::ranges::all_of(read.value(), [](double pa) { return pa > 0; })) return read.value();
+  const auto read = taken(written_readings("yield stress", sheet.yield_stress, "pa"), faults);
+  if (!read) return {};
+  if (std::ranges::all_of(*read, [](double pa) { return pa > 0; })) return *read;
   faults.push_back({"yield stress", "is not above 0", "in Pa, e.g. 520, or with its unit: \"0.52 kPa\""});
   return {};
 }
@@ -351,18 +349,16 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   Faults faults;
   const auto laws = laws_for(sheet.target, sheet.law);
   if (!laws) faults.push_back(no_such_laws(sheet.target, sheet.law));
-  const auto density = written_readings("density", sheet.density, "kg_m3");
-  if (!density.ok()) faults.insert(faults.end(), density.faults().begin(), density.faults().end());
-  const auto test = apparatus_of(sheet.mould, folder);
-  if (!test.ok()) faults.insert(faults.end(), test.faults().begin(), test.faults().end());
+  const auto density = taken(written_readings("density", sheet.density, "kg_m3"), faults);
+  const auto test = taken(apparatus_of(sheet.mould, folder), faults);
   ordered_json measurements;
-  if (test.ok()) measurements = measurements_of(sheet, test.value(), faults);
+  if (test) measurements = measurements_of(sheet, *test, faults);
   const std::vector<double> stresses_pa = yield_stresses_in(sheet, faults);
-  if (density.ok())
-    for (Fault& fault : doubtful_numbers(sheet, density.value())) faults.push_back(std::move(fault));
+  if (density)
+    for (Fault& fault : doubtful_numbers(sheet, *density)) faults.push_back(std::move(fault));
   ordered_json grains;
-  if (test.ok()) grains = grains_json(sheet, test.value(), faults);
-  if (test.ok() && sheet.readings.empty() && sheet.yield_stress.empty())
+  if (test) grains = grains_json(sheet, *test, faults);
+  if (test && sheet.readings.empty() && sheet.yield_stress.empty())
     faults.push_back({"readings", "there is none", "give at least one, e.g. a slump or a spread"});
   if (!faults.empty()) return faults;
 
@@ -370,15 +366,15 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
       {"format", "pastefit-lab-1"},
       {"title", one_line(sheet.title)},
       {"provenance", {{"source", sheet.source.empty() ? std::string(kSourceToFillIn) : one_line(sheet.source)}}},
-      {"apparatus", apparatus_json(sheet, slump_of(test.value()), measurements)},
-      {"material", {{"bulk_density_kg_m3", density.value()[0]}}},
+      {"apparatus", apparatus_json(sheet, slump_of(*test), measurements)},
+      {"material", {{"bulk_density_kg_m3", density->front()}}},
       {"grains", grains},
       {"measurements", measurements}};
   for (const auto& [name, value] : sheet.mix) lab["mix"][name] = value;
   for (const std::string& place : sheet.confirmed) lab["confirmed"].push_back(one_line(place));
   note_assumptions(lab, sheet);
   if (!stresses_pa.empty()) add_yield_stress(lab, stresses_pa);
-  if (sheet.readings.empty()) predict_reading(lab, test.value(), stresses_pa, faults);
+  if (sheet.readings.empty()) predict_reading(lab, *test, stresses_pa, faults);
   if (!faults.empty()) return faults;
   const auto read = lab_from_json(json::parse(lab.dump()), folder);
   if (!read.ok()) return read.faults();
@@ -386,8 +382,7 @@ Result<StartingFiles> starting_files(const Sheet& sheet, const std::filesystem::
   if (const double count = grains_needed(read.value().test); count > most_grains)
     return Fault{"grains", "would be " + shown(rounded(count, 2)) + " in the mould",
                  "larger grains: at most a million"};
-  const StartingStudy study =
-      starting_study(sheet, *laws, slump_of(test.value()), lab, read.value().measurements, faults);
+  const StartingStudy study = starting_study(sheet, *laws, slump_of(*test), lab, read.value().measurements, faults);
   if (!faults.empty()) return faults;
   json whole = json::parse(study.document.dump());
   whole["lab"] = json::parse(lab.dump());

@@ -11,7 +11,6 @@
 #include "calibrate/study/apparatus.h"
 #include "calibrate/study/parameters.h"
 #include "calibrate/study/schemas.h"
-#include "calibrate/study/study_sections.h"
 #include "calibrate/study/tests.h"
 #include "core/laws/table.h"
 

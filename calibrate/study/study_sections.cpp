@@ -1,5 +1,3 @@
-#include "calibrate/study/study_sections.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -88,6 +88,13 @@ Vec3 reading(const Outcome& outcome, std::size_t grain, const std::string& what,
 
 }  // namespace
 
+std::string_view claim_of(Transform transform) {
+  constexpr std::array<std::string_view, 5> words{"ends alike when shifted", "ends alike when turned",
+                                                  "ends alike in the mirror", "ends alike when boosted",
+                                                  "ends alike when 3 x as large"};
+  return words[static_cast<std::size_t>(transform)];
+}
+
 Impact transformed(const Impact& test, Transform transform) {
   Impact seen = test;
   for (ImpactGrain& grain : seen.grains) {
@@ -150,13 +157,13 @@ void read_formula(ObjectReader& reader, ByFormula& by) {
   reader.number("gap_m", by.arguments.gap_m, {-1e3, 1e3}, Need::optional);
 }
 
-void read_expected(ObjectReader& reader, const json& object, Check& check) {
-  const auto given = object.find("expected");
+void read_expected(ObjectReader& reader, Check& check) {
+  const json* given = reader.content("expected");
   double value = 0;
-  if (object.contains("at_most")) {
+  if (reader.has("at_most")) {
     reader.refuse("expected", "stands beside a bound", "give \"expected\" or \"at_most\"");
     if (reader.number("at_most", value, {}, Need::required)) check.expected = AtMost{value};
-  } else if (given != object.end() && given->is_object()) {
+  } else if (given && given->is_object()) {
     ByFormula by;
     reader.object("expected", Need::required, [&](ObjectReader& inner) { read_formula(inner, by); });
     if (by.formula) check.expected = by;
@@ -165,9 +172,9 @@ void read_expected(ObjectReader& reader, const json& object, Check& check) {
   }
 }
 
-void read_check(ObjectReader& reader, const json& object, Check& check) {
+void read_check(ObjectReader& reader, Check& check) {
   reader.text("known_deviation", check.known_deviation, Need::optional);
-  if (object.contains("unchanged_under")) {
+  if (reader.has("unchanged_under")) {
     Transform transform{};
     if (reader.choice("unchanged_under", transform, kTransforms, Need::required)) check.unchanged_under = transform;
     check.absolute = true;
@@ -175,9 +182,9 @@ void read_check(ObjectReader& reader, const json& object, Check& check) {
     return;
   }
   reader.text("reading", check.reading, Need::required);
-  read_expected(reader, object, check);
-  if (object.contains("at_most")) return;
-  check.absolute = object.contains("absolute_tolerance");
+  read_expected(reader, check);
+  if (reader.has("at_most")) return;
+  check.absolute = reader.has("absolute_tolerance");
   reader.number("absolute_tolerance", check.tolerance, {0, 1e12}, Need::optional);
   if (check.absolute)
     reader.refuse("tolerance", "stands beside an absolute one", "give one of them");
@@ -185,38 +192,17 @@ void read_check(ObjectReader& reader, const json& object, Check& check) {
     reader.number("tolerance", check.tolerance, {0, 1}, Need::required);
 }
 
-void read_point(ObjectReader& reader, const json& object, Point& point) {
+void read_point(ObjectReader& reader, Point& point) {
   reader.text("label", point.label, Need::required);
   reader.object("set", Need::optional, [&](ObjectReader& inner) {
-    for (const auto& [path, value] : object.at("set").items()) {
+    for (const std::string& path : inner.keys()) {
       inner.known(path);
-      point.set.emplace_back(path, value);
+      point.set.emplace_back(path, *inner.content(path));
     }
   });
   reader.object("published", Need::optional, [&](ObjectReader& inner) {
-    for (const auto& [reading, value] : object.at("published").items())
-      inner.number(reading, point.published[reading], {}, Need::required);
+    for (const std::string& reading : inner.keys()) inner.number(reading, point.published[reading], {}, Need::required);
   });
-}
-
-template <class Body>
-void for_each_object(ObjectReader& reader, const json& document, const std::string& key, Body body) {
-  reader.known(key);
-  const auto list = document.find(key);
-  if (list == document.end()) return;
-  if (!list->is_array() || list->empty()) {
-    reader.fault(key, "is " + text_of(*list), "a list of objects with at least one");
-    return;
-  }
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string place = key + "[" + std::to_string(i) + "]";
-    if (!(*list)[i].is_object()) {
-      reader.faults().push_back({place, "is " + text_of((*list)[i]), "an object { ... }"});
-      continue;
-    }
-    ObjectReader inner((*list)[i], place, reader.faults());
-    body(inner, (*list)[i]);
-  }
 }
 
 /// Every combination of the grid's values with every point so far.
@@ -245,43 +231,37 @@ void read_grid(ObjectReader& reader, const json& document, std::vector<Point>& p
   }
 }
 
-Case case_from_json(const json& document, Faults& faults) {
+Result<Case> case_from_json(const json& document) {
   Case test;
-  ObjectReader reader(document, "", faults);
-  reader.known("format");
-  reader.text("title", test.title, Need::required);
-  reader.text("source", test.source, Need::required);
-  reader.known("scene");
-  if (document.contains("scene") && document["scene"].is_object())
-    test.scene = document["scene"];
-  else
-    reader.fault("scene", "is missing", "an impact: contact, density_kg_m3, grains, walls, duration_s ...");
-  for_each_object(reader, document, "points", [&](ObjectReader& inner, const json& object) {
-    read_point(inner, object, test.points.emplace_back());
-  });
-  if (test.points.empty()) test.points.emplace_back();
-  read_grid(reader, document, test.points);
-  for_each_object(reader, document, "checks", [&](ObjectReader& inner, const json& object) {
-    read_check(inner, object, test.checks.emplace_back());
-  });
-  if (test.checks.empty()) reader.fault("checks", "claims nothing", "at least one check");
+  Faults faults;
+  if (!has_format(document, "pastefit-case-1", faults)) return faults;
+  {
+    ObjectReader reader(document, "", faults);
+    reader.known("format");
+    reader.text("title", test.title, Need::required);
+    reader.text("source", test.source, Need::required);
+    reader.known("scene");
+    if (document.contains("scene") && document["scene"].is_object())
+      test.scene = document["scene"];
+    else
+      reader.fault("scene", "is missing", "an impact: contact, density_kg_m3, grains, walls, duration_s ...");
+    reader.list("points", test.points, Need::optional, read_point);
+    if (test.points.empty()) test.points.emplace_back();
+    read_grid(reader, document, test.points);
+    reader.list("checks", test.checks, Need::required, read_check);
+  }
+  if (!faults.empty()) return faults;
   return test;
 }
 
 }  // namespace
 
 Result<Case> read_case(const fs::path& file) {
-  Faults faults;
-  const auto document = read_json(file, faults);
-  if (!document) return faults;
-  Faults inside;
-  if (has_format(*document, "pastefit-case-1", inside)) {
-    Case test = case_from_json(*document, inside);
-    test.name = file.stem().string();
-    if (inside.empty() && faults.empty()) return test;
-  }
-  for (Fault& fault : in_file(std::move(inside), file)) faults.push_back(std::move(fault));
-  return faults;
+  return read_file(file, [&](const json& document) {
+    Result<Case> test = case_from_json(document);
+    if (test.ok()) test.value().name = file.stem().string();
+    return test;
+  });
 }
 
 std::vector<fs::path> shipped_cases() {
@@ -316,7 +296,7 @@ Result<Impact> scene_at(const Case& test, const Point& point) {
   Impact impact;
   {
     ObjectReader reader(scene, point.label.empty() ? "scene" : "scene at \"" + point.label + "\"", faults);
-    read_impact(reader, scene, impact);
+    read_impact(reader, impact);
   }
   if (!faults.empty()) return faults;
   return impact;

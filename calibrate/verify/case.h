@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -23,6 +24,9 @@ enum class Transform {
   lengthen,  ///< all lengths three times as long, at equal speeds and stresses: times grow alike, bridges by their
              ///< scaling
 };
+
+/// What a check of it says: "ends alike in the mirror".
+std::string_view claim_of(Transform transform);
 
 /// The experiment as it is seen after the transformation.
 Impact transformed(const Impact& test, Transform transform);

@@ -13,9 +13,13 @@ Approach pair_of(const Impact& scene) {
   return scene.grains.size() > 1 ? approach_of_grains(scene, 0, 1) : approach_of_wall(scene, 0, 0);
 }
 
-namespace {
+double share_of(const Impact& scene) {
+  return scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
+}
 
-using Arguments = FormulaArguments;
+double speed_after(const Approach& pair, double work) {
+  return std::sqrt(std::max(pair.speed * pair.speed - 2 * work / pair.mass, 0.0));
+}
 
 double along(const Vec3& v, const std::string& axis) {
   return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
@@ -24,6 +28,10 @@ double along(const Vec3& v, const std::string& axis) {
 Fault outside(std::string what) {
   return {"expected.formula", std::move(what), "another scene, or another formula"};
 }
+
+namespace {
+
+using Arguments = FormulaArguments;
 
 // Normal collisions
 
@@ -106,9 +114,9 @@ Result<double> cohesive_overlap(const Impact& scene, const Arguments&) {
 /// Force of a bridge at a gap, straight from its definition.
 double attraction(const Impact& scene, double gap) {
   const Bridge& bridge = scene.contact.bridge;
-  const double s = size_scale(scene), share = scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
+  const double s = size_scale(scene);
   if (gap / s > rupture_gap(bridge, scene.reference_radius_m)) return 0;
-  return share * s * s * closed_bridge_n(bridge, scene.reference_radius_m, -gap / s);
+  return share_of(scene) * s * s * closed_bridge_n(bridge, scene.reference_radius_m, -gap / s);
 }
 
 /// Work of the attraction between two gaps by Simpson's rule; exact for the polynomial.
@@ -146,16 +154,12 @@ Result<double> bridge_loop_area(const Impact& scene, const Arguments&) {
 
 /// Relative speed at which an elastic pair that starts at touch is left by its bridge; 0 if it does not escape.
 Result<double> speed_after_rupture(const Impact& scene, const Arguments&) {
-  const Approach a = pair_of(scene);
-  const double lost = 2 * work(scene, 0, living_gap(scene)) / a.mass;
-  return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
+  return speed_after(pair_of(scene), work(scene, 0, living_gap(scene)));
 }
 
 /// The same for a pair that comes from afar, so that its bridge only costs what the formation gap did not give.
 Result<double> speed_after_rebound(const Impact& scene, const Arguments&) {
-  const Approach a = pair_of(scene);
-  const double lost = 2 * work(scene, forming_gap(scene), living_gap(scene)) / a.mass;
-  return std::sqrt(std::max(a.speed * a.speed - lost, 0.0));
+  return speed_after(pair_of(scene), work(scene, forming_gap(scene), living_gap(scene)));
 }
 
 // Sliding and rolling on a wall, along x

@@ -22,6 +22,14 @@ enum class FormulaNeeds { grain, pair, wall, rotor };
 
 /// The pair of a scene that has one.
 Approach pair_of(const Impact& scene);
+/// Share of the grains' attraction that acts in the pair: of a wall its own.
+double share_of(const Impact& scene);
+/// The relative speed of the pair once this work is lost; 0 if it is more than the pair has.
+double speed_after(const Approach& pair, double work_j);
+/// The component along "x", "y" or "z".
+double along(const Vec3& v, const std::string& axis);
+/// A scene is beyond what the formula holds for.
+Fault outside(std::string what);
 
 /// A closed form of a few-body test; all it needs is the scene.
 struct Formula {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,10 +47,6 @@ double jkr_work(const Approach& pair, double gamma) {
   double sum = 0;
   for (int k = 0; k < kPanels; ++k) sum += slope(k / 1e3) + 4 * slope((k + 0.5) / 1e3) + slope((k + 1) / 1e3);
   return sum / (6 * kPanels);
-}
-
-double share_of(const Impact& scene) {
-  return scene.grains.size() > 1 ? 1 : scene.walls[0].surface.cohesion_factor;
 }
 
 double surface_energy(const Impact& scene) {
@@ -109,8 +104,7 @@ Result<double> sjkr_pull_off(const Impact& scene, const FormulaArguments&) {
 
 Result<double> speed_after_parting(const Impact& scene, const FormulaArguments&) {
   const Approach pair = pair_of(scene);
-  const double lost = 2 * jkr_work(pair, surface_energy(scene)) / pair.mass;
-  return std::sqrt(std::max(pair.speed * pair.speed - lost, 0.0));
+  return speed_after(pair, jkr_work(pair, surface_energy(scene)));
 }
 
 }  // namespace pastefit

@@ -14,22 +14,6 @@ namespace {
 
 constexpr double kPublishedDigits = 1e-3;  // figures are printed with four digits or more; constants in them differ
 
-std::string_view word_for(Transform transform) {
-  switch (transform) {
-    case Transform::shift:
-      return "ends alike when shifted";
-    case Transform::turn:
-      return "ends alike when turned";
-    case Transform::mirror:
-      return "ends alike in the mirror";
-    case Transform::boost:
-      return "ends alike when boosted";
-    case Transform::lengthen:
-      return "ends alike when 3 x as large";
-  }
-  return "";
-}
-
 Result<double> expected_value(const Check& check, const Impact& scene, const Point& point) {
   if (const auto* value = std::get_if<double>(&check.expected)) return *value;
   if (const auto* most = std::get_if<AtMost>(&check.expected)) return most->bound;
@@ -71,7 +55,7 @@ CheckRow without_answer(CheckRow row, const Check& check, std::string why) {
 CheckRow compare_views(const Check& check, const Impact& scene, const Outcome& outcome, CheckRow row) {
   const Transform transform = *check.unchanged_under;
   const Outcome seen = simulate(transformed(scene, transform));
-  row.reading = word_for(transform);
+  row.reading = claim_of(transform);
   if (seen.failure) return without_answer(std::move(row), check, seen.failure->message);
   row.got = difference(scene, outcome, transform, seen);
   judge(check, row);

@@ -10,7 +10,7 @@ namespace pastefit {
 namespace {
 
 Fault too_near() {
-  return {"expected.formula", "the pair comes nearer than the roughness", "another scene, or another formula"};
+  return outside("the pair comes nearer than the roughness");
 }
 
 bool meets_grain(const Impact& scene) {
@@ -19,8 +19,8 @@ bool meets_grain(const Impact& scene) {
 
 /// C_n [N m/(m/s)].
 double squeezing(const Impact& scene) {
-  const double share = meets_grain(scene) ? 1 : scene.walls[0].surface.cohesion_factor, radius = pair_of(scene).radius;
-  return 6 * std::numbers::pi * share * scene.contact.bridge.viscosity_pa_s * radius * radius;
+  const double radius = pair_of(scene).radius;
+  return 6 * std::numbers::pi * share_of(scene) * scene.contact.bridge.viscosity_pa_s * radius * radius;
 }
 
 double least_gap(const Impact& scene) {
@@ -59,10 +59,6 @@ Sheared sheared(const Impact& scene, std::size_t which) {
           grain.spin_rad_s + lever / inertia * cross(a.normal, on_first)};
 }
 
-double component(const Vec3& v, const std::string& axis) {
-  return axis == "x" ? v.x : axis == "y" ? v.y : v.z;
-}
-
 }  // namespace
 
 Result<double> squeeze_force(const Impact& scene, const FormulaArguments& arguments) {
@@ -94,11 +90,11 @@ Result<double> settled_overlap(const Impact& scene, const FormulaArguments&) {
 }
 
 Result<double> sheared_velocity(const Impact& scene, const FormulaArguments& arguments) {
-  return component(sheared(scene, arguments.grain).velocity, arguments.axis);
+  return along(sheared(scene, arguments.grain).velocity, arguments.axis);
 }
 
 Result<double> sheared_spin(const Impact& scene, const FormulaArguments& arguments) {
-  return component(sheared(scene, arguments.grain).spin, arguments.axis);
+  return along(sheared(scene, arguments.grain).spin, arguments.axis);
 }
 
 }  // namespace pastefit

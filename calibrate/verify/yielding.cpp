@@ -15,10 +15,9 @@ class Cycle {
     exponent_ = contact.normal == NormalLaw::luding ? 1 : 1.5;
     loading_ = 4.0 / 3 * pair_.modulus * std::pow(pair_.radius, 2 - exponent_);
     plastic_ = contact.plasticity_ratio;
-    const bool wall = scene.grains.size() < 2;
-    const double share = wall ? scene.walls[0].surface.cohesion_factor : 1;
+    const double share = share_of(scene);
     adhesion_ = share * contact.adhesion_ratio * loading_;
-    const double scale = (wall ? 1 : 2) * pair_.radius / scene.reference_radius_m;
+    const double scale = (scene.grains.size() < 2 ? 1 : 2) * pair_.radius / scene.reference_radius_m;
     pull_off_ = share * contact.cohesion_n.value_or(0) * scale * scale;
     deepest_ = deepest_overlap(scene);
   }
@@ -36,8 +35,7 @@ class Cycle {
                                            plastic_ * std::pow(deepest_, exponent_) * (deepest_ - end));
     return loading_ * integral(deepest_) - unloaded + adhesion_ * integral(end);
   }
-  double mass() const { return pair_.mass; }
-  double speed() const { return pair_.speed; }
+  const Approach& pair() const { return pair_; }
 
  private:
   double unloading() const { return loading_ / (1 - plastic_); }
@@ -78,7 +76,7 @@ Result<double> epa_loop_area(const Impact& scene, const FormulaArguments&) {
 
 Result<double> epa_rebound_speed(const Impact& scene, const FormulaArguments&) {
   const Cycle cycle(scene);
-  return std::sqrt(std::max(cycle.speed() * cycle.speed() - 2 * cycle.lost() / cycle.mass(), 0.0));
+  return speed_after(cycle.pair(), cycle.lost());
 }
 
 }  // namespace pastefit
