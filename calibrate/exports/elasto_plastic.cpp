@@ -76,16 +76,17 @@ std::string lammps_granular_words(const ExportScene& scene) {
          format("tangential mindlin NULL 1.0 %.6g", contact.friction);
 }
 
-std::string note_of_pull_off(const ExportScene& scene, std::string_view target) {
+namespace {
+
+/// That a constant pull-off belongs to two mean grains, if there is one and grains differ in size; else empty.
+std::string note_of_pull_off(const ExportScene& scene) {
   const double pull_off = cohesion_n(scene.contact(), scene.mean_pair());
   if (pull_off == 0 || scene.grains().distribution == SizeDistribution::mono) return {};
   return format(
       "The constant pull-off, %.4g N, is that of two mean grains; for other sizes it grows with the square of "
-      "the size on the card, and not in %s.",
-      pull_off, std::string(target).c_str());
+      "the size on the card, and not in LIGGGHTS.",
+      pull_off);
 }
-
-namespace {
 
 constexpr double kStepsPerCollision = 25;  // with the stiffer spring
 constexpr double kLowestRestitution = 0.0501;
@@ -226,7 +227,7 @@ std::vector<std::string> edinburgh_losses(const ExportScene& scene, const Edinbu
         "In place of a torque of constant size against the spin stands a spring that slips at that moment.");
   if (edinburgh.restitution(contact.restitution) == kLowestRestitution)
     notes.push_back("The dashpot is weaker than the card's: LIGGGHTS takes no restitution below 0.05.");
-  if (const auto note = note_of_pull_off(scene, "LIGGGHTS"); !note.empty()) notes.push_back(note);
+  if (const auto note = note_of_pull_off(scene); !note.empty()) notes.push_back(note);
   return notes;
 }
 

@@ -35,9 +35,6 @@ double eepa_surface_energy(const ExportScene& scene);
 /// The card's law in the words of the `pair granular` of current LAMMPS, for notes.
 std::string lammps_granular_words(const ExportScene& scene);
 
-/// Says that a constant pull-off belongs to two mean grains, if there is one and grains differ in size; else empty.
-std::string note_of_pull_off(const ExportScene& scene, std::string_view target);
-
 /// A matrix over the grains and each wall; walls do not meet each other.
 inline std::string pairs_of(const std::vector<double>& values) {
   std::string out = format("peratomtypepair %zu", values.size());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -55,8 +54,7 @@ Result<Exporter> exporter_named(const std::string& name) {
     names.emplace(one.name);
     list += (list.empty() ? "" : ", ") + std::string(one.name);
   }
-  std::string small;
-  for (const char letter : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string small = small_letters(name);
   auto near = nearest(small, names);
   for (const std::string& one : names)
     if (!small.empty() && one.starts_with(small) && (!near || *near != small)) near = one;

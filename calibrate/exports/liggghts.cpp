@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/elasto_plastic.h"
 #include "calibrate/exports/export.h"
@@ -36,11 +37,11 @@ Models models_of(const ContactModel& contact, bool attracts) {
   return {base + " cohesion easo/capillary/viscous" + rolling, base + rolling, reduce};
 }
 
-/// The value of the grains, then those of the walls.
-template <class OfWall>
-std::vector<double> by_type(const std::vector<ExportWall>& walls, double grains, const OfWall& of_wall) {
-  std::vector<double> out{grains};
-  for (const ExportWall& wall : walls) out.push_back(of_wall(wall.contact));
+/// The value of the grains, then those of the walls; `of` takes what either has.
+template <class Of>
+std::vector<double> by_type(const ContactModel& grains, const std::vector<ExportWall>& walls, const Of& of) {
+  std::vector<double> out{of(grains)};
+  for (const ExportWall& wall : walls) out.push_back(of(wall.contact));
   return out;
 }
 
@@ -67,28 +68,22 @@ std::string properties(const ExportScene& scene, const Written& written) {
     out += format("fix p%d all property/global ", number) + name + " " + value + "\n";
   };
   out += "\n";
-  property(1, "youngsModulus",
-           one_each(by_type(walls, written.modulus(contact.youngs_modulus_pa),
-                            [&](const auto& wall) { return written.modulus(wall.youngs_modulus_pa); })));
-  property(2, "poissonsRatio",
-           one_each(by_type(walls, contact.poissons_ratio, [](const auto& wall) { return wall.poissons_ratio; })));
+  const auto by_body = [&](const auto& of) { return by_type(contact, walls, of); };
+  property(1, "youngsModulus", one_each(by_body([&](auto& body) { return written.modulus(body.youngs_modulus_pa); })));
+  property(2, "poissonsRatio", one_each(by_body([](auto& body) { return body.poissons_ratio; })));
   property(3, "coefficientRestitution",
-           pairs_of(by_type(walls, written.restitution(contact.restitution),
-                            [&](const auto& wall) { return written.restitution(wall.restitution); })));
-  property(4, "coefficientFriction",
-           pairs_of(by_type(walls, contact.friction, [](const auto& wall) { return wall.friction; })));
-  property(5, "coefficientRollingFriction",
-           pairs_of(by_type(walls, contact.rolling_friction, [](const auto& wall) { return wall.rolling_friction; })));
+           pairs_of(by_body([&](auto& body) { return written.restitution(body.restitution); })));
+  property(4, "coefficientFriction", pairs_of(by_body([](auto& body) { return body.friction; })));
+  property(5, "coefficientRollingFriction", pairs_of(by_body([](auto& body) { return body.rolling_friction; })));
   const double rolling_damping =
       written.edinburgh && contact.friction_basis != FrictionBasis::net ? written.edinburgh->rolling_damping : 0.3;
-  property(6, "coefficientRollingViscousDamping",
-           pairs_of(by_type(walls, rolling_damping, [&](const auto&) { return rolling_damping; })));
+  property(6, "coefficientRollingViscousDamping", pairs_of(by_body([&](auto&) { return rolling_damping; })));
   if (written.edinburgh) out += edinburgh_properties(scene, *written.edinburgh);
   if (contact.normal == NormalLaw::sjkr) {
     // sjkr2 has twice the area of the card's law.
-    auto halves = by_type(walls, contact.cohesion_energy_density_pa,
-                          [&](const auto& wall) { return energy_density(scene.contact(), wall, scene.radius_m()); });
-    for (double& value : halves) value *= 0.5;
+    std::vector<double> halves{0.5 * contact.cohesion_energy_density_pa};
+    for (const ExportWall& wall : walls)
+      halves.push_back(0.5 * energy_density(scene.contact(), wall.contact, scene.radius_m()));
     property(7, "cohesionEnergyDensity", pairs_of(halves));
   }
   if (!fit) return out;
@@ -99,7 +94,7 @@ std::string properties(const ExportScene& scene, const Written& written) {
          exact(fit->bridge.volume_m3 / (grain * (1 - std::sqrt(0.75)))) + "\n";
   out += "fix p8 all property/global surfaceTension scalar " + exact(fit->bridge.surface_tension_n_m) + "\n";
   out += "fix p9 all property/global fluidViscosity scalar 0\n";
-  property(10, "contactAngle", one_each(by_type(walls, 0, [](const auto&) { return 0; })));
+  property(10, "contactAngle", one_each(by_body([](auto&) { return 0.0; })));
   out += "fix p11 all property/global minSeparationDistanceRatio scalar 1.01\n";
   out += "fix p12 all property/global maxSeparationDistanceRatio scalar " +
          exact(1.02 + 0.5 * fit->bridge.rupture_gap_m() / radius) + "\n";
@@ -109,21 +104,25 @@ std::string properties(const ExportScene& scene, const Written& written) {
 /// material.inc: properties, pair style and the model of walls, for a script with types for the grains and each wall.
 std::string liggghts_material(const ExportScene& scene, const Written& written, const Models& models) {
   const auto walls = walls_of(scene.test);
-  std::string out = deck_comment(scene.title) + "# written by " + program_identity() + " from a material card\n";
-  out += format("# Include it where the grains are there (read_data, create_box of %zu types), in a script with:\n",
-                walls.size() + 1);
-  out += "#   units lj, atom_style granular, " + atom_modify(scene.contact()) +
-         ", newton off, communicate single vel yes\n";
-  out += "#   density of a grain " + grain_density_in_words(scene) +
-         format(",\n#   mean radius %.9g m, time steps of %.6g s at most\n", scene.radius_m(), written.time_step_s);
+  std::string fixes;
   for (std::size_t i = 0; i < walls.size(); ++i)
-    out += "#   fix " + walls[i].name + " all wall/gran ${wall_model} mesh n_meshes ... meshes ..." +
-           models.wall_end() + format(", each fix mesh/surface file ... type %zu\n", i + 2);
-  out += "\n" + properties(scene, written);
-  out += models.pair_style();
-  out += "variable     wall_model string \"" + models.walls + "\"\n";
-  if (!models.wall_settings.empty()) out += "variable     wall_settings string \"" + models.wall_settings + "\"\n";
-  return out;
+    fixes += "#   fix " + walls[i].name + " all wall/gran ${wall_model} mesh n_meshes ... meshes ..." +
+             models.wall_end() + format(", each fix mesh/surface file ... type %zu\n", i + 2);
+  const std::string& settings = models.wall_settings;
+  return filled_in(
+      "exports/texts/liggghts_material.in",
+      {{"title", deck_comment(scene.title)},
+       {"program", program_identity()},
+       {"types", std::to_string(walls.size() + 1)},
+       {"atom_modify", atom_modify(scene.contact())},
+       {"density", grain_density_in_words(scene)},
+       {"radius", format("%.9g", scene.radius_m())},
+       {"time_step", format("%.6g", written.time_step_s)},
+       {"walls", fixes},
+       {"properties", properties(scene, written)},
+       {"pair_style", models.pair_style()},
+       {"wall_model", models.walls},
+       {"wall_settings", settings.empty() ? "" : "variable     wall_settings string \"" + settings + "\""}});
 }
 
 std::vector<std::string> liggghts_losses(const ExportScene& scene, const Written& deck_law) {

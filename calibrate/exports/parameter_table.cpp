@@ -12,6 +12,13 @@ namespace pastefit {
 
 namespace {
 
+/// One number of a card.
+struct ParameterRow {
+  std::string name;  ///< with its unit
+  double value = 0;
+  std::string meaning;
+};
+
 void add_wall(std::vector<ParameterRow>& rows, const std::string& name, const WallContact& wall) {
   rows.push_back({name + ".youngs_modulus_pa", wall.youngs_modulus_pa, "of the wall"});
   rows.push_back({name + ".poissons_ratio", wall.poissons_ratio, "of the wall"});
@@ -53,8 +60,7 @@ std::string bridge_formula(BridgeShape shape) {
   }
 }
 
-}  // namespace
-
+/// The names of the laws in one line.
 std::string laws_chosen(const ContactModel& contact) {
   return "normal " + word_of(contact.normal, normal_laws) + ", bridge " + word_of(contact.bridge.shape, bridge_shapes) +
          ", formed by " + word_of(contact.bridge.formation, bridge_formations) + ", rolling " +
@@ -62,6 +68,7 @@ std::string laws_chosen(const ContactModel& contact) {
          word_of(contact.friction_basis, friction_bases) + " normal force";
 }
 
+/// The contact laws, walls, grains and apparatus of the test in SI, for grains of its mean radius.
 std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   const Specimen& specimen = specimen_of(scene.test);
   const ContactModel& contact = specimen.contact;
@@ -99,12 +106,15 @@ std::vector<ParameterRow> parameter_rows(const ExportScene& scene) {
   return rows;
 }
 
+/// "name,value,meaning" with a header.
 ExportFile parameters_csv(const ExportScene& scene) {
   std::string text = "name,value,meaning\n";
   for (const auto& row : parameter_rows(scene))
     text += row.name + "," + exact(row.value) + ",\"" + row.meaning + "\"\n";
   return {"parameters.csv", text};
 }
+
+}  // namespace
 
 ExportFile force_csv(const ExportScene& scene) {
   const Specimen& specimen = specimen_of(scene.test);

@@ -8,19 +8,6 @@
 
 namespace pastefit {
 
-/// One number of a card, for tables in any form.
-struct ParameterRow {
-  std::string name;  ///< with its unit
-  double value = 0;
-  std::string meaning;
-};
-
-/// The contact laws, walls, grains and apparatus of the test in SI, for grains of its mean radius.
-std::vector<ParameterRow> parameter_rows(const ExportScene& scene);
-
-/// "name,value,meaning" with a header.
-ExportFile parameters_csv(const ExportScene& scene);
-
 /// "overlap_m,attraction_n,repulsion_n" of two grains of the mean radius, 2,001 rows from the rupture gap to an overlap
 /// of a tenth of the radius; a row at touch. Both forces are positive; the attraction pulls.
 ExportFile force_csv(const ExportScene& scene);
@@ -31,10 +18,7 @@ ExportFile grains_csv(const ExportScene& scene);
 /// These files, then parameters, forces and, if there is a filled mould, its grains.
 std::vector<ExportFile> law_files(const ExportScene& scene, std::vector<ExportFile> files = {});
 
-/// The laws in words and formulas, for people who type them into another program.
+/// The laws in words and formulas with their numbers in SI, for people who type them into another program.
 std::string laws_in_words(const ExportScene& scene);
-
-/// The names of the laws in one line.
-std::string laws_chosen(const ContactModel& contact);
 
 }  // namespace pastefit

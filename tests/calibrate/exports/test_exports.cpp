@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibrate/base/embedded_text.h"
 #include "calibrate/base/text.h"
 #include "calibrate/exports/export.h"
 #include "calibrate/exports/nearest_law.h"
@@ -17,6 +18,16 @@
 
 using namespace pastefit;
 using namespace pastefit::export_scenes;
+
+TEST_CASE("a text is filled in once, and never without a value for each of its names") {
+  const std::string leg = "exports/texts/lammps_leg.in";
+  const std::string text = filled_in(leg, {{"word", "@way@"}, {"steps", "2"}, {"number", "1"}, {"way", "0.5"}});
+  CHECK(text.find("\"@way@ $(v_at") != std::string::npos);
+  CHECK(text.find("move 0.5 0 0") != std::string::npos);
+  CHECK_THROWS_AS(filled_in(leg, {{"word", "apart"}}), std::logic_error);
+  CHECK_THROWS_AS(filled_in("exports/texts/none", {}), std::logic_error);
+  CHECK_FALSE(embedded_text("exports/texts/none"));
+}
 
 TEST_CASE("the curve that is exported is the one the engine acts by, for every shape") {
   ContactModel contact = slump_of_paste().contact;
