@@ -11,13 +11,13 @@ import sys
 
 # What each count may be at most. Lower a number when the tree shrinks; one that has to grow wants a reason in its commit.
 MOST = {
-    "lines of C++ in calibrate": 37340,
+    "lines of C++ in calibrate": 36459,
     "files of core and calibrate": 433,
     "of them below 40 lines": 60,
     "files that start or wait for threads": 2,
     "files that decide whether a material meets the laboratory": 1,
     "lines of schemas written by hand": 282,
-    "files in which a reading has its name": 7,
+    "files in which a reading has its name": 6,
     "files in which a law's parameter has its name": 14,
 }
 
