@@ -45,9 +45,9 @@ constexpr double kParticleStepsPerSecond = 2e7;
 constexpr double kFillAndRest_s = 1;
 constexpr double kImpactSpeed_m_s = 1;
 constexpr double kStepsPerCollision = 10;
-constexpr double kSolidShare = 0.6;  // of the bulk: what grains heavier than it fill
+constexpr double kSolidShare = 0.6;  // of the bulk volume: converts bulk density to the density of a grain
 
-/// Of two equal grains that meet at `kImpactSpeed_m_s`, by Hertz [s].
+/// Hertzian collision time of two equal grains at `kImpactSpeed_m_s` [s].
 double collision_s(const Specimen& specimen) {
   const double radius = specimen.grains.radius_m, nu = specimen.contact.poissons_ratio;
   const double mass =

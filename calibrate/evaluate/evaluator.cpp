@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so a stop is obeyed at once
+constexpr double kWatchInterval = 0.002;  // simulated seconds; some ms of wall time, so that a stop acts at once
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -98,7 +98,7 @@ std::vector<SimulationObjective::Task*> SimulationObjective::begun(std::span<con
         const auto [entry, added] = tasks_.try_emplace(cutoff ? key_of_ended(key, *cutoff) : key);
         Task& task = entry->second;
         tasks.push_back(&task);
-        if (!added) continue;  // and may be under way: nothing of it is touched here
+        if (!added) continue;  // may be running: not touched here
         task.index = test;
         task.tried = tried;
         task.cutoff = cutoff;
@@ -132,7 +132,7 @@ std::vector<StoredEvaluation> SimulationObjective::answers(std::span<const UnitP
     if (task->done.valid()) task->done.wait();
   std::vector<StoredEvaluation> out;
   for (Task* task : tasks) {
-    if (task->done.valid()) task->done.get();  // throws what the engine threw
+    if (task->done.valid()) task->done.get();  // rethrows exceptions of the engine
     const bool added = task->finished && asked_.insert(task->evaluation.key).second;
     if (fresh) fresh->push_back(added);
     out.push_back(task->cutoff ? seen_through(study_.tests[task->index].lab.test, *task->cutoff, task->evaluation)

@@ -25,57 +25,56 @@
 
 namespace pastefit {
 
-/// Tally of the evaluations one objective has begun; each is counted once, when it is known.
+/// Counts the evaluations of one objective, each once, as soon as it is known.
 struct EvaluationCounts {
-  double core_s = 0;                      ///< processor time of those finished now
-  int simulated = 0;                      ///< finished now; a candidate in one test on one packing is one
-  int answered = 0;                       ///< known to the store from an earlier run
+  double core_s = 0;                      ///< processor time of those simulated [s]
+  int simulated = 0;                      ///< simulated by this objective; one for each candidate, test and packing
+  int answered = 0;                       ///< found in the store from an earlier run
   std::map<FailureReason, int> failures;  ///< of both, by reason
-  double best_error = -1;                 ///< of the candidates that did not fail; negative: none yet
+  double best_error = -1;                 ///< of the feasible candidates; negative: none yet
 
-  EvaluationCounts& operator+=(const EvaluationCounts& other);  ///< the same of two objectives
+  EvaluationCounts& operator+=(const EvaluationCounts& other);  ///< adds those of another objective
 };
 
 struct EvaluatorOptions {
-  int threads = 0;                          ///< simulations at the same time; 0: one for each core
-  int budget = 0;                           ///< evaluations in all, known ones included; 0: the study's budget
-  double wall_limit_s = 600;                ///< a simulation that takes longer fails with `stopped`
-  double wall_budget_s = 0;                 ///< from now on; then as if `stop` had become true; 0: no end
-  double core_budget_s = 0;                 ///< processor time of all simulations from now on; likewise
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to end
-  std::function<void(const EvaluationCounts&)> observer;  ///< after each evaluation, never two calls at a time
-  std::function<void()> pulse;                            ///< now and then during each, from any thread
-  RunObserver* run_observer = nullptr;                    ///< of the simulations that are not only tried out
+  int threads = 0;                          ///< simulations at a time; 0: one for each core
+  int budget = 0;                           ///< total evaluations, known ones included; 0: the study's budget
+  double wall_limit_s = 600;                ///< a longer simulation fails with `stopped`
+  double wall_budget_s = 0;                 ///< from construction; then as if `stop` were true; 0: no limit
+  double core_budget_s = 0;                 ///< processor time of all simulations; likewise
+  const std::atomic<bool>* stop = nullptr;  ///< true: the user requests a stop
+  std::function<void(const EvaluationCounts&)> observer;  ///< called after each evaluation, never concurrently
+  std::function<void()> pulse;                            ///< called repeatedly during each simulation, from any thread
+  RunObserver* run_observer = nullptr;                    ///< observes complete simulations, not those tried out
   Engine engine;
-  /// How every simulation and preparation is run; packing and watch are set here. With `own_fill` every simulation
-  /// fills its own mould. Other than the default it belongs into the identity of the store.
+  /// Options of every simulation and preparation, except packing and watch, which are set here. With `own_fill` every
+  /// simulation fills its own mould. Values other than the default belong into the identity of the store.
   RunOptions run;
 };
 
-/// The objective of a study: candidates are simulated in parallel in every test that is fitted, and every finished
-/// simulation is stored before its answer is used. Known ones are answered from the store, so that a search that runs
-/// again takes the same way. Simulations run in the order in which they were begun; the budget counts what was asked.
-///
-/// What a test starts from (`prepare`) is shared by the candidates for which it is the same (`preparation_key`).
-///
-/// A candidate that is tried out ends early where the study allows it (`early_end.h`). It is then stored under a name
-/// of its own, so that it never stands in for one that ran to its end. It keeps no energy balance; where it
-/// ran to its end it has the same readings as one with an energy balance and stands in for it on the same packing. A
-/// confirmation has packings on which nothing was tried.
-///
-/// When a stop is requested, running simulations end at their next watch; they count as failed with `stopped` and are
-/// not stored. One that reaches the wall limit is stored, so that a resumed search takes the same way; it is the one
-/// answer that may depend on the machine's load.
+/// Objective of a study: simulates candidates in parallel in every fitted test and stores every finished simulation
+/// before its result is used. Known evaluations come from the store, so that a repeated search takes the same path.
+/// Simulations run in the order of `begin`; the budget counts requested answers. Candidates with the same
+/// `preparation_key` share a prepared packing.
 ///
 /// Requirements: `study` and `store` outlive the objective; those of `StudyScoring`.
-/// Limits: a batch that exceeds the budget is answered in full; the search looks at `budget_left` before it asks.
-/// Errors: throws std::logic_error for points outside the unit cube. A full disk: `store_faults`, and a stop request.
+///
+/// A candidate that is tried out may end early (`early_end.h`) and is then stored under its own key, so that it never
+/// replaces a complete run. It keeps no energy balance; if it runs to its end, it has the same readings as one with an
+/// energy balance and replaces it on the same packing. Confirmations use packings on which nothing was tried out.
+///
+/// On a stop request, running simulations end at their next watch, fail with `stopped` and are not stored. A simulation
+/// that exceeds the wall limit is stored, so that a resumed search takes the same path; only its result may depend on
+/// the load of the machine.
+///
+/// Limits: a batch that exceeds the budget is answered in full; the caller checks `budget_left` first. Errors: throws
+/// std::logic_error for points outside the unit cube. A full disk sets `store_faults` and requests a stop.
 class SimulationObjective : public Objective, public StudyScoring {
  public:
   SimulationObjective(const Study& study, Store& store, EvaluatorOptions options);
   SimulationObjective(const SimulationObjective&) = delete;
   SimulationObjective& operator=(const SimulationObjective&) = delete;
-  ~SimulationObjective() override;  ///< ends what is under way, as a stop request would
+  ~SimulationObjective() override;  ///< ends running simulations as a stop request does
 
   std::vector<Response> evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
   std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) override;
@@ -85,7 +84,7 @@ class SimulationObjective : public Objective, public StudyScoring {
   std::vector<Response> earlier() const override;
   bool stop_requested() const override;
 
-  /// A candidate in one test, fitted or not: one evaluation for each packing, in their order; part of the budget.
+  /// Evaluates a candidate in one test, fitted or not, on each packing, in their order; counts in the budget.
   std::vector<StoredEvaluation> predict(const UnitPoint& point, std::span<const std::uint64_t> packings,
                                         std::size_t test);
 
@@ -93,22 +92,22 @@ class SimulationObjective : public Objective, public StudyScoring {
   Faults store_faults() const;  ///< empty unless an evaluation could not be stored
 
  private:
-  /// One simulation, however many answers need it.
+  /// One simulation, shared by all answers that need it.
   struct Task {
     std::size_t index = 0;         // of the test in the study
-    bool tried = false;            // only tried out
-    std::optional<Cutoff> cutoff;  // if it is
-    RunObserver::Watch look;       // none unless somebody looks on
+    bool tried = false;            // see `try_out`
+    std::optional<Cutoff> cutoff;  // if tried out
+    RunObserver::Watch look;       // empty: not observed
     StoredEvaluation evaluation;
     bool finished = false;          // not cut off by a stop
-    std::shared_future<void> done;  // none if it is known from the store
+    std::shared_future<void> done;  // invalid if known from the store
   };
 
-  /// Finds, or begins to simulate, every point on every packing in every one of these tests; in that order. `tried`:
-  /// only as long as they are within their cutoff (`early_end.h`).
+  /// Finds or enqueues every point on every packing in every one of these tests, in that order. `tried`: stops runs
+  /// outside their cutoff (`early_end.h`).
   std::vector<Task*> begun(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                            std::span<const std::size_t> tests, bool tried);
-  /// Waits for the same. `fresh`: of each, true if it has not been answered before.
+  /// Waits for the same. `fresh`: for each, true if not answered before.
   std::vector<StoredEvaluation> answers(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                                         std::span<const std::size_t> tests, bool tried,
                                         std::vector<bool>* fresh = nullptr);
@@ -116,9 +115,9 @@ class SimulationObjective : public Objective, public StudyScoring {
                                      bool tried);
   void run(Task& task);
   void count(const StoredEvaluation& evaluation, std::size_t test, bool from_store);
-  /// What all candidates with this preparation of the study's test share; `look` sees it if it is made now.
+  /// Prepared packing shared by all candidates with this preparation of the test; `look` observes it if it is made now.
   std::shared_ptr<const Packing> packing(std::size_t index, const Test& test, const RunObserver::Watch& look);
-  /// Has moments looked at, and ends the simulation that began then on a stop or at its limit.
+  /// Passes snapshots to `look`, and ends the simulation on a stop or at its wall limit since `start`.
   void watch(RunOptions& options, std::chrono::steady_clock::time_point start, const RunObserver::Watch& look,
              bool* by_user = nullptr) const;
 
@@ -126,8 +125,8 @@ class SimulationObjective : public Objective, public StudyScoring {
   Store& store_;
   EvaluatorOptions options_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::map<std::string, Task> tasks_;      // by their name in the store: all that were ever begun
-  std::unordered_set<std::string> asked_;  // evaluations that were answered: what has been spent
+  std::map<std::string, Task> tasks_;      // all ever begun, by store key
+  std::unordered_set<std::string> asked_;  // answered evaluations, which count in the budget
   std::atomic<bool> closing_ = false;
 
   mutable std::mutex mutex_;  // guards what follows

@@ -9,20 +9,20 @@
 
 namespace pastefit {
 
-/// How simulations are judged against readings, and what is known of the parameters beforehand.
-///
-/// A candidate that failed on some packing answers as if every measurement had been missed by `factor` times
-/// `largest_error`,
-///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0),
-/// so that its misfit is finite, beyond any candidate that ran, and lower the later and the rarer the failure.
+/// Scores simulations against readings and priors.
 ///
 /// Requirement: every measurement has a standard deviation and a tolerance > 0 (std::logic_error).
+///
+/// A candidate that failed on some packing is scored as if every reading differed from its measurement by `factor`
+/// times `largest_error`,
+///     factor = 2 + mean over the packings of (1/(1 + t/1 s) if it failed at time t, else 0).
+/// Its misfit is thus finite, larger than that of any finished candidate, and lower the later and rarer the failure.
 class ReadingScoring : public virtual Scoring {
  public:
   ReadingScoring(std::vector<StudyReading> readings, const std::vector<Parameter>& parameters);
 
   int parameters() const override { return parameters_; }
-  int residuals() const override;  ///< `readings` and one per prior; zero where the weight is zero
+  int residuals() const override;  ///< readings, then priors; zero for weight zero
   int readings() const override { return static_cast<int>(readings_.size()); }
   double tolerance(std::size_t reading) const override { return readings_.at(reading).tolerance; }
   double allowance(std::size_t reading) const override;
@@ -30,13 +30,13 @@ class ReadingScoring : public virtual Scoring {
 
  protected:
   const std::vector<StudyReading>& scored() const { return readings_; }
-  /// That a candidate can have in a reading, in its unit; > 0.
+  /// Largest error of a reading, in its unit; > 0.
   virtual double largest_error(const StudyReading& reading) const = 0;
-  /// Whether a value that ended its simulation early is an upper bound of what it would have read.
+  /// True if a value is an upper bound because its simulation ended early.
   virtual bool is_bound(const StudyReading&, double) const { return false; }
 
  private:
-  /// Of a mean over packings some of which ended early: what it misses at least; none if it was not taken.
+  /// Lower bound of the miss of a mean over packings some of which ended early; 0 if the reading was not taken.
   double certain_miss(const Response& response, std::size_t reading) const;
 
   struct Known {
@@ -45,7 +45,7 @@ class ReadingScoring : public virtual Scoring {
   };
   const std::vector<StudyReading> readings_;
   int parameters_ = 0;        // free ones
-  std::vector<Known> known_;  // beforehand
+  std::vector<Known> known_;  // priors
 };
 
 }  // namespace pastefit

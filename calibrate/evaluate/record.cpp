@@ -16,10 +16,10 @@ namespace pastefit {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a coordinate that was a value in between
+constexpr double rounding = 1e-12;  // of a coordinate that was converted to a value and back
 
-/// The candidate on one packing in all these tests, if the store has it; `before`: only from epochs before this one.
-/// `tried`: as `Objective::try_out` answered.
+/// Merged evaluation of a candidate on one packing, if stored. `before`: only from epochs before this one. `tried`: as
+/// `Objective::try_out` returned it.
 std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std::size_t> tests, const Store& store,
                                         std::span<const double> values, std::uint64_t packing, int before, bool tried) {
   std::vector<StoredEvaluation> found;
@@ -33,7 +33,7 @@ std::optional<StoredEvaluation> find_in(const Study& study, std::span<const std:
   return merged(study, tests, found);
 }
 
-/// The point of these values in the study's cube; nothing if a fixed one differs or a free one lies beyond its bounds.
+/// Point of these values in the unit cube; none if a fixed value differs or a free one is outside its bounds.
 std::optional<std::vector<double>> point_at(const Study& study, std::span<const double> values) {
   if (values.size() != study.parameters.size()) return std::nullopt;
   std::vector<double> point;
@@ -48,8 +48,8 @@ std::optional<std::vector<double>> point_at(const Study& study, std::span<const 
   return point;
 }
 
-/// The candidates of epochs before this one that hold for the study, each on each packing once; `ways`: as they may
-/// have answered (`tried`), the better one first. Ordered by values and packing.
+/// Candidates of epochs before this one that are valid for the study, each with each packing once, sorted by values and
+/// packing. `ways`: accepted forms (`tried`), the preferred one first.
 std::vector<StoredEvaluation> held(const Study& study, const Store& store, int before,
                                    std::initializer_list<bool> ways) {
   std::vector<StoredEvaluation> out;
@@ -163,7 +163,7 @@ std::string changed_places(const Store& store) {
 
 Faults strangers_in(const Study& study, const Store& store, const std::string& file) {
   if (store.size() == 0 || holding(study, store) > 0) return {};
-  // A search that was stopped early may have looked with coarse grains only.
+  // A search that was stopped early may have used coarse grains only.
   if (study.search.coarse_first && holding(with_coarse_grains(study), store) > 0) return {};
   return {{file,
            "none of its " + std::to_string(store.size()) +

@@ -12,11 +12,8 @@
 
 namespace pastefit {
 
-/// How a study judges its simulations: against the readings of all tests that are fitted, and what is known beforehand.
-/// The largest error of a candidate that failed is what a heap can have (`ReadingKind::worst_miss`; without one ten
-/// standard deviations; at least the measured value).
-///
-/// Requirements: `study` outlives the scoring; some test is fitted (std::logic_error); those of `ReadingScoring`.
+/// Scores simulations against the readings of all fitted tests and the priors of a study. The largest error of a failed
+/// candidate is `ReadingKind::worst_miss`, without one ten standard deviations; at least the measured value.
 class StudyScoring : public ReadingScoring {
  public:
   explicit StudyScoring(const Study& study);
@@ -24,11 +21,11 @@ class StudyScoring : public ReadingScoring {
   int simulations_each() const override { return static_cast<int>(fitted_.size()); }
   double rejected_share() const override { return rejected_share_of(study_); }
   ErrorUnit error_unit() const override { return error_unit_of(study_); }
-  /// Strengths with which every fitted test is likely to have its readings (`likely_strength_pa`); all, where tests
-  /// contradict each other or the bounds.
+  /// Strengths for which every fitted test is likely to have its measured readings (`likely_strength_pa`); the whole
+  /// range if tests contradict each other or the bounds.
   UnitBox likely_box() const override;
 
-  /// What the store has of a candidate, merged over the tests, as the search sees it.
+  /// Evaluation of a stored candidate, merged over the tests.
   Evaluation evaluation_of(const UnitPoint& point, const StoredEvaluation& stored) const;
   const std::vector<std::size_t>& fitted_tests() const { return fitted_; }
 
@@ -38,21 +35,21 @@ class StudyScoring : public ReadingScoring {
 
  private:
   const Study& study_;
-  const std::vector<std::size_t> fitted_;  // tests
+  const std::vector<std::size_t> fitted_;  // indices of tests
 };
 
 struct Measurement;
 struct Study;
 
-/// By how many worst misses a failed candidate is off at most (`SimulationObjective`).
+/// Largest factor on the worst miss of a failed candidate (`ReadingScoring`).
 inline constexpr double worst_factor = 3;
 
-/// The largest error a heap can have, in the measurement's unit. Requirement: `test` is an index of `study.tests`.
+/// Largest possible error of a heap, in the measurement's unit. Requirement: `test` is an index of `study.tests`.
 double worst_miss(const Study& study, std::size_t test, const Measurement& measurement);
 
-/// Every prior and every fitted reading whose residual, or its square, is not finite somewhere between the bounds,
-/// places as in study and laboratory files. A study that was read has none (its numbers have ranges); one that a
-/// program put together may.
+/// Errors for every prior and fitted reading whose residual, or its square, is not finite somewhere within the bounds,
+/// with places as in study and laboratory files. A study read from a file has none, because its numbers have ranges; a
+/// study made by a program may.
 Faults validate_residuals(const Study& study);
 
 }  // namespace pastefit

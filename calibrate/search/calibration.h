@@ -10,45 +10,45 @@ namespace pastefit {
 
 /// How a calibration ended.
 enum class CalibrationStatus {
-  confirmed,     ///< the best candidate meets the laboratory within the tolerance on fresh packings, noise or not
-  unconfirmed,   ///< it does not for certain, and the budget is spent or the search is at its end
-  out_of_reach,  ///< some reading lies beyond everything the model did in these bounds
-  stopped,       ///< the user or a limit asked for it; the best so far is given
+  confirmed,     ///< on fresh packings every reading is within its tolerance, replicate scatter included
+  unconfirmed,   ///< not confirmed when the budget was spent or the search ended
+  out_of_reach,  ///< a reading cannot be reached within the bounds
+  stopped,       ///< stopped by the user or a limit; `best` is the best so far
   failed         ///< no candidate could be simulated
 };
 
-/// The status as it is stored and printed, e.g. "out_of_reach".
+/// Name in files and messages, e.g. "out_of_reach".
 std::string_view name_of(CalibrationStatus status);
 
-/// Where a search is, for a person who waits.
+/// Progress report of a search.
 struct Progress {
   std::string_view phase;  ///< "screening", "search", "refinement", "confirmation"
-  int simulations = 0;     ///< done
-  int budget = 0;          ///< allowed in all
-  double best_error = -1;  ///< of the best candidate so far, in tolerances; negative: none yet
-  std::string note;        ///< something to be told once; mostly empty
+  int simulations = 0;     ///< finished
+  int budget = 0;          ///< total allowed
+  double best_error = -1;  ///< of the best candidate so far; negative: none yet
+  std::string note;        ///< one-time message; usually empty
 };
 
-/// What the model did with one reading in all simulations that ended well.
+/// Range of one reading over all feasible simulations.
 struct Reach {
-  double lowest = 0, highest = 0;  ///< of one simulation, in the reading's unit
-  bool all_above = false;          ///< every simulation, coarse ones corrected, read too much
-  bool all_below = false;          ///< every simulation, coarse ones corrected, read too little
-  double packing_noise = 0;        ///< standard deviation from packing to packing, same parameters; 0: not seen
+  double lowest = 0, highest = 0;  ///< [unit of the reading]
+  bool all_above = false;          ///< all simulations, coarse ones corrected, exceed measurement plus tolerance
+  bool all_below = false;          ///< all simulations, coarse ones corrected, are below measurement less tolerance
+  double packing_noise = 0;  ///< standard deviation between packings of one candidate [unit of the reading]; 0: unknown
 };
 
-/// What a search brought.
+/// Result of a search.
 struct Calibration {
-  Response best;          ///< the reported candidate on every packing it was simulated on
-  Response search;        ///< the same on the packings it was found with
-  Response confirmation;  ///< the same on fresh packings that the search had not used; no point if never confirmed
+  Response best;          ///< recommended candidate on all its packings
+  Response search;        ///< the same on the packings before its confirmation
+  Response confirmation;  ///< the same on fresh packings; no point if never confirmed
   CalibrationStatus status = CalibrationStatus::failed;
-  std::string reason;             ///< one or more sentences for a person
-  std::vector<Response> history;  ///< every answer, in the order of asking, each point with its set of packings
-  std::vector<Reach> reach;       ///< one for each reading
+  std::string reason;             ///< one or more sentences for the user
+  std::vector<Response> history;  ///< all responses in the order of asking, each with its packings
+  std::vector<Reach> reach;       ///< of each reading
   int simulations = 0;            ///< spent
-  int coarse_simulations = 0;     ///< with coarse grains, besides
-  int failures = 0;               ///< of them failed
+  int coarse_simulations = 0;     ///< with coarse grains
+  int failures = 0;               ///< failed simulations
   int rounds = 0;                 ///< confirmations
 };
 

@@ -23,7 +23,7 @@ CandidateQueue::CandidateQueue(const Scoring& scoring, int simulations, std::spa
 
 std::size_t CandidateQueue::ask(const UnitPoint& point, std::uint64_t packing, Fidelity fidelity, bool may_end_early) {
   const std::vector<double> place(point.begin(), point.end());
-  // One that might have ended early and did not is as good as one that might not.
+  // A run that could have ended early but did not equals a complete run.
   for (const bool early : {may_end_early, true})
     if (const auto known = numbers_.find({place, packing, fidelity, early}); known != numbers_.end()) {
       const Asked& asked = asked_[known->second];
@@ -59,7 +59,7 @@ std::vector<Evaluation> CandidateQueue::answers(std::span<const std::size_t> num
   return answers;
 }
 
-/// Counts what was spent when it is looked at for the first time.
+/// Counts the simulations as spent when the answer is read first.
 const Evaluation& CandidateQueue::see(std::size_t number) {
   Asked& asked = asked_[number];
   if (!asked.answered) asked.answer = not_simulated(asked.candidate);

@@ -14,52 +14,52 @@
 
 namespace pastefit {
 
-/// With which grains a candidate is simulated.
+/// Grain size of a simulation.
 enum class Fidelity {
-  fine,   ///< the study's
-  coarse  ///< `low_fidelity.h`
+  fine,   ///< of the study
+  coarse  ///< see `low_fidelity.h`
 };
 
-/// What a search asks for: one point on one packing, in every test that is fitted.
+/// One point on one packing, to be simulated in every fitted test.
 struct Candidate {
   std::size_t number = 0;  ///< in the order of asking, from 0
   UnitPoint point;
   std::uint64_t packing = 0;
   Fidelity fidelity = Fidelity::fine;
   bool may_end_early = false;  ///< see `Objective::try_out`
-  std::string purpose;         ///< the phase of the search: "screening", "search", "refinement", "confirmation"
+  std::string purpose;         ///< phase of the search: "screening", "search", "refinement", "confirmation"
 };
 
-/// What a simulation of a candidate answered.
+/// Evaluation of a candidate.
 struct CandidateResult {
-  std::size_t candidate = 0;  ///< its number
+  std::size_t candidate = 0;  ///< `Candidate::number`
   Evaluation evaluation;
 };
 
-/// Between the phases of a search, which ask, and whoever simulates: what is asked, and what was answered. A phase sees
-/// an answer when everything that it waits for is there, never before, so that what it does depends on the answers and
-/// the order of asking only. Each candidate is asked once. No call waits.
+/// Queue between the phases of a search and the evaluator. Each candidate is asked once. A phase gets its answers only
+/// after all of them have arrived, so that the search depends on the answers and the order of asking, not on their
+/// timing. No call blocks.
 class CandidateQueue {
  public:
-  /// `simulations`: allowed in all. `known`: answers of an earlier search with the same queue.
+  /// `simulations`: total allowed. `known`: answers of an earlier search with the same queue.
   CandidateQueue(const Scoring& scoring, int simulations, std::span<const CandidateResult> known);
 
   // For the phases.
   const Scoring& scoring() const { return scoring_; }
-  /// Points on a packing still allowed, by the answers that were looked at.
+  /// Remaining points on a packing; only answers that a phase has read count as spent.
   int budget_left() const { return std::max(0, simulations_ - spent_) / scoring_.simulations_each(); }
   bool stop_requested() const { return stopped_; }
-  /// The purpose of what is asked from now on.
+  /// Sets the purpose of later candidates.
   void enter(std::string_view purpose) { purpose_ = purpose; }
-  /// Asks for each point on each packing what is not known yet; the numbers of these candidates, point by point.
+  /// Enqueues each point on each packing unless it is already known. Returns the candidate numbers, point by point.
   std::vector<std::size_t> ask(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings,
                                Fidelity fidelity, bool may_end_early);
-  /// Whether these candidates are answered, or will not be after a stop.
+  /// True if these candidates are answered or a stop was requested.
   bool is_answered(std::span<const std::size_t> numbers) const;
-  /// Their answers: what is looked at counts as spent. Requirement: `is_answered`.
+  /// Their answers, which count as spent from now on. Requirement: `is_answered`.
   std::vector<Evaluation> answers(std::span<const std::size_t> numbers);
 
-  // For whoever simulates; see `Search`.
+  // For the evaluator; see `Search`.
   std::vector<Candidate> suggest(std::size_t count);
   void ingest(std::span<const CandidateResult> results);
   void stop() { stopped_ = true; }
@@ -83,8 +83,8 @@ class CandidateQueue {
   std::string purpose_;
   std::deque<Asked> asked_;
   std::map<Key, std::size_t> numbers_;
-  std::map<std::size_t, Evaluation> known_;  // answers to questions still to be asked
-  std::deque<std::size_t> open_;             // asked, and not yet suggested
+  std::map<std::size_t, Evaluation> known_;  // answers to candidates not yet asked
+  std::deque<std::size_t> open_;             // asked, not yet suggested
   bool stopped_ = false;
 };
 

@@ -9,9 +9,9 @@
 namespace pastefit {
 namespace {
 
-constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts what is known
+constexpr double far_from_prior = 2;  // standard deviations at which a candidate contradicts a prior
 
-// A material with these counts meets the laboratory (`verdict_on`).
+// These counts satisfy `verdict_on`.
 constexpr int confirmed_heaps = 16, confirmed_rejected = 2;
 
 constexpr double no_misfit = std::numeric_limits<double>::infinity();  // larger than any
@@ -44,7 +44,7 @@ CandidateRanking::CandidateRanking(const EvaluationHistory& history, std::span<c
   }
 }
 
-/// The integral of the chance from 0 to 1 tolerance, where it begins with none (trapezoidal rule).
+/// Trapezoidal rule for the integral of the probability from 0 to 1 tolerance; it is 0 at 0.
 double CandidateRanking::expected_margin(const Surrogate& model, const UnitPoint& point) const {
   constexpr std::array tolerances{0.25, 0.5, 0.75, 1.0};
   const std::vector<double> chances = chances_of(model, point, tolerances);

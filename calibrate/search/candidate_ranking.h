@@ -8,41 +8,39 @@
 
 namespace pastefit {
 
-/// An expected margin that is worth a simulation, in tolerances.
+/// Smallest expected margin that justifies a simulation [tolerances].
 inline constexpr double worthwhile_margin = 0.02;
 
-/// The candidates of a search in the light of all that was simulated so far. The one that reads best is often the
-/// luckiest; what its neighbours read, with luck of their own, tells them apart.
-/// Requirement: some evidence is feasible.
+/// Ranks candidates by their posterior given all simulations. The best observed candidate is biased by replicate
+/// scatter (winner's curse); the posterior also uses its neighbours. Requirement: at least one feasible simulation.
 class CandidateRanking {
  public:
-  /// `refuted`: candidates that a confirmation has judged, which are none any more.
+  /// `refuted`: candidates to exclude because a confirmation rejected them.
   CandidateRanking(const EvaluationHistory& history, std::span<const UnitPoint> refuted);
 
   const Surrogate& surrogate() const { return surrogate_; }
-  /// Of those simulated to their end the one of the largest expected margin, or, where none has any to speak of, of the
-  /// least expected misfit; no point if there is none.
+  /// Completely simulated candidate of largest expected margin; of least expected misfit if all margins are below
+  /// `worthwhile_margin`. No point if there is none.
   const UnitPoint& best() const { return best_; }
-  /// What it is expected to have; infinite if there is none.
+  /// Its expected misfit; infinite if there is none.
   double misfit_of_best() const { return misfit_of_best_; }
-  double margin_of_best() const { return margin_of_best_; }  ///< 0, where it is none to speak of
-  /// The least that is expected anywhere where something was simulated.
+  double margin_of_best() const { return margin_of_best_; }  ///< 0 if below `worthwhile_margin`
+  /// Simulated point of least expected misfit, stopped runs and coarse grains included.
   const UnitPoint& least() const { return least_; }
   double least_misfit() const { return least_misfit_; }
 
-  /// Probability that every fitted reading of a candidate is within so many tolerances, noise of the packings apart,
-  /// that a confirmation would hold by the heaps that a laboratory rejects,
-  /// and every parameter of which something is known beforehand within two standard deviations of it.
+  /// Probability that every fitted mean reading is within this many tolerances and every parameter with a prior within
+  /// two standard deviations of it, times the probability that so few heaps are rejected that a confirmation would
+  /// succeed.
   double chance_of(const UnitPoint& point, double tolerances) const {
     return chances_of(surrogate_, point, {&tolerances, 1}).front();
   }
-  /// The same whatever the heaps that a laboratory rejects.
+  /// The same without the factor for rejected heaps.
   double chance_of_readings(const UnitPoint& point, double tolerances) const;
 
-  /// Expected margin of a candidate: the mean of max(0, 1 - w), where its worst fitted reading is off by w tolerances;
-  /// nothing where the heaps or what is known beforehand speak against it (`chance_of`). The misfit prefers a candidate
-  /// that makes up for a reading that is missed by others that are met; the margin does not. `model`: instead of the
-  /// ranking's own, e.g. with answers that are expected.
+  /// Expected margin: mean of max(0, 1 - w), w the error of the worst fitted reading in tolerances, with the factors
+  /// for heaps and priors of `chance_of`. Unlike the misfit it does not let one exact reading compensate for another
+  /// that misses. `model`: replaces the ranking's surrogate, e.g. by one with fantasised answers.
   double expected_margin(const UnitPoint& point) const { return expected_margin(surrogate_, point); }
   double expected_margin(const Surrogate& model, const UnitPoint& point) const;
 

@@ -14,7 +14,7 @@ namespace pastefit {
 
 namespace {
 
-/// Ends an optimiser that asks for what is not known.
+/// Aborts an optimiser at an unknown answer.
 struct NotKnown {};
 
 }  // namespace
@@ -60,12 +60,12 @@ std::optional<Problem::Refusal> SimulatedMinimisation::refusal_of(int points) co
 
 namespace {
 
-/// Half of what is left, in points on all common packings.
+/// Half of the remaining budget, in points on all common packings.
 int share_of_budget(const StrategyState& state) {
   return std::max(1, state.history.budget_left() / static_cast<int>(2 * state.common.size()));
 }
 
-/// Misfit that the noise of the packings makes by itself on the common set, as far as it is known.
+/// Misfit due to the noise of the common packings; 0 if unknown.
 double noise_of(const StrategyState& state) {
   double squares = 0;
   int freedom = 0;
@@ -80,8 +80,8 @@ double noise_of(const StrategyState& state) {
   return freedom > 0 ? 0.5 * squares / freedom / static_cast<double>(state.common.size()) : 0;
 }
 
-/// Probe for Ceres: long enough to show against the noise. A residual that goes through its range once, saturated at
-/// both ends, has a curvature of about four times the range.
+/// Probe length for Ceres, large enough against the noise. A residual that passes once through its range and saturates
+/// at both ends has a curvature of about four times the range.
 double probe_length(const StrategyState& state) {
   const double infinity = std::numeric_limits<double>::infinity();
   Eigen::ArrayXd least = Eigen::ArrayXd::Constant(state.scoring().residuals(), infinity), most = -least;
@@ -124,7 +124,7 @@ bool ProposalPhase::advance() {
   EvaluationHistory& history = state_.history;
   if (awaits_ == Awaits::candidate) {
     const Response& response = history.answers().front();
-    // What it misses at least does not rule it out: its other readings decide.
+    // Its lower bound does not rule it out: the remaining readings decide.
     if (is_feasible(response) && response.censored && response.misfit < known_->misfit_of_best() &&
         state_.may_go_on()) {
       awaits_ = Awaits::whole;
@@ -144,7 +144,7 @@ bool ProposalPhase::advance() {
   return false;
 }
 
-/// Begins as many candidates as may be under way; false if a proposal waits for coarse simulations.
+/// Starts candidates up to the pending limit; false if a proposal waits for coarse simulations.
 bool ProposalPhase::propose() {
   const bool enough = StrategyState::goal_is_met(*known_);
   while (!enough && state_.may_go_on() && std::ssize(state_.history.under_way()) <= state_.options.max_pending) {
@@ -169,7 +169,7 @@ std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coa
   return nullptr;
 }
 
-/// Where only heaps that shear off speak against a candidate a descent on the readings is no help.
+/// A descent on the readings cannot reduce rejections, so these do not start one.
 std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state) {
   if (!state.may_go_on() || noise_of(state) > state.history.allowed_misfit()) return nullptr;
   const CandidateRanking known = state.ranking();
@@ -180,11 +180,11 @@ std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state) {
 
 namespace {
 
-constexpr double kJump = 10;      // [allowances] between neighbours; those of a smooth response differ by less
+constexpr double kJump = 10;      // [allowances] between neighbours; smooth responses differ by less
 constexpr double kFinest = 1e-5;  // of the range; nearer neighbours are one candidate
 constexpr int kMostHalvings = 16;
 
-/// What was simulated, in the order of the parameter.
+/// Feasible simulations, sorted by the parameter.
 std::vector<Response> in_order(const EvaluationHistory& history) {
   std::vector<Response> out;
   for (const Response& one : history.singles())
@@ -193,7 +193,7 @@ std::vector<Response> in_order(const EvaluationHistory& history) {
   return out;
 }
 
-/// A residual in allowances; 0 where it is no fitted reading, or was not taken.
+/// Residual in allowances; 0 if not fitted or without reading.
 double miss(const EvaluationHistory& history, const Response& one, std::size_t reading) {
   const auto k = static_cast<Eigen::Index>(reading);
   const double allowance = history.allowance(reading);
@@ -209,8 +209,8 @@ bool all_on_one_side(const EvaluationHistory& history, std::span<const Response>
   return false;
 }
 
-/// The middle between the neighbours that differ most across the laboratory; nothing if none differ by more than this
-/// many allowances.
+/// Midpoint of the neighbours that differ most across the measurement; none if they differ by at most `jump`
+/// allowances.
 std::optional<UnitPoint> middle_of_jump(const EvaluationHistory& history, std::span<const Response> seen, double jump) {
   std::optional<UnitPoint> middle;
   double largest = jump;

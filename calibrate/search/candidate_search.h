@@ -15,14 +15,14 @@
 
 namespace pastefit {
 
-/// An optimiser on the simulations themselves, on all common packings. Optimisers call back and cannot wait: where one
-/// asks for what is not known it is ended, and run again from its start once that is answered, with the answers of
-/// before. So it has to ask the same questions for the same answers, as those of `calibrate/optimisers` do; what an
-/// optimiser computes itself is nothing beside a simulation.
+/// Runs an optimiser directly on the simulations, on all common packings. Optimisers call back and cannot wait: at an
+/// unknown answer the optimiser is aborted, and restarted with all known answers after the simulation has finished.
+/// Requirement: the optimiser is deterministic, as those of `calibrate/optimisers` are. Its repeated computing time is
+/// negligible compared with a simulation.
 class SimulatedMinimisation : public SearchPhase {
  public:
-  /// `minimise`: runs the optimiser on the problem that it is given. A candidate whose error is at or below `goal` is
-  /// good enough; 0: none is.
+  /// `minimise`: runs the optimiser on the given problem. `goal`: error at or below which a candidate is good enough;
+  /// 0: none.
   SimulatedMinimisation(StrategyState& state, double goal, std::function<void(const Problem&)> minimise)
       : state_(state), goal_(goal), minimise_(std::move(minimise)) {}
   bool advance() override;
@@ -35,13 +35,13 @@ class SimulatedMinimisation : public SearchPhase {
   const double goal_;
   const std::function<void(const Problem&)> minimise_;
   bool asked_ = false;
-  std::vector<std::vector<Answer>> answers_;               // to its questions so far, in order
-  std::vector<std::optional<Problem::Refusal>> refusals_;  // whether they were allowed, as it was decided then
+  std::vector<std::vector<Answer>> answers_;               // to its requests so far, in order
+  std::vector<std::optional<Problem::Refusal>> refusals_;  // decisions on its requests so far
 };
 
-/// Brings candidates by the surrogate: proposes, and takes the answers in the order of the proposals, until a candidate
-/// is likely to do. Proposal k knows the answers up to k - 1 - max_pending, of the others only that they were asked:
-/// what is ready first does not matter.
+/// Proposes candidates from the surrogate and takes answers in the order of the proposals, until a candidate is likely
+/// to be confirmed. Proposal k uses the answers up to k - 1 - max_pending and only the points of later ones, so that
+/// the order in which simulations finish does not matter.
 class ProposalPhase : public SearchPhase {
  public:
   ProposalPhase(StrategyState& state, bool with_coarse)
@@ -49,32 +49,31 @@ class ProposalPhase : public SearchPhase {
   bool advance() override;
 
  private:
-  enum class Awaits { nothing, coarse, candidate, whole };  // `whole`: a candidate that ended early, to its end
+  enum class Awaits { nothing, coarse, candidate, whole };  // `whole`: complete run of a stopped candidate
   bool propose();
 
   StrategyState& state_;
   Proposals proposals_;
   Awaits awaits_ = Awaits::nothing;
-  std::optional<CandidateRanking> known_;  // as the last answer left it
+  std::optional<CandidateRanking> known_;  // after the last answer
 };
 
-/// What brings candidates for the strategy of the options: the surrogate, or an optimiser with half of what is left of
-/// the budget.
+/// Search phase of the chosen strategy: the surrogate, or an optimiser with half of the remaining budget.
 std::unique_ptr<SearchPhase> candidate_phase(StrategyState& state, bool with_coarse);
 
-/// Descends from the best candidate where the surrogate sees no better one and none that will do, unless what is left
-/// is luck. None where there is nothing to descend for.
+/// Local descent from the best candidate. Returns none if its readings are likely to be confirmed, if the noise of the
+/// common packings exceeds the allowed misfit, or if the search may not go on.
 std::unique_ptr<SearchPhase> refinement_phase(StrategyState& state);
 
-/// Where one parameter is free, a response may jump: a heap stands or flows by a small change of a threshold, and a
-/// smooth model of it says that what lies within the jump is out of reach. If no simulation has a reading beyond the
-/// laboratory's, both ends of the range are simulated. Neighbours on either side of the laboratory that differ by many
-/// tolerances are then halved until one of them meets it. Of several parameters nothing is asked.
+/// Brackets a discontinuous response to one free parameter: a heap may keep its shape or collapse, and a smooth
+/// surrogate would call the readings within the jump out of reach. If all readings lie on one side of the measurement,
+/// both ends of the range are simulated. Neighbours on opposite sides of the measurement that differ by many tolerances
+/// are then bisected until a candidate is within the tolerances. Limit: does nothing with several free parameters.
 class BracketPhase : public SearchPhase {
  public:
   explicit BracketPhase(StrategyState& state) : state_(state) {}
   bool advance() override;
-  /// A point that was found by halving and meets the laboratory on its packing.
+  /// Point found by bisection whose error is at most 1 on its packing.
   const std::optional<UnitPoint>& found() const { return found_; }
 
  private:

@@ -28,7 +28,7 @@ std::string tolerance_in_words(const ErrorUnit& unit) {
   return unit.tolerance_mm ? "the tolerance of " + unit.words(1) : "the tolerances of the readings";
 }
 
-/// Why the best candidate does not count as confirmed.
+/// Why the best candidate is not confirmed.
 std::string doubt_about(const Calibration& result, const ErrorUnit& unit, double rejected_share,
                         const std::string& spent) {
   const Response& told = result.confirmation.point.size() > 0 ? result.confirmation : result.best;

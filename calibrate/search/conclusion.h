@@ -9,20 +9,20 @@
 
 namespace pastefit {
 
-/// How a search came to its end.
+/// Outcome of a search, from which its status follows.
 struct Ending {
-  bool confirmed = false;     ///< the last confirmation held
+  bool confirmed = false;     ///< the last confirmation succeeded
   bool stopped = false;       ///< by the user or a limit
-  bool any_feasible = false;  ///< some simulation did not fail
-  bool with_coarse = false;   ///< coarse grains were simulated too
-  bool searched = true;       ///< else the screening was enough
+  bool any_feasible = false;  ///< at least one simulation is feasible
+  bool with_coarse = false;   ///< coarse grains were simulated
+  bool searched = true;       ///< false: ended after the screening
   std::optional<OutOfReach> out_of_reach = std::nullopt;
-  double rejected_share = 1;   ///< of a candidate's heaps, at most; 1: not judged
-  bool some_censored = false;  ///< of the simulations
+  double rejected_share = 1;   ///< largest share of rejected heaps; 1: not judged
+  bool some_censored = false;  ///< at least one simulation is censored
 };
 
-/// Gives a calibration its status and the reason for it, in sentences for a person. Requirements: everything else in
-/// `result` is there. `unit`: for people. `readings`, `parameters`: names; may be left empty.
+/// Sets status and reason of a calibration. Requirement: all other fields of `result` are set. `unit`: of errors in the
+/// text. `readings`, `parameters`: names; may be empty.
 void explain(Calibration& result, const Ending& ending, const ErrorUnit& unit, std::span<const std::string> readings,
              std::span<const std::string> parameters);
 

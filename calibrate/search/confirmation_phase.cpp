@@ -6,10 +6,10 @@
 namespace pastefit {
 namespace {
 
-constexpr double hardly_likely = 0.1;          // that a candidate will do: its confirmation is broken off
-constexpr std::size_t most_confirmations = 8;  // the fresh packings grow to so many times what the study asks for
-// To so many where only the share of rejected heaps is not told: another material is sooner found than a share of
-// nearly what is allowed is bounded.
+constexpr double hardly_likely = 0.1;          // probability of success below which a confirmation is broken off
+constexpr std::size_t most_confirmations = 8;  // largest number of fresh packings over that of the study
+// The same if only the share of rejected heaps is undecided: another candidate is found with fewer simulations than
+// needed to bound a share close to the limit.
 constexpr std::size_t worthwhile_confirmations = 4;
 
 }  // namespace
@@ -52,7 +52,7 @@ bool ConfirmationPhase::advance() {
 
 std::pair<Verdict, std::size_t> ConfirmationPhase::look_at(const Response& confirmation) const {
   const auto all = static_cast<std::size_t>(state_.options.confirmation_packings);
-  const auto least = std::max<std::size_t>(all, 2);  // of a single packing the noise is not known
+  const auto least = std::max<std::size_t>(all, 2);  // the noise of a single packing is unknown
   const Evidence evidence = evidence_of(confirmation);
   const std::size_t asked = fresh_.size();
   Verdict verdict = Verdict::undecided;
@@ -64,7 +64,7 @@ std::pair<Verdict, std::size_t> ConfirmationPhase::look_at(const Response& confi
     return {verdict, 0};
   if (verdict != Verdict::undecided || asked >= most_confirmations * all || state_.history.stop_requested())
     return {verdict, 0};
-  const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are told
+  const bool by_share = verdict_on_readings(evidence) != Verdict::undecided;  // the readings are decided
   if (by_share && !whatever_it_does_ && asked >= worthwhile_confirmations * all) return {verdict, 0};
   const std::size_t more = asked < all ? all - asked : further_packings();
   return {verdict, state_.affordable(more) ? more : 0};
@@ -92,7 +92,7 @@ std::size_t ConfirmationPhase::further_packings() const {
 }
 
 void ConfirmationPhase::report(const Response& confirmation) {
-  std::vector<std::uint64_t> tried;  // before it was judged
+  std::vector<std::uint64_t> tried;  // before its confirmation
   for (const Response& one : state_.history.singles())
     if (one.point == confirmation.point && is_whole(one) &&
         std::ranges::count(confirmation.packings, one.packings.front()) == 0)

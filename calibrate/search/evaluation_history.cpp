@@ -13,7 +13,7 @@ namespace pastefit {
 
 namespace {
 
-/// Without what a stop has cut off: that counts as failed, and says nothing about the point.
+/// Removes responses that a stop has cut off: they count as failed but carry no information about the point.
 std::vector<Response> without_cut_off(std::vector<Response> responses, bool stopped) {
   const auto cut_off = [](const Evaluation& one) {
     return one.failure && one.failure->reason == FailureReason::stopped;
@@ -95,7 +95,7 @@ std::vector<Response> EvaluationHistory::responses_to(const Awaited& awaited) {
   return responses;
 }
 
-/// Single simulations, packing by packing, and the answers as they are.
+/// Keeps single simulations, packing by packing, and the responses.
 void EvaluationHistory::keep(std::span<const Response> responses, std::size_t packings) {
   for (std::size_t k = 0; k < packings; ++k)
     for (const Response& response : responses) {
@@ -161,7 +161,7 @@ void EvaluationHistory::weigh(Response& response) const {
 }
 
 Eigen::ArrayXd EvaluationHistory::variance_between_packings() const {
-  constexpr double most = 4;  // squares that a point counts for: what stands or shears off by luck is simulated often
+  constexpr double most = 4;  // largest weight of a candidate: those that shear off on some packings have many
   std::vector<std::vector<WeighedSquare>> squares(static_cast<std::size_t>(residuals()));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     if (!is_whole(singles_[i])) continue;
@@ -187,7 +187,7 @@ void EvaluationHistory::measure_noise() {
   Eigen::ArrayXd variance = variance_between_packings();
   if (variance.size() == 0) return;
   if (factors_.size() == 0) factors_ = Eigen::VectorXd::Ones(variance.size());
-  variance /= factors_.array().square();  // in squares of the laboratory's deviations
+  variance /= factors_.array().square();  // in squared standard deviations of the measurement
   const Eigen::ArrayXd factors = (1 + variance / common_packings_).sqrt().inverse();
   const Eigen::VectorXd change = factors / factors_.array();
   factors_ = factors;
@@ -272,7 +272,7 @@ std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const d
       one.highest = std::max(one.highest, single.readings[k]);
       one.all_above = one.all_above && single.residuals[k] > allowance;
       one.all_below = one.all_below && single.residuals[k] < -allowance;
-      // Pooled: deviations from the mean of the same point's packings.
+      // Pooled over candidates: deviations from the mean of the packings of each.
       double sum = 0;
       int count = 0;
       for (const Response& other : singles) {

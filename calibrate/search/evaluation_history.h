@@ -14,17 +14,16 @@
 
 namespace pastefit {
 
-/// All that was asked and answered: it keeps every answer, holds back the simulations of the next confirmation, and
-/// tells the caller where the search is.
+/// All requests and answers of a search. It reserves the simulations of the next confirmation and reports progress.
 ///
-/// Residuals are weighted by the noise of the packings as well as by the laboratory's own deviation: each is divided by
-/// sqrt(1 + v/m), v its variance from packing to packing in squared standard deviations of the laboratory, m the common
-/// packings. A reading that wobbles says less. v is the typical one (`typical_variance`) of the candidates that ran on
-/// several packings: those that stand or shear off by luck would say that no reading matters. It changes only between
-/// phases, so that an optimiser's objective stays the same while it runs.
+/// Each residual is divided by sqrt(1 + v/m), which gives noisy readings less weight; v: its variance between packings
+/// in squared standard deviations of the measurement, m: number of common packings. v is the typical variance
+/// (`typical_variance`) of the candidates that ran on several packings: single candidates that keep their shape on some
+/// packings and shear off on others would suppress every reading. The weights change only between phases, so that an
+/// optimiser's objective is constant.
 class EvaluationHistory {
  public:
-  /// `earlier`: what is known from the start, each point on one packing.
+  /// `earlier`: responses known at the start, each on one packing.
   EvaluationHistory(CandidateQueue& queue, std::span<const Response> earlier, const SearchOptions& options,
                     const std::function<void(const Progress&)>& progress);
 
@@ -34,35 +33,34 @@ class EvaluationHistory {
   int readings() const { return scoring().readings(); }
   double tolerance(std::size_t reading) const { return scoring().tolerance(reading); }
   double allowance(std::size_t reading) const;
-  /// Of each residual; 0 of those that are no reading.
+  /// Allowance of each residual; 0 for priors.
   Eigen::VectorXd allowances() const;
-  /// The misfit of a candidate each of whose fitted readings is off by its tolerance.
+  /// Misfit of a candidate whose fitted readings all differ by their tolerance.
   double allowed_misfit() const;
   bool stop_requested() const { return queue_.stop_requested(); }
-  int budget_left() const;  ///< points on a packing, without what is held back or under way
+  int budget_left() const;  ///< points on a packing, less those reserved or pending
 
-  /// Asks for points on the same packings, which run to their end, or may end early, or are of coarse grains. A phase
-  /// asks, goes back to its caller, and finds the answers when it is called again. Requirement: nothing is awaited.
+  /// Request points on the same packings: complete, possibly stopped early, or with coarse grains. The answers are
+  /// available when the phase is called again. Requirement: no request is open.
   void evaluate(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
   void try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  /// The answers are in `coarse_singles`, weighed as all others.
+  /// Answers go to `coarse_singles`, weighted as the others.
   void evaluate_coarse(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings);
-  /// Whether something is awaited that is not answered yet.
+  /// True if the open request is not answered yet.
   bool is_waiting() const { return awaited_ && !queue_.is_answered(awaited_->numbers); }
-  /// Takes the answers to what was awaited, if anything was. Requirement: not `is_waiting()`.
+  /// Takes the answers to the open request, if any. Requirement: not `is_waiting()`.
   void take_answers();
-  /// The answers taken last, in the order of the points; none of coarse grains.
+  /// Answers taken last, in the order of the points; fine grains only.
   const std::vector<Response>& answers() const { return answers_; }
 
-  /// The answer of a point on packings on each of which it was simulated to its end; starts nothing.
+  /// Response of a point to packings on which it was simulated completely; simulates nothing.
   Response recall(const UnitPoint& point, std::span<const std::uint64_t> packings);
 
-  /// Begins to work on a point that may end early, and goes on without its answer; its simulations are spent from now
-  /// on.
+  /// Enqueues a point that may end early without waiting; its simulations count as spent from now on.
   void begin(const UnitPoint& point, std::span<const std::uint64_t> packings);
-  /// Awaits the earliest point that is under way: answers come in the order of asking, whichever is ready first.
+  /// Requests the earliest pending point, even if later ones have finished.
   void await_next();
-  /// Points begun and not yet answered, the earliest first, each with its packings.
+  /// Pending points, earliest first, with their packings.
   struct Asked {
     UnitPoint point;
     std::vector<std::uint64_t> packings;
@@ -70,31 +68,31 @@ class EvaluationHistory {
   const std::deque<Asked>& under_way() const { return under_way_; }
 
   void hold_back(int packings) { held_back_ = packings; }
-  /// Begins a phase: weighs anew all that was answered.
+  /// Begins a phase and updates the weights of all residuals.
   void enter(std::string_view phase);
-  /// Tells whoever waits.
+  /// Reports a message to the caller.
   void say(const std::string& note) const { report(note); }
 
-  /// Best answer on exactly these packings; one that has all its readings.
+  /// Best complete response on exactly these packings.
   std::optional<Response> best_on(std::span<const std::uint64_t> packings) const;
-  /// Best answer of a point on one packing; one that has all its readings.
+  /// Best complete response on one packing.
   std::optional<Response> best_single() const;
   const std::vector<Response>& responses() const { return responses_; }
-  const std::vector<Response>& singles() const { return singles_; }  ///< each point on each packing, earlier ones too
+  const std::vector<Response>& singles() const { return singles_; }  ///< each on one packing, earlier ones too
   const std::vector<Response>& coarse_singles() const { return coarse_singles_; }
-  /// What a surrogate learns from: the simulations, and the coarse ones as far as they tell of them.
+  /// Data for the surrogate: fine simulations and corrected coarse ones.
   std::vector<Response> training_data() const;
-  /// The best starting point known: on these packings, else on whatever others.
+  /// Best known starting point: on these packings if any, else on others.
   UnitPoint best_point(std::span<const std::uint64_t> packings) const;
   int simulations() const { return (at_start_ - queue_.budget_left()) * scoring().simulations_each(); }
   int failures() const;
   bool any_feasible() const;
 
  private:
-  /// What a phase waits for.
+  /// Open request.
   struct Awaited {
     std::vector<std::size_t> numbers;  // of the candidates, point by point
-    std::size_t packings = 0;          // each point on so many
+    std::size_t packings = 0;          // of each point
     Fidelity fidelity = Fidelity::fine;
   };
   void await(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings, Fidelity fidelity,
@@ -105,7 +103,7 @@ class EvaluationHistory {
   static void keep_single(const Response& response, std::vector<Response>& singles);
   void weigh(Response& response) const;
   void measure_noise();
-  /// Of each residual as it is weighed now; empty if no point has been simulated twice.
+  /// Variance of each weighted residual; empty if no point has two packings.
   Eigen::ArrayXd variance_between_packings() const;
   void report(const std::string& note = {}) const;
 
@@ -116,9 +114,9 @@ class EvaluationHistory {
   int held_back_ = 0;
   std::string_view phase_;
   double best_error_ = -1;
-  std::size_t best_packings_ = 0;  // a misfit on more packings says more than one on fewer
+  std::size_t best_packings_ = 0;  // responses on more packings take precedence
   double common_packings_ = 1;
-  Eigen::VectorXd factors_;  // of the residuals; empty: all 1
+  Eigen::VectorXd factors_;  // of the residuals; empty: 1
   std::deque<Asked> under_way_;
   std::optional<Awaited> awaited_;
   std::vector<Response> answers_;
@@ -127,7 +125,7 @@ class EvaluationHistory {
   std::vector<Response> coarse_singles_;
 };
 
-/// What the simulations did with each reading.
+/// Range of each reading over the simulations.
 std::vector<Reach> reach_of(std::span<const Response> singles, std::span<const double> allowances);
 
 }  // namespace pastefit

@@ -17,7 +17,7 @@ std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count) {
 
 namespace {
 
-/// Coarse grains shear off more often than fine ones: how near they come to it is scaled by the mean ratio, as roots.
+/// Coarse grains shear off more often than fine ones: scales their rejection indices by the mean ratio of the roots.
 void correct_rejections(std::vector<Response>& coarse, std::span<const Response> fine) {
   const auto root = [](const Response& one) { return Exceedance::root(one.evaluations.front().rejection_index); };
   std::vector<UnitPoint> points;

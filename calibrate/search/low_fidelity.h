@@ -9,18 +9,18 @@
 
 namespace pastefit {
 
-/// First packing seed of coarse grains: its simulations can lie in one store with those of the study.
+/// First packing seed of coarse grains; distinct from the study's, so that both can share one store.
 inline constexpr std::uint64_t coarse_packings = 1ULL << 40;
 
-/// The packings of coarse grains: the same for every candidate.
+/// Packings of coarse grains, the same for every candidate.
 std::vector<std::uint64_t> packings_of_coarse(std::uint64_t seed, int count);
 
-/// What coarse simulations say of fine ones: each feasible one, its residuals moved by the bias between the rungs,
+/// Coarse simulations as predictions of fine ones: the feasible ones with their residuals shifted by
 ///     bias = mean over the feasible fine simulations of (their residuals - coarse surrogate at their point),
-/// one for each reading. The search tries every candidate with coarse grains before it does with the study's own, so
-/// the surrogate is read where it knows. 0 as long as there is no fine simulation. Limits: one bias for all candidates;
-/// the fine simulations gather about the target, so it is the bias there. Requirements: `coarse` and `fine` are
-/// simulations on one packing each, with residuals of the same weights.
+/// one for each reading; 0 without fine simulations. Requirements: `coarse` and `fine` are on one packing each, with
+/// equally weighted residuals. Because the search simulates every candidate with coarse grains first, the surrogate has
+/// data at the fine points. Limit: one bias for all candidates; it is that near the target, where the fine simulations
+/// concentrate.
 std::vector<Response> corrected(std::span<const Response> coarse, std::span<const Response> fine);
 
 }  // namespace pastefit

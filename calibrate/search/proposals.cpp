@@ -10,11 +10,11 @@
 namespace pastefit {
 namespace {
 
-constexpr int coarse_tries = 4;      // proposals tried with coarse grains before one is with fine ones
-constexpr double worthwhile = 0.02;  // improvement that is worth a simulation, of the misfit of a good candidate
+constexpr int coarse_tries = 4;      // coarse simulations before each fine one
+constexpr double worthwhile = 0.02;  // smallest expected improvement worth a simulation, over the allowed misfit
 
 UnitPoint point_of_largest_margin(const CandidateRanking& ranking, const Surrogate& model) {
-  constexpr double slope = 1e-4;  // leads out of where no margin is in sight
+  constexpr double slope = 1e-4;  // leads out of regions without expected margin
   const auto lacking = [&](const UnitPoint& point) {
     return slope * model.misfit_posterior(point).mean() - ranking.expected_margin(model, point);
   };
@@ -78,10 +78,10 @@ std::optional<UnitPoint> Proposals::distinct(const UnitPoint& proposal) const {
   return known == history_.singles().end() ? proposal : known->point;
 }
 
-/// Draws the answers of the candidates under way.
+/// Draws answers of the pending candidates.
 void Proposals::fantasise_answers(Surrogate& model) const {
   const RandomStream random(options_.seed, "answers of candidates under way");
-  std::uint64_t candidate = history_.responses().size();  // its place in the history to come
+  std::uint64_t candidate = history_.responses().size();  // its future index in the history
   for (const EvaluationHistory::Asked& asked : history_.under_way()) {
     Eigen::VectorXd deviates(history_.residuals());
     for (Eigen::Index k = 0; k < deviates.size(); ++k)

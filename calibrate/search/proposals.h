@@ -11,47 +11,43 @@ namespace pastefit {
 /// Points closer than this in every coordinate are the same candidate [unit cube].
 inline constexpr double same_point = 0.01;
 
-/// What the default strategy tries next: the point that is expected to improve most on the least expected misfit so far
-/// (`maximise_expected_improvement`), so that promise is weighed against uncertainty. Where the misfit promises nothing
-/// any more, the point of the largest expected margin (`CandidateRanking::expected_margin`), if it is larger than the
-/// best candidate's: a candidate has to meet each reading and not their sum. One that is a known point is that point
-/// again, on another packing.
+/// Acquisition of the default strategy: the point of largest expected improvement on the least expected misfit
+/// (`maximise_expected_improvement`). If that improvement is negligible, the point of largest expected margin
+/// (`CandidateRanking::expected_margin`), if it exceeds that of the best candidate: each reading has to be within its
+/// tolerance, not their sum. A proposal closer than `same_point` to a known point is that point on another packing.
 ///
-/// Of a candidate under way only the point is known. It counts in the surrogate with an answer drawn from what is known
-/// of its mean, always the same draw for the same candidate, so that the next proposal is made for a case that may well
-/// come (Snoek, Larochelle & Adams 2012, section 3.2, with one draw; the noise of the packings is left out, because it
-/// would scatter the proposals).
+/// Pending candidates enter the surrogate with fantasised means (Snoek, Larochelle & Adams 2012, section 3.2, with one
+/// draw). The draw of a candidate is always the same. Replicate scatter is left out, because it would scatter the
+/// proposals.
 ///
-/// With coarse grains each proposal is the first such point that has been tried there and is still as good as any, as
-/// far as the noise lets tell.
+/// With coarse grains, a proposal is simulated there first and moved until no other point is better within the noise.
 ///
-/// Requirement: what the constructor is given outlives the object.
+/// Requirement: the arguments of the constructor outlive the object.
 class Proposals {
  public:
   Proposals(EvaluationHistory& history, bool with_coarse, const SearchOptions& options)
       : history_(history), with_coarse_(with_coarse), options_(options) {}
 
-  /// Looks for the next point. False: it asked for coarse simulations, and is to be called again with the same ranking.
+  /// Computes the next point. Returns false if it requested coarse simulations; call it again with the same ranking.
   bool look(const CandidateRanking& ranking);
-  /// What was found: none if nothing promises more than a fiftieth of the misfit or of the tolerances, or before the
-  /// next answer.
+  /// The point; none if the expected gain is below 0.02 of the misfit or of the tolerances, or before the next answer.
   const std::optional<UnitPoint>& found() const { return found_; }
 
  private:
-  /// The point of most promise, if it promises enough.
+  /// Maximiser of the acquisition, if its gain is large enough.
   std::optional<UnitPoint> promising(const CandidateRanking& ranking) const;
-  /// Moves the proposal to where coarse grains see none better; false if it asked for a simulation.
+  /// Moves the proposal to the optimum with coarse grains; false if it requested a simulation.
   bool try_with_coarse_grains();
-  /// None if it is under way already, and what was answered as the same point.
+  /// The known point if `proposal` is close to one; none if that is pending.
   std::optional<UnitPoint> distinct(const UnitPoint& proposal) const;
   void fantasise_answers(Surrogate& model) const;
 
   EvaluationHistory& history_;
   bool with_coarse_;
   const SearchOptions& options_;
-  std::optional<UnitPoint> proposal_;  // that is tried with coarse grains
+  std::optional<UnitPoint> proposal_;  // under test with coarse grains
   int coarse_tries_ = 0;
-  std::optional<std::size_t> coarse_known_;  // simulations before the one that was asked for
+  std::optional<std::size_t> coarse_known_;  // number of coarse simulations before the request
   std::optional<UnitPoint> found_;
 };
 

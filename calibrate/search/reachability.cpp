@@ -15,14 +15,14 @@ namespace pastefit {
 
 namespace {
 
-constexpr double sure = 3;             // standard deviations between mean and confidence bound, if they were known
-constexpr double laboratory = 2;       // standard deviations of the laboratory within which a reading is met
-constexpr double on_the_bound = 0.1;   // of a range: as near as that counts as on the bound, where the model is flat
+constexpr double sure = 3;             // standard deviations between mean and confidence bound for known variances
+constexpr double laboratory = 2;       // standard deviations of the measurement within which a reading is met
+constexpr double on_the_bound = 0.1;   // of a range: counts as on the bound where the model is flat
 constexpr double step_back = 0.2;      // of a range
-constexpr std::size_t neighbours = 4;  // of a place, all of which have to have finished
+constexpr std::size_t neighbours = 4;  // of a point; all must have finished
 
-/// One reading of all simulations that ended well, as its difference to the laboratory, with the sign that makes it
-/// positive (a miss), in the reading's unit.
+/// Differences between one reading and the measurement over all feasible simulations, in the reading's unit, with the
+/// sign that makes them positive (misses).
 class Nearing {
  public:
   Nearing(std::span<const Response> singles, std::size_t reading, double tolerance)
@@ -42,7 +42,7 @@ class Nearing {
     all_bounds_ = all_bounds_ && low && value_of(*high) == value_of(*low);
     one_side_ = low && std::abs(above) == static_cast<int>(points_.size()) && value_of(*high) > value_of(*low);
     if (!one_side_) return;
-    // A residual is the difference to the laboratory over the laboratory's standard deviation.
+    // A residual is the difference over the standard deviation of the measurement.
     deviation_ = (value_of(*high) - value_of(*low)) / (high->residuals[reading_] - low->residuals[reading_]);
     measured_ = value_of(*low) - deviation_ * low->residuals[reading_];
     side_ = above > 0 ? 1 : -1;
@@ -70,7 +70,7 @@ class Nearing {
     return boost::math::quantile(boost::math::students_t_distribution<>(freedom), probability);
   }
 
-  /// Whether more candidates finished than did not, and all of the `neighbours` nearest to a place did.
+  /// True if more candidates finished than did not, and all `neighbours` nearest to a point did.
   bool vouches_for(const UnitPoint& place) const {
     if (2 * std::ranges::count_if(runs_, &Run::finished) <= std::ssize(runs_)) return false;
     std::vector<Run> nearest = runs_;
@@ -92,13 +92,13 @@ class Nearing {
     known->finished = known->finished || is_whole(single);
   }
 
-  /// With coarse grains only the residuals are corrected for the grain size, not the reading.
+  /// Coarse simulations: only their residuals are corrected for the grain size, not their readings.
   static bool is_fine(const Response& single) { return single.packings.front() < coarse_packings; }
   double value_of(const Response& single) const { return single.readings[reading_]; }
 
   Eigen::Index reading_;
   bool one_side_ = false;
-  bool all_bounds_ = true;  // every simulation ended early and says only that it read less
+  bool all_bounds_ = true;  // every simulation ended early with only an upper bound
   double side_ = 1, measured_ = 0, deviation_ = 1, met_ = 0;
   std::vector<UnitPoint> points_;
   Eigen::VectorXd misses_;
@@ -107,24 +107,24 @@ class Nearing {
 
 /// How far below its predicted mean the miss of a candidate may lie.
 struct Allowance {
-  double deviations = 0;  ///< standard deviations, of predictive variance and noise together
-  double noise = 0;       ///< variance of the noise
+  double deviations = 0;  ///< standard deviations of predictive variance and noise together
+  double noise = 0;       ///< variance of the noise [squared unit of the reading]
 };
 
-/// Lower confidence bound of the miss of a candidate [unit of the reading].
+/// Lower confidence bound of the miss [unit of the reading].
 double miss_at(const GaussianProcess& model, const UnitPoint& point, const Allowance& allowance) {
   const auto prediction = model.predict(point);
   return prediction.mean - allowance.deviations * std::sqrt(prediction.variance + allowance.noise);
 }
 
-/// The candidate whose lower confidence bound of the miss is least. `scale`: a large miss [unit of the reading].
+/// Point of least lower confidence bound of the miss. `scale`: a large miss [unit of the reading].
 UnitPoint nearest_by(const GaussianProcess& model, const Allowance& allowance, double scale, const UnitPoint& start) {
   // Positive, as `least_point` requires, and increasing with the bound.
   return least_point([&](const UnitPoint& point) { return std::exp(miss_at(model, point, allowance) / scale); }, start);
 }
 
-/// The bounds that the nearest candidate lies on, if a step away from them increases the predicted miss by more than
-/// its predictive standard deviation.
+/// Bounds of the nearest candidate from which a step inwards increases the predicted miss by more than its predictive
+/// standard deviation.
 std::vector<OutOfReach::Bound> bounds_of(const GaussianProcess& model, const UnitPoint& nearest) {
   std::vector<OutOfReach::Bound> bounds;
   const auto here = model.predict(nearest);
@@ -145,8 +145,8 @@ std::vector<UnitPoint> censored(std::span<const Response> singles, std::uint64_t
   return points;
 }
 
-/// The claim that a reading is out of reach; `hopeful` is the candidate of least bound. Nothing if its bound meets the
-/// laboratory, or if too few simulations finished to tell.
+/// Claims that a reading is out of reach; `hopeful`: point of least bound. None if its bound meets the measurement or
+/// too few simulations finished.
 std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance,
                                 const UnitPoint& hopeful) {
   const double at_best = miss_at(model, hopeful, allowance);
@@ -162,7 +162,7 @@ std::optional<OutOfReach> claim(const Nearing& approach, const GaussianProcess& 
   return found;
 }
 
-/// The candidate that may come nearest to the laboratory.
+/// Point that may come nearest to the measurement.
 UnitPoint hopeful_of(const Nearing& approach, const GaussianProcess& model, const Allowance& allowance) {
   return nearest_by(model, allowance, approach.least(), approach.middle());
 }
@@ -184,11 +184,11 @@ bool ReachPhase::advance() {
 
 bool ReachPhase::probe(std::size_t reading) {
   if (history_.stop_requested()) return true;
-  if (known_ && history_.singles().size() == *known_) return true;  // it was known, and taught nothing
+  if (known_ && history_.singles().size() == *known_) return true;  // the probe was already known: nothing new
   known_.reset();
   const Nearing approach(history_.singles(), reading, history_.tolerance(reading));
   if (!approach.suspect() && !approach.tells_nothing()) return true;
-  // How far those that were stopped early would have gone is the question here.
+  // The readings of stopped simulations are needed in full.
   if (const auto ended = censored(history_.singles(), options_.packing); !ended.empty()) {
     if (history_.budget_left() < static_cast<int>(ended.size())) return true;
     history_.evaluate(ended, {&options_.packing, 1});

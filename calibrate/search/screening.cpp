@@ -26,8 +26,8 @@ std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t 
       shift[k] = std::ldexp(static_cast<double>(hash_of(seed, static_cast<std::uint64_t>(k)) >> 11), -53);
     }
   }
-  // The engine leaves out the corner 0 by itself. It yields 64-bit integers; their top 53 bits make the coordinate
-  // exact and the same everywhere.
+  // The engine omits the corner 0 and yields 64-bit integers; their top 53 bits give exact coordinates on every
+  // machine.
   boost::random::sobol engine(static_cast<std::size_t>(dimension));
   std::vector<UnitPoint> points(static_cast<std::size_t>(count), UnitPoint(dimension));
   for (UnitPoint& point : points) {
@@ -41,7 +41,7 @@ std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t 
 
 namespace {
 
-/// The same however many of them are asked for.
+/// The first points do not depend on `count`.
 std::vector<UnitPoint> likely_points(const StrategyState& state, int count) {
   const UnitBox box = state.scoring().likely_box();
   std::vector<UnitPoint> points = screening_points(state.scoring().parameters(), count, state.options.seed);

@@ -8,8 +8,8 @@
 
 namespace pastefit {
 
-/// A well-mixed 64-bit number from a seed and a counter; the same on every machine.
-/// Source: the finaliser of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
+/// Hash of a seed and a counter; the same on every machine. Source: the finaliser of SplitMix64 (Steele, Lea & Flood,
+/// OOPSLA 2014).
 std::uint64_t hash_of(std::uint64_t seed, std::uint64_t counter);
 
 /// Space-filling points of the unit cube: a Sobol sequence without its first point (the corner 0), each coordinate
@@ -17,8 +17,8 @@ std::uint64_t hash_of(std::uint64_t seed, std::uint64_t counter);
 /// Requirements: dimension >= 1, count >= 0. Shapes: count points of `dimension` coordinates, each in [0, 1).
 std::vector<UnitPoint> screening_points(int dimension, int count, std::uint64_t seed);
 
-/// The first phase: space-filling points, tried out on one packing, all at once. If everything fails, further points of
-/// the same sequence look elsewhere, while half of the budget lasts.
+/// First phase: space-filling points, simulated on one packing all at once. If all of them fail, it continues the
+/// sequence until half of the budget is spent.
 class ScreeningPhase : public SearchPhase {
  public:
   explicit ScreeningPhase(StrategyState& state) : state_(state) {}
@@ -26,11 +26,11 @@ class ScreeningPhase : public SearchPhase {
 
  private:
   StrategyState& state_;
-  int known_ = -1;  // simulations when it began; negative: it has not
+  int known_ = -1;  // simulations at its start; negative: not started
   int asked_ = 0;
 };
 
-/// The same with coarse grains, whose answers are not looked at.
+/// The same with coarse grains; takes no decision from the answers.
 class CoarseScreeningPhase : public SearchPhase {
  public:
   explicit CoarseScreeningPhase(StrategyState& state) : state_(state) {}

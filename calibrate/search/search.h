@@ -12,7 +12,7 @@
 
 namespace pastefit {
 
-/// A calibration that suggests candidates and ingests what their simulations answered, wherever those run:
+/// Calibration with an ask-and-tell interface; the simulations may run anywhere:
 ///
 ///     Search search(scoring, options, start);
 ///     while (!search.finished()) {
@@ -21,13 +21,12 @@ namespace pastefit {
 ///     }
 ///     search.result();
 ///
-/// What it suggests depends on the answers in the order of asking, up to `SearchOptions::max_pending` candidates under
-/// way in the phase of proposals, never on who was ready first: the same card for any number of workers. Its state is
-/// the answers it was told (`results`); a search that starts with them takes the same way without asking for them
-/// again. The phases of the default strategy, and the others: `strategy.h`. No call waits, and there is no thread: the
-/// search goes on within `suggest`, `ingest` and `stop`, from where `progress` is called. Requirements:
-/// `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives it. One caller at
-/// a time. Errors: std::logic_error if a requirement is broken, or for an answer to what was not suggested.
+/// Requirements: `validate(options, scoring.parameters(), scoring.simulations_each())` is empty; `scoring` outlives the
+/// search; one caller at a time. The suggestions depend on the answers in the order of asking and on
+/// `SearchOptions::max_pending`, not on which answer arrives first: the card is the same for any number of workers. The
+/// state of a search is its answers (`results`): one that starts with them takes the same path without asking again.
+/// `strategy.h` describes the phases. No call blocks, and no thread is started; `suggest`, `ingest` and `stop` advance
+/// the search and call `progress`. Errors: std::logic_error if a requirement is broken or an answer was not suggested.
 class Search {
  public:
   Search(const Scoring& scoring, const SearchOptions& options, SearchStart start,
@@ -36,15 +35,14 @@ class Search {
   Search& operator=(const Search&) = delete;
   ~Search();
 
-  /// At most so many candidates that were not suggested before; none, if there will be none before another answer is
-  /// ingested, and at the end.
+  /// At most `count` new candidates; none if the search needs further answers first, or has finished.
   std::vector<Candidate> suggest(std::size_t count);
-  /// An answer that is known already is ignored.
+  /// Known answers are ignored.
   void ingest(std::span<const CandidateResult> results);
-  /// The user or a limit wants to end: what is not answered yet counts as cut off.
+  /// Ends the search; open candidates count as cut off.
   void stop();
   bool finished() const;
-  /// Every answer so far, in the order of asking.
+  /// All answers so far, in the order of asking.
   std::vector<CandidateResult> results() const;
   /// Requirement: it has finished.
   const Calibration& result() const;
@@ -54,12 +52,12 @@ class Search {
   std::unique_ptr<Run> run_;
 };
 
-/// Runs a search on objectives that simulate on this machine, to its end or to a stop request of `objective`.
+/// Runs a search with objectives on this machine until it finishes or `objective` requests a stop.
 Calibration drive(Search& search, Objective& objective, Objective* coarse = nullptr);
 
-/// The same in one call. `readings`, `parameters`: names for the reason; may be left empty. `coarse`: answers as
-/// `objective` would with coarser grains, to packings from `coarse_packings` on; default strategy only.
-/// Throws what the objective throws, and std::logic_error if the options are not valid.
+/// Creates and runs a search. `readings`, `parameters`: names for the reason; may be empty. `coarse`: objective with
+/// coarser grains, for packings from `coarse_packings` on; default strategy only. Errors: throws what the objective
+/// throws, and std::logic_error if the options are not valid.
 Calibration search(Objective& objective, const SearchOptions& options,
                    const std::function<void(const Progress&)>& progress = {},
                    std::span<const std::string> readings = {}, std::span<const std::string> parameters = {},

@@ -10,33 +10,33 @@
 
 namespace pastefit {
 
-/// Who looks for candidates.
+/// Method that proposes candidates.
 enum class StrategyKind {
-  surrogate,  ///< Gaussian processes and what they promise: `proposals.h`
-  ceres,      ///< a trust region on the residuals
-  nlopt       ///< an algorithm on the misfit
+  surrogate,  ///< Gaussian processes with expected improvement: `proposals.h`
+  ceres,      ///< trust region on the residuals
+  nlopt       ///< NLopt algorithm on the misfit
 };
 
-/// To add a strategy: a row in `strategies`, and for a new kind a function in `candidate_search.cpp`.
+/// To add a strategy, add a row to `strategies`; a new kind also needs a function in `candidate_search.cpp`.
 struct StrategyRow {
   std::string_view name;
   StrategyKind kind = StrategyKind::surrogate;
 };
 const std::vector<StrategyRow>& strategies();
-/// No row if there is no strategy of that name.
+/// Null if no strategy has that name.
 const StrategyRow* find_strategy(std::string_view name);
 
-/// Everything wrong with the options of a search over so many parameters and fitted tests; empty: fit to run.
+/// Errors in the options for this number of parameters and fitted tests; empty if valid.
 Faults validate(const SearchOptions& options, int parameters, int tests = 1);
 
-/// What a search starts from, besides its options.
+/// Initial state of a search.
 struct SearchStart {
-  int simulations = 0;                        ///< allowed in all, one for each fitted test of a candidate
-  bool with_coarse = false;                   ///< coarse candidates may be suggested (`low_fidelity.h`)
-  std::vector<Response> earlier = {};         ///< what is known, each point on one packing; free of charge
-  std::vector<std::string> readings = {};     ///< names for the reason, in the order of the readings; may be empty
-  std::vector<std::string> parameters = {};   ///< the same of the free parameters
-  std::vector<CandidateResult> answers = {};  ///< of an earlier search that started the same: `Search::results`
+  int simulations = 0;                        ///< total allowed, one for each fitted test of a candidate
+  bool with_coarse = false;                   ///< allows coarse candidates (`low_fidelity.h`)
+  std::vector<Response> earlier = {};         ///< known responses, each on one packing; not counted in the budget
+  std::vector<std::string> readings = {};     ///< names for the reason, one for each reading; may be empty
+  std::vector<std::string> parameters = {};   ///< names of the free parameters; may be empty
+  std::vector<CandidateResult> answers = {};  ///< `Search::results` of an earlier search with the same start
 };
 
 }  // namespace pastefit

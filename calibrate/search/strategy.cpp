@@ -53,7 +53,7 @@ void Strategy::begin_reach() {
   begin(Stage::reach, std::make_unique<ReachPhase>(state_.history, options));
 }
 
-/// The candidate that comes nearest to what is out of reach is simulated on all common packings.
+/// Simulates the candidate nearest to the unreachable reading on all common packings.
 void Strategy::begin_nearest() {
   begin(Stage::nearest, nullptr);
   state_.history.evaluate({&out_of_reach_->nearest, 1}, state_.common);

@@ -3,11 +3,11 @@
 namespace pastefit {
 namespace {
 
-constexpr double goal_share = 0.6;     // of the tolerances: what a candidate should be within, to be confirmed
-constexpr double likely_enough = 0.5;  // and with which it is begun
+constexpr double goal_share = 0.6;     // of the tolerances: within it a candidate is likely to be confirmed
+constexpr double likely_enough = 0.5;  // probability of this at which a confirmation starts
 
-/// Or with which all is within the tolerances. A shift of the top is never 0: good heaps have 30 mm of the 40 allowed,
-/// and a search that waited to be all but certain (0.97) simulated mix 79 two hundred times more; to ask takes 8.
+/// Or probability of being within the tolerances themselves. Good heaps have a top shift of 30 of the allowed 40 mm, so
+/// that 0.97 cost 200 further simulations for mix 79; a confirmation costs 8.
 constexpr double likely_to_hold = 0.75;
 
 template <class Chance>

@@ -11,22 +11,21 @@
 
 namespace pastefit {
 
-/// A search of seed s draws packings from 1000 s on and leaves out a hundred from here: those of the examination
-/// (`inference/examination.h`).
+/// A search of seed s uses packings from 1000 s on, except a hundred from here, which the examination
+/// (`inference/examination.h`) uses.
 inline constexpr std::uint64_t first_examination_packing = 900;
 
-/// A phase of a search. It never waits: `advance` goes on as far as the answers reach, asks the history for what it
-/// needs next and returns false; it is called again once the answers are taken. It returns true when the phase is over.
+/// A phase of a search. `advance` goes as far as the answers allow: it requests what it needs next and returns false,
+/// or returns true at the end of the phase. It does not block; the caller takes the answers and calls it again.
 class SearchPhase {
  public:
   virtual ~SearchPhase() = default;
   virtual bool advance() = 0;
 };
 
-/// What the phases of a strategy share: all answers, the packings on which an optimiser's candidates are compared, and
-/// the candidates that a confirmation has judged.
+/// Shared state of the phases: answers, common packings, and rejected candidates.
 class StrategyState {
-  std::uint64_t packings_used_ = 0;  // first: `common` uses some
+  std::uint64_t packings_used_ = 0;  // declared first: initialising `common` uses it
 
  public:
   StrategyState(CandidateQueue& queue, const SearchOptions& asked, const SearchStart& start,
@@ -35,23 +34,23 @@ class StrategyState {
 
   const SearchOptions& options;
   EvaluationHistory history;
-  const std::vector<std::uint64_t> common;  ///< an optimiser's candidates are compared on these
-  std::vector<UnitPoint> refuted;           ///< by a confirmation
+  const std::vector<std::uint64_t> common;  ///< packings on which an optimiser's candidates are compared
+  std::vector<UnitPoint> refuted;           ///< rejected by a confirmation
 
   const Scoring& scoring() const { return history.scoring(); }
 
-  /// Packing seeds that no simulation of this search has used.
+  /// Packing seeds not yet used by this search.
   std::vector<std::uint64_t> fresh_packings(int count);
   bool affordable(std::size_t packings) const { return history.budget_left() >= static_cast<int>(packings); }
   bool may_go_on() const { return !history.stop_requested() && affordable(common.size()); }
 
-  /// The candidates in the light of all answers. Requirement: some evidence is feasible.
+  /// Ranking by all answers. Requirement: at least one feasible simulation.
   CandidateRanking ranking() const { return {history, refuted}; }
-  /// True if the best candidate is more likely than not to do.
+  /// True if the best candidate is likely enough to be confirmed.
   static bool goal_is_met(const CandidateRanking& ranking);
-  /// The same whatever the heaps that a laboratory rejects.
+  /// The same without the factor for rejected heaps.
   static bool readings_will_do(const CandidateRanking& ranking);
-  /// The normalised error at which an optimiser may end by itself; none where what is known beforehand has a say.
+  /// Error at which an optimiser may end; 0 (none) if there are priors.
   double optimisers_goal() const;
 };
 

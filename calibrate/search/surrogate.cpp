@@ -11,22 +11,21 @@
 namespace pastefit {
 namespace {
 
-/// Of candidates that meet the laboratory equally well the one nearer to the middle of the bounds is more plausible:
-/// each coordinate has a prior of this weight, normal about the middle, with half the range as standard deviation.
+/// Among equally good candidates the one nearer to the middle of the bounds is more plausible: each coordinate has a
+/// normal prior of this weight about the middle, with half the range as standard deviation.
 constexpr double weight_of_middle = 0.1;
 
-constexpr double least_share = 0.05;  // of rejected heaps: a smaller one cannot be told from none
+constexpr double least_share = 0.05;  // of rejected heaps; smaller shares are indistinguishable from 0
 
-/// A candidate is confirmed by a mean over this many packings; an error of half a tolerance in it is harmless.
+/// Packings of a confirmation; an error of half a tolerance in their mean is harmless.
 constexpr double packings_of_a_mean = 8;
 constexpr double harmless_share = 0.5;
 
-/// Residuals beyond this many tolerances may be compressed.
+/// Tolerances beyond which residuals may be compressed.
 constexpr double far_off = 4;
 
-/// A residual with its far part on a logarithmic scale; continuous with its slope. Where a heap stands whole, 200 mm
-/// off or 210, that difference does not matter, and a model that has to follow the cliff is less accurate near the
-/// laboratory.
+/// Logarithmic beyond `far`, with continuous slope. For a heap that keeps its shape, 200 or 210 mm off makes no
+/// difference, and a model that follows the cliff is less accurate near the measurement.
 double compressed(double residual, double far) {
   if (std::abs(residual) <= far) return residual;
   return std::copysign(far * (1 + std::log(std::abs(residual) / far)), residual);
@@ -64,13 +63,13 @@ Surrogate::Surrogate(std::span<const Response> seen, const Eigen::VectorXd& tole
   if (failed.sum() > 0) failures_.emplace(all, failed);
 }
 
-/// Some readings have a cliff; others are smooth, and a logarithm would only bend them: two searches that always
-/// compressed met neither concrete mix 66 nor the two-step twin.
+/// Some readings have a cliff; smooth ones would only be distorted: with compression always on, two searches met
+/// neither concrete mix 66 nor the two-step twin.
 void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen::VectorXd& values, double far) {
   if (values.cwiseAbs().maxCoeff() <= far) return;
   const Eigen::VectorXd nearer = values.unaryExpr([&](double residual) { return compressed(residual, far); });
   const GaussianProcess model_of_nearer(points, nearer);
-  // Likelihood of the residuals themselves: that of the compressed ones times the derivative of the compression.
+  // Likelihood of the uncompressed residuals: that of the compressed ones times the derivative of the compression.
   const double slopes = (far / values.array().abs()).min(1).log().sum();
   std::optional<GaussianProcess>& model = models_.back();
   if (model_of_nearer.log_likelihood() + slopes <= model->log_likelihood()) return;
@@ -78,8 +77,8 @@ void Surrogate::compress_if_likelier(const std::vector<UnitPoint>& points, Eigen
   values = nearer;
 }
 
-/// Where packings disagree, a simulation says less about the mean: the residual is learnt a second time, with
-/// precisions.
+/// Trains twice: the first fit gives the scatter between packings, the second uses it as precisions, so that
+/// simulations where packings scatter get less weight.
 void Surrogate::learn(const std::vector<UnitPoint>& points, Eigen::VectorXd values, double tolerance) {
   std::optional<GaussianProcess>& model = models_.back();
   std::optional<ReplicateVariance>& variance = replicate_variances_.back();
