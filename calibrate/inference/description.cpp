@@ -9,11 +9,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double worth_a_word = 0.2;     // part of a parameter in a combination over that of the lead, to be named
-constexpr double worth_measuring = 0.9;  // narrowing above which a measurement is not worth taking
+constexpr double worth_a_word = 0.2;     // component over that of the lead from which a parameter is named
+constexpr double worth_measuring = 0.9;  // narrowing above which a measurement is not proposed
 constexpr std::size_t most_gains = 3;
 
-/// The parameters that can take the place of the lead in the best determined combination, with their exchange rates.
+/// Parameters that can replace the lead in the best determined combination, with their exchange rates.
 std::string exchange_of(const Inference& inference, const Combination& combination) {
   const ParameterInterval& lead = inference.intervals[combination.lead];
   std::vector<std::string> rates;
@@ -36,13 +36,13 @@ std::string exchange_of(const Inference& inference, const Combination& combinati
   return "  The others can make up for it: " + enumerated(rates) + ".\n";
 }
 
-/// "13.2 to 526", with a mark at an end that the study's bound sets.
+/// "13.2 to 526", marked at an end that is the study's bound.
 std::string ends_in_words(double lower, bool lower_known, double upper, bool upper_known) {
   const auto end = [](double value, bool known) { return plain(value, 4) + (known ? "" : " (the study's bound)"); };
   return end(lower, lower_known) + " to " + end(upper, upper_known);
 }
 
-/// With one free parameter there is one interval.
+/// For one free parameter: there is only one interval.
 std::string determined_alone(const Inference& inference) {
   const ParameterInterval& one = inference.intervals.front();
   std::string out;
@@ -91,7 +91,7 @@ std::string determined(const Inference& inference) {
   return out;
 }
 
-/// What is known of a parameter from its prior, and what from the readings.
+/// Contributions of prior and readings to a parameter.
 std::string prior_line(const ParameterInterval& one) {
   const std::string known = format("  %s was known to be %s +- %s; ", one.name.c_str(), plain(one.prior->value).c_str(),
                                    plain(one.prior->standard_deviation).c_str());
@@ -161,7 +161,7 @@ std::string conditions(const Inference& inference) {
          "  The intervals contain it. State what you know in the laboratory file or the study.\n";
 }
 
-/// A column for each material, so that five of them fit a window of 80 columns.
+/// One column for each material, so that five fit 80 columns.
 std::string family(const Inference& inference) {
   std::string out = "Materials expected to fit these readings as well as the first, the recommended one" +
                     (inference.recommended_because.empty() ? "" : ", " + inference.recommended_because) + "\n";
@@ -229,7 +229,7 @@ CardInference card_inference(const Inference& inference) {
     const ParameterInterval& one = inference.intervals[i];
     if (one.not_identified() && !one.prior)
       out.not_identified.push_back({one.name, not_identified_because(inference, one)});
-    else  // an end that is the study's bound stays that bound, digit by digit
+    else  // an end at the study's bound keeps its exact value
       out.intervals.push_back({one.name, one.lower_known ? rounded(one.lower, 4) : one.bound_lower,
                                one.upper_known ? rounded(one.upper, 4) : one.bound_upper});
     for (std::size_t j = 0; j < i; ++j)

@@ -8,18 +8,18 @@
 
 namespace pastefit {
 
-/// The inference as text: what is determined and how well, what is not, the equivalent materials, and what to measure
-/// next. Several lines, each with its line break.
+/// Text of an inference: identified parameters and their intervals, unidentified ones, equivalent materials, and what
+/// to measure next. Several lines, each with its line break.
 std::string describe(const Inference& inference);
 
 /// The same without the table of equivalent materials.
 std::string what_is_determined(const Inference& inference);
 
-/// The part of it that a card keeps: 95 % intervals that have an end set by the data, how parameters move together
-/// (from 0.2 on), and what is not identified. Rounded to the digits that the sample behind them is worth.
+/// Inference for a card: 95 % intervals with at least one end set by the data, correlations from 0.2 on, and
+/// unidentified parameters. Rounded to the precision of the sample.
 CardInference card_inference(const Inference& inference);
 
-/// Warning before a calibration with more free parameters than readings and priors can determine; else empty.
+/// Warning if a study has more free parameters than readings and priors can determine; else empty.
 std::string warning_before(int parameters, int priors, const std::vector<std::string>& fitted);
 
 /// "a", "a and b", "a, b and c".

@@ -94,7 +94,7 @@ bool is_usable(const StudyTest& test, const StoredEvaluation& run) {
   return !failure_of(test, run) && !is_rejected(test.lab.test, run.readings);
 }
 
-/// Means over the packings on which both heaps are accepted; returns their number.
+/// Appends means over the packings on which both heaps are accepted; returns their number.
 int add_means(const StudyTest& test, const RunsAtEnds& ends, std::vector<ConditionEffect::Reading>& out) {
   std::vector<std::size_t> usable;
   for (std::size_t i = 0; i < std::min(ends.lower.size(), ends.upper.size()); ++i)
@@ -110,7 +110,7 @@ int add_means(const StudyTest& test, const RunsAtEnds& ends, std::vector<Conditi
   return static_cast<int>(usable.size());
 }
 
-/// Nothing after a stop request.
+/// Empty after a stop request.
 std::optional<ConditionEffect> effect_of(const Study& study, const UnstatedCondition& condition,
                                          const UnitPoint& material, std::span<const std::uint64_t> packings,
                                          const SimulatePoint& simulate) {

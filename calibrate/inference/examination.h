@@ -15,31 +15,30 @@
 
 namespace pastefit {
 
-/// Why a material is the one that is recommended, for `Inference::recommended_because`.
+/// Text for `Inference::recommended_because`.
 std::string reason_for(bool confirmed, std::size_t packings);
 
-/// Examines what a finished search leaves open: asks for other materials that may meet the laboratory as well, as far
-/// apart as possible, each on one fresh packing; then, while simulations are left, for those that would be shown as
-/// equivalent by prediction alone. Then infers. Central differences at the best candidate would cost as much and give
-/// the slopes there only; these runs give them along the whole family, and test its members. Requirement: the
-/// calibration's best candidate did not fail; it outlives the examination. The result depends only on what was asked: a
-/// resumed calibration infers the same.
+/// Simulates after a search to find equivalent materials, then infers. It requests candidates that may fit equally
+/// well, as far apart as possible, each on one fresh packing; then, while simulations remain, those that would be
+/// listed as equivalent by prediction only. Central differences at the best candidate would cost as much and give
+/// slopes there only. Requirements: the calibration's best candidate did not fail; the calibration outlives the
+/// examination. The result depends only on the answers: a resumed calibration infers the same.
 class Examination {
  public:
-  /// `training_data`: what answers say. `simulations`: that may be spent, on points on one packing.
+  /// `training_data`: converts responses. `simulations`: points on one packing that may be spent.
   Examination(std::function<TrainingData(std::span<const Response>)> training_data, const Calibration& calibration,
               int simulations, std::uint64_t seed);
 
-  /// What to simulate next, all to its end on one packing.
+  /// Points to simulate completely on one packing.
   struct Request {
     std::vector<UnitPoint> points;
     std::uint64_t packing = 0;
   };
-  /// Nothing once it is over. `affordable`: points on a packing that may still be simulated; 0 after a stop request.
+  /// Next request; empty at the end. `affordable`: points on a packing still allowed; 0 after a stop request.
   std::optional<Request> next(int affordable);
-  /// The answers to the last request.
+  /// Takes the answers to the last request.
   void ingest(std::vector<Response> answers);
-  /// Nothing, where no simulation has run to its end. Requirement: `next` gave nothing.
+  /// The inference; empty if no simulation was completed. Requirement: `next` returned nothing.
   std::optional<Inference> result() const;
 
  private:
@@ -53,21 +52,21 @@ class Examination {
   std::optional<Inference> inference_;
 };
 
-/// The same of a study, simulated by an objective; spends no more than its budget. Requirement: `objective` stores in
-/// `store`. `conditions`: effects of the unstated ones.
+/// Runs the examination of a study with an objective, within its budget. Requirement: `objective` stores in `store`.
+/// `conditions`: effects of unstated conditions.
 std::optional<Inference> examine(const Study& study, Objective& objective, const Store& store,
                                  const Calibration& calibration, int simulations, std::uint64_t seed,
                                  const std::vector<ConditionEffect>& conditions = {});
 
-/// Packings on which a material is simulated at either end of a condition's range.
+/// Packings simulated at each end of a condition's range.
 inline constexpr std::size_t condition_packings = 2;
 
-/// Simulates a point of a study in one of its tests, on these packings and in their order; fewer after a stop request.
+/// Simulates a point in one test of a study, on these packings in their order; fewer results after a stop request.
 using SimulatePoint = std::function<std::vector<StoredEvaluation>(
     const Study& study, const UnitPoint& point, std::span<const std::uint64_t> packings, std::size_t test)>;
 
-/// Readings of a material at both ends of the range of each unstated condition, as long as there are simulations left
-/// and no stop is requested. Requirement: at least one packing.
+/// Readings of a material at both ends of the range of each unstated condition, while simulations remain and no stop is
+/// requested. Requirement: at least one packing.
 std::vector<ConditionEffect> condition_effects(const Study& study, const UnitPoint& material,
                                                std::span<const std::uint64_t> packings, int simulations,
                                                const SimulatePoint& simulate);

@@ -15,7 +15,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double neighbourhood = 0.2;  // distance in the cube below which two materials count as one
+constexpr double neighbourhood = 0.2;  // distance in the unit cube below which two materials count as one
 
 }  // namespace
 
@@ -106,8 +106,8 @@ std::vector<UnitPoint> sample_posterior(const ResponseModel& model, const Infere
                           static_cast<int>(model.training_data().parameters.size()), options.sample, options.seed);
 }
 
-/// The ends of the range of a single parameter that may meet the laboratory as far as is known, and were not simulated:
-/// beyond the outermost simulation a model knows little.
+/// Ends of the range of a single parameter that may fit and were not simulated; the model extrapolates poorly beyond
+/// the outermost simulation.
 std::vector<UnitPoint> open_ends(const TrainingData& evidence, const std::vector<UnitPoint>& sample) {
   constexpr double near = 0.1;
   std::vector<UnitPoint> out;
@@ -120,7 +120,7 @@ std::vector<UnitPoint> open_ends(const TrainingData& evidence, const std::vector
   return out;
 }
 
-/// A material that fits: what is said to fit of each parameter contains it.
+/// Extends the fitting range of each parameter to a material that fits.
 void widen_by(std::vector<ParameterInterval>& intervals, const TrainingData& evidence, const UnitPoint& point) {
   for (std::size_t j = 0; j < intervals.size(); ++j) {
     const double value = value_between(evidence.parameters[j], point[static_cast<Eigen::Index>(j)]);
@@ -129,7 +129,7 @@ void widen_by(std::vector<ParameterInterval>& intervals, const TrainingData& evi
   }
 }
 
-/// Whether the linear combinations give the uncertainties of the sample.
+/// True if the linear combinations reproduce the uncertainties of the sample.
 bool explains(const std::vector<Combination>& combinations, const std::vector<ParameterInterval>& intervals) {
   double gap = 0;
   for (std::size_t j = 0; j < intervals.size(); ++j) {

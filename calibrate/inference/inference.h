@@ -11,49 +11,47 @@
 
 namespace pastefit {
 
-/// A candidate that meets the laboratory as well as the recommended one, as far as is known.
+/// Candidate expected to fit as well as the recommended one.
 struct EquivalentMaterial {
   UnitPoint point;
   std::vector<double> values;    ///< of the free parameters
   std::vector<double> readings;  ///< predicted, in the order of `Inference::fitted`
-  bool simulated = false;        ///< else only predicted
+  bool simulated = false;        ///< else predicted
   double distance = 0;           ///< `ResponseModel::distance`
 };
 
-/// Adds points that are as far from each other, and from those chosen already, as possible; stops at `count` in all, or
-/// when all that are left lie nearer than `apart` to a chosen one.
+/// Adds points as far as possible from each other and from those chosen, until there are `count`, or all others are
+/// nearer than `apart` to a chosen one.
 void spread_out(std::vector<UnitPoint>& chosen, const std::vector<UnitPoint>& points, std::size_t count,
                 double apart = 0);
 
 /// The half of the points with the smaller distances.
 std::vector<UnitPoint> better_half(const ResponseModel& model, const std::vector<UnitPoint>& points);
 
-/// Those points of which every fitted reading is expected within the laboratory's deviation, or as near as the
-/// recommended one's. None is named where the response jumps and nobody has simulated it.
+/// Points of which every fitted reading is expected within one standard deviation of the measurement, or as near as
+/// that of the recommended point. Excludes points where the response jumps, unless they were simulated.
 std::vector<UnitPoint> fitting(const ResponseModel& model, const std::vector<UnitPoint>& points,
                                const UnitPoint& recommended);
 
-/// The recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
+/// Recommended candidate, then simulated ones that fit, then predicted ones; all within the intervals.
 std::vector<EquivalentMaterial> family_of(const ResponseModel& model, const std::vector<UnitPoint>& sample,
                                           const UnitPoint& recommended, const std::vector<ParameterInterval>& intervals,
                                           int count);
 
-/// What the simulations and the laboratory say about the free parameters.
+/// Inference of the free parameters from simulations and measurements.
 struct Inference {
-  std::vector<std::string> fitted;               ///< the readings behind it
-  std::vector<double> noise;                     ///< standard deviation of each between packings of the
-                                                 ///< recommended candidate
+  std::vector<std::string> fitted;  ///< fitted readings
+  std::vector<double> noise;        ///< standard deviation of each between packings of the recommended candidate
   std::vector<ParameterInterval> intervals;      ///< of the free parameters, in their order
   std::vector<std::vector<double>> correlation;  ///< of the free parameters in the posterior
   std::vector<Combination> combinations;         ///< best determined first; one for each free parameter
-  bool linear = false;                           ///< the combinations explain the intervals; if not, the
-                                                 ///< intervals hold
-  bool jumps = false;                            ///< near the recommended candidate, so that nothing is predicted there
-  std::vector<EquivalentMaterial> family;        ///< far apart from each other; the recommended one first
-  std::vector<MeasurementGain> gains;            ///< best first
-  std::vector<ConditionEffect> conditions;       ///< effects of unstated conditions; contained in the intervals
-  std::string recommended_because;               ///< why the first of the family is recommended
-  int simulations = 0;                           ///< number of simulations used
+  bool linear = false;                      ///< the combinations explain the intervals; if false, use the intervals
+  bool jumps = false;                       ///< the response jumps at the recommended candidate: no predictions
+  std::vector<EquivalentMaterial> family;   ///< far apart from each other; the recommended one first
+  std::vector<MeasurementGain> gains;       ///< best first
+  std::vector<ConditionEffect> conditions;  ///< effects of unstated conditions; included in the intervals
+  std::string recommended_because;          ///< reason for recommending the first of the family
+  int simulations = 0;                      ///< number of simulations used
 };
 
 struct InferenceOptions {
@@ -63,16 +61,16 @@ struct InferenceOptions {
   std::uint64_t seed = 1;
 };
 
-/// Candidates to simulate next: from the posterior sample, as far from each other and from `recommended` as possible;
-/// first the ends of the range of a single parameter, where they may meet the laboratory. Shape: `count` points, fewer
-/// if the sample has no more.
+/// Candidates to simulate next: members of the posterior sample, as far as possible from each other and from
+/// `recommended`. For a single parameter, ends of the range that may fit come first. Shape: `count` points, fewer if
+/// the sample has no more.
 std::vector<UnitPoint> candidates_to_examine(const TrainingData& evidence, const UnitPoint& recommended, int count,
                                              const InferenceOptions& options = {});
 
-/// Infers the free parameters of a study without further simulations: likelihood of `response_model.h`, sample of
-/// `posterior.h`. The prior is uniform between the bounds, on the parameter's scale, times the prior that the study
-/// gives. Limits: contact law and grain size count as right; their error is in none of the intervals. Requirements: at
-/// least one simulation ended well, `recommended` lies in the unit cube, at least one reading is fitted.
+/// Infers the free parameters without further simulations: likelihood of `response_model.h`, sample of `posterior.h`,
+/// prior uniform within the bounds on the parameter's scale times the study's priors. Requirements: at least one
+/// feasible simulation, `recommended` lies in the unit cube, at least one reading is fitted. Limit: the intervals
+/// exclude errors of contact law and grain size.
 Inference infer(const TrainingData& evidence, const UnitPoint& recommended, const InferenceOptions& options = {});
 
 }  // namespace pastefit

@@ -13,11 +13,11 @@ namespace pastefit {
 
 namespace {
 
-// Outermost part of a range, where the sample shows whether the data set an end: so much of the range, or of the
-// sample's own width, whichever is less, so that a narrow interval near a bound is none that ends there.
+// Width of the outermost part of a range in which the density shows whether the data set an end: share of the range, or
+// of the sample's own width if that is less, so that a narrow interval near a bound does not count as ending there.
 constexpr double border_of_range = 0.05, border_of_width = 0.25;
-constexpr double thin = 0.2;    // density at a bound, over the mean one, below which the data set the end
-constexpr double tail = 0.025;  // of the sample beyond each end of an interval
+constexpr double thin = 0.2;    // density at a bound over the mean density below which the data set the end
+constexpr double tail = 0.025;  // share of the sample beyond each end of an interval
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -26,7 +26,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-/// Share of the sample in the outermost part of the range, over the share of a uniform distribution.
+/// Density of the sample in the outermost part of the range, over that of a uniform distribution.
 double density_at(const std::vector<double>& sorted, bool lower_end) {
   const double width = quantile(sorted, 1 - tail) - quantile(sorted, tail);
   const double border = std::clamp(border_of_width * width, 1e-6, border_of_range);
@@ -40,9 +40,9 @@ struct Ends {
   bool lower_known = false, upper_known = false;
 };
 
-/// The central 95 % of the sample: 2.5 % beyond each end, also where the other end is the study's bound. An end is
-/// taken as set by the data because it looks sharp, which makes it too sharp on average: with all 5 % beyond a single
-/// end only 88 % of the intervals of fifty twins held the truth (tests/twins).
+/// Central 95 % of the sample: 2.5 % beyond each end, also if the other end is the study's bound. Only ends that look
+/// sharp count as set by the data, which makes them too sharp on average: with all 5 % beyond a single end only 88 % of
+/// the intervals of fifty twins contained the truth (tests/twins).
 Ends ends_of(std::vector<double> coordinates) {
   std::ranges::sort(coordinates);
   Ends ends;
@@ -53,7 +53,7 @@ Ends ends_of(std::vector<double> coordinates) {
   return ends;
 }
 
-/// Ends that contain these of another interval, and a value. An end beyond the sample's own is as known as the other's.
+/// Extends ends to contain another interval, together with its `known` flags.
 void contain(Ends& ends, const Ends& others) {
   if (others.lower < ends.lower) {
     ends.lower = others.lower;
@@ -65,7 +65,7 @@ void contain(Ends& ends, const Ends& others) {
   }
 }
 
-/// Ends within those of another interval.
+/// Clips ends to another interval.
 void clip(Ends& ends, const Ends& others) {
   if (others.lower > ends.lower) {
     ends.lower = others.lower;
@@ -77,8 +77,7 @@ void clip(Ends& ends, const Ends& others) {
   }
 }
 
-/// Where the cells end over which a posterior is summed: evenly, and at what was simulated, where it may change at
-/// once.
+/// Cell ends for integrating a posterior: uniform, plus the simulated points if it may jump there.
 std::vector<double> cell_ends(const ResponseModel& model) {
   constexpr int cells = 400;
   std::vector<double> ends;
@@ -178,8 +177,8 @@ ParameterInterval interval_of(const ResponseModel& model, const std::vector<Unit
 
 namespace {
 
-constexpr double difference_step = 0.05;  // of coordinates, for the slopes of the response model, which is smooth
-constexpr double visible = 0.3;           // least part of a reading in a combination to be named
+constexpr double difference_step = 0.05;  // of coordinates, for slopes of the smooth response model
+constexpr double visible = 0.3;           // least component of a reading in a combination to be named
 constexpr double two_sided = 1.959964;    // standard deviations of 95 %
 
 /// Slope of each fitted reading in each coordinate. Shape: fitted readings x parameters.
@@ -196,7 +195,7 @@ Eigen::MatrixXd jacobian_of(const ResponseModel& model, const std::vector<std::s
   return jacobian;
 }
 
-/// A step along a coordinate as a change of the parameter's value: relative on a logarithmic scale, else in its unit.
+/// Change of the parameter's value for a step of its coordinate: relative on a logarithmic scale, else in its unit.
 double width_of(const Parameter& parameter, double step) {
   if (parameter.scale == Scale::linear) return step * (parameter.upper - parameter.lower);
   return std::expm1(step * std::log(parameter.upper / parameter.lower));
@@ -208,7 +207,8 @@ std::vector<Combination> combinations_of(const ResponseModel& model, const std::
                                          const UnitPoint& at) {
   const TrainingData& evidence = model.training_data();
   const Eigen::VectorXd before = deviations_before(evidence);
-  // The symmetric inverse root of the covariance: each row still belongs to one reading, as far as correlation allows.
+  // With the symmetric inverse root of the covariance each row still belongs to one reading, as far as correlation
+  // allows.
   const Eigen::MatrixXd in_deviations =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model.covariance(at)).operatorInverseSqrt();
   const Eigen::MatrixXd scaled = in_deviations * jacobian_of(model, fitted, at) * before.asDiagonal();

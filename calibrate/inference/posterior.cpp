@@ -14,11 +14,11 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kept_share = 0.5;  // of the effective sample size, from one power of the likelihood to the next
+constexpr double kept_share = 0.5;  // effective sample size kept from one power of the likelihood to the next
 constexpr int walk_steps = 6;       // after each resampling
 constexpr int most_powers = 200;
 
-/// The sample while the power of the likelihood grows from 0 to 1.
+/// Sample while the power of the likelihood grows from 0 to 1.
 class Population {
  public:
   Population(const std::function<double(const UnitPoint&)>& log_likelihood, int dimension, int count,
@@ -43,7 +43,7 @@ class Population {
  private:
   double draw() { return random_.uniform(drawn_++); }
 
-  /// A likelihood that is not a number counts as zero.
+  /// Log-likelihood; one that is not finite counts as zero likelihood.
   double likelihood_at(const UnitPoint& point) const {
     const double value = log_likelihood_(point);
     return std::isfinite(value) ? value : -1e300;
@@ -158,8 +158,7 @@ Moments moments_of(const std::vector<UnitPoint>& sample) {
 
 namespace {
 
-/// A reading a laboratory may be advised to take, by the name of the simulation's reading; with the name of its test
-/// before a slash where a study has several.
+/// True if a laboratory may be advised to take a reading; in studies of several tests its name follows a slash.
 bool measurable(const std::string& name) {
   const std::string own = name.substr(name.find('/') + 1);
   const auto kinds = all_reading_kinds();
@@ -167,7 +166,7 @@ bool measurable(const std::string& name) {
   return kind && kind->advised;
 }
 
-/// Whether the model meets a reading; repeating one that it misses by far would only mislead.
+/// True if the model meets a reading; repeating one that it misses by far would mislead.
 bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recommended) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];
   if (!evidence.measured) return true;
@@ -176,9 +175,9 @@ bool met(const ResponseModel& model, std::size_t reading, const UnitPoint& recom
          3 * std::hypot(evidence.deviation, std::sqrt(prediction.variance));
 }
 
-/// Standard deviation of each coordinate x after further measurements of one reading over that before, by linear
-/// regression in the sample: sqrt(1 - cov(x, m)^2/(var x (var m + error))), m the mean reading of a member of the
-/// sample, error the variance of the mean of the new measurements and the predictive variance.
+/// Ratio of the standard deviations of each coordinate x after and before further measurements of one reading, by
+/// linear regression in the sample: sqrt(1 - cov(x, m)^2/(var x (var m + error))), m: mean reading of a member of the
+/// sample, error: variance of the mean of the new measurements plus predictive variance.
 MeasurementGain gain_of(const ResponseModel& model, std::size_t reading, const std::vector<UnitPoint>& sample,
                         const Moments& moments, std::size_t lead, int repeats, double typical_deviation) {
   const ReadingTrainingData& evidence = model.training_data().readings[reading];

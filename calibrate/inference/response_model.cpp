@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-constexpr double least_survival = 1e-3;  // a model of failures is too rough to rule a candidate out
+constexpr double least_survival = 1e-3;  // a model of failures is too rough to exclude a candidate
 constexpr double doubted_heaps = 3;      // further heaps, assumed to show no correlation
 
 /// Sum of the squared differences from the means of the priors, each in standard deviations of its prior.
@@ -152,7 +152,7 @@ void ResponseModel::count_independent() {
   const Eigen::VectorXd sizes = all.rowwise().norm();
   for (Eigen::Index k = 0; k < count; ++k)
     if (sizes[k] > 0) all.row(k) /= sizes[k];
-  // A reading that never changes counts as independent of the others.
+  // A constant reading counts as independent of the others.
   Eigen::MatrixXd correlation = all * all.transpose();
   correlation.diagonal().setOnes();
   independent_ = static_cast<double>(count) / correlation.squaredNorm();
@@ -255,7 +255,8 @@ double ResponseModel::log_likelihood(const UnitPoint& point) const {
     return Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
   };
   const double by_laboratory = half_log_determinant(of_laboratory);
-  // A model that knows little between two simulations of one parameter is held to what both of them read.
+  // Where the predictive variance is large, the readings of the neighbouring simulations of one parameter limit the
+  // model.
   const double met =
       std::min(-0.5 * of_both.matrixL().solve(differences).squaredNorm(), trust_->log_likelihood(point[0]));
   double sum = met - by_laboratory - independent_ * (half_log_determinant(of_both) - by_laboratory);

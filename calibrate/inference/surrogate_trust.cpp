@@ -9,12 +9,12 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kJump = 10;         // [standard deviations of the laboratory]
-constexpr double kJumpAlone = 3;     // the same for one parameter, whose neighbours say as much as a model
+constexpr double kJump = 10;         // [standard deviations of the measurement]
+constexpr double kJumpAlone = 3;     // the same for one parameter, whose neighbours are as informative as a model
 constexpr double kScatter = 4;       // [standard deviations between packings of one candidate]
 constexpr std::size_t kNearest = 2;  // sites for each parameter
 
-/// Answers of each site that are no bounds.
+/// Uncensored answers of each site.
 std::vector<Replicates> answers_of(const ReadingTrainingData& reading, const Sites& sites) {
   std::vector<Replicates> out(sites.points.size());
   for (std::size_t i = 0; i < sites.of.size(); ++i)
@@ -23,8 +23,8 @@ std::vector<Replicates> answers_of(const ReadingTrainingData& reading, const Sit
   return out;
 }
 
-/// Standard deviation between packings: the median of the candidates that have several, as some stand and flow on one
-/// and the same candidate; nothing where none has.
+/// Standard deviation between packings: median over the candidates with several, because some candidates collapse on
+/// some packings only; none without replicates.
 std::optional<double> scatter_of(const std::vector<Replicates>& answers) {
   std::vector<double> variances;
   for (const Replicates& one : answers)
@@ -80,7 +80,7 @@ void SurrogateTrust::line_up(const TrainingData& evidence, const Sites& sites, s
     const Neighbour &left = line_[i > 0 ? i - 1 : 1], &right = line_[i + 1 < line_.size() ? i + 1 : i - 1];
     Neighbour& one = line_[i];
     for (std::size_t k = 0; k < fitted.size(); ++k) {
-      // Far from the jump heaps scatter no more than they differ from their neighbours.
+      // Far from the jump, replicate scatter is at most the difference from the neighbours.
       const double apart = std::max(std::abs(one.means[k] - left.means[k]), std::abs(one.means[k] - right.means[k]));
       const double noise = std::min(scatter[k], apart);
       one.variances.push_back(evidence.readings[fitted[k]].variance() + noise * noise / one.weights[k]);

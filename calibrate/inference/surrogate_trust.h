@@ -10,34 +10,32 @@
 
 namespace pastefit {
 
-/// Where a smooth model of the fitted readings does not predict simulations that were left out of it: a heap that
-/// stands or flows by a small change of a parameter. Two simulations on either side of such a jump say that the
-/// reading lies somewhere between, and nothing smooth says more. A site is doubtful if leaving it out misses it by
-/// more than ten of the laboratory's standard deviations (three where one parameter is free) and four of the scatter
-/// between packings of one candidate.
+/// Detects discontinuities by leave-one-out errors of the smooth models: a heap may keep its shape or collapse after a
+/// small change of a parameter. A site is doubtful if leaving it out gives an error of more than ten standard
+/// deviations of the measurement (three if one parameter is free) and of more than four standard deviations between
+/// packings of one candidate. Between two simulations on either side of a jump, only their readings bound the response.
 class SurrogateTrust {
  public:
-  /// `models`: of all readings. `fitted`: those that are judged.
+  /// `models`: of all readings. `fitted`: indices of those that are tested.
   SurrogateTrust(const TrainingData& evidence, const Sites& sites, std::span<const ReadingModel> models,
                  std::span<const std::size_t> fitted);
 
-  /// Whether the model may predict this point: none of the sites nearest to it is doubtful.
+  /// True if none of the sites nearest to the point is doubtful.
   bool predicts(const UnitPoint& point) const;
-  /// Where one parameter is free: some site is doubtful, and what lies between neighbours takes the place of the model.
+  /// True if one parameter is free and some site is doubtful: intervals between neighbours then replace the model.
   bool uses_neighbours() const { return uses_neighbours_; }
-  /// The logarithm of the likelihood of a single parameter without a model: between neighbours each fitted reading may
-  /// be anything between theirs, beyond the outermost it is theirs. 0, which is all that can be, for several
-  /// parameters.
+  /// Log-likelihood of a single parameter without a model: each fitted reading may take any value between those of the
+  /// neighbours; beyond the outermost site it has the value there. 0, its maximum, for several parameters.
   double log_likelihood(double coordinate) const;
-  /// Coordinates of the sites of one parameter, in order.
+  /// Sorted coordinates of the sites of one parameter.
   std::vector<double> coordinates() const;
 
  private:
   struct Neighbour {
     double coordinate = 0;
     std::vector<double> means;      // of the fitted readings
-    std::vector<double> weights;    // simulations of each
-    std::vector<double> variances;  // of those means and of the laboratory's
+    std::vector<double> weights;    // number of simulations of each
+    std::vector<double> variances;  // of those means and the measured ones together
   };
   void line_up(const TrainingData& evidence, const Sites& sites, std::span<const double> scatter,
                std::span<const std::size_t> fitted);

@@ -12,7 +12,7 @@ namespace pastefit {
 
 namespace {
 
-/// The rejection index of each simulation; empty if the study does not judge it.
+/// Rejection index of each simulation; empty if the study does not judge it.
 std::vector<double> rejection_indices_of(const Study& study, const std::vector<const StoredEvaluation*>& simulations) {
   std::vector<double> indices;
   if (rejected_share_of(study) >= 1) return indices;
@@ -28,7 +28,7 @@ int most_repeats(const std::vector<StudyReading>& readings) {
   return most;
 }
 
-/// The test of a reading by its name in the study.
+/// Index of the test of a reading, by its name in the study.
 std::size_t test_of(const Study& study, const std::string& name) {
   for (std::size_t test = 0; test < study.tests.size(); ++test)
     for (const ReadingKind& kind : reading_kinds(study.tests[test].lab.test))

@@ -9,7 +9,7 @@
 namespace pastefit {
 namespace {
 
-// Least standard deviation of the root: values that happen to lie on a smooth curve do not make the next one certain.
+// Least standard deviation of the root: values that lie on a smooth curve by chance do not make the next one certain.
 constexpr double least_scatter = 0.02;
 
 // Medians of the five equally likely parts of a standard normal variable, scaled to variance 1.

@@ -95,7 +95,7 @@ void GaussianProcess::set(const Eigen::VectorXd& lengths, double noise_ratio) {
   mean_ = ones.dot(values_) / ones.sum();
   const Eigen::VectorXd deviations = values_.array() - mean_;
   weights_ = cholesky.solve(deviations);
-  // The likelihood of all answers, from the means and the squares within the points.
+  // Likelihood of all answers, from the means and the squares within the points.
   signal_variance_ = (deviations.dot(weights_) + squares_within_ / noise_ratio_) / answers_;
   log_determinant_ = 2 * factor_.diagonal().array().log().sum() + counts_.array().log().sum() +
                      (answers_ - static_cast<double>(n)) * std::log(noise_ratio_);

@@ -21,9 +21,8 @@ struct LogRange {
 /// Correlation lengths, in edge lengths of the unit cube.
 inline constexpr LogRange length_range{0.15, 15};
 
-/// The hyper-parameters of least deviance, by Subplex from `start`.
-/// `deviance`: a positive function on the unit cube, for instance a likelihood to the power -2/n. `evaluations_each`:
-/// evaluations allowed for each hyper-parameter.
+/// Hyper-parameters of least deviance, by Subplex from `start`. `deviance`: a positive function on the unit cube, e.g.
+/// a likelihood to the power -2/n. `evaluations_each`: evaluations allowed for each hyper-parameter.
 UnitPoint fit_hyperparameters(const std::function<double(const UnitPoint&)>& deviance, const UnitPoint& start,
                               int evaluations_each);
 
@@ -36,50 +35,48 @@ inline double matern_covariance(const UnitPoint& a, const UnitPoint& b, const Ei
   return variance * (1 + r + r * r / 3) * std::exp(-r);
 }
 
-/// A Gaussian process with constant mean, Matérn 5/2 covariance with one length for each coordinate, and noise. Mean
-/// and signal variance are profiled out; lengths and the ratio of noise to signal maximise the likelihood times a broad
+/// Gaussian process with constant mean, Matérn 5/2 covariance with one length for each coordinate, and noise. Mean and
+/// signal variance are profiled out; lengths and the ratio of noise to signal maximise the likelihood times a broad
 /// prior that favours smooth functions, so that the process does not follow the noise of a few dozen answers. Answers
-/// at one point are pooled, which is exact and saves time. Source: Rasmussen & Williams, Gaussian Processes for Machine
+/// at one point are pooled, which is exact and faster. Source: Rasmussen & Williams, Gaussian Processes for Machine
 /// Learning (2006), sections 2.2, 4.2.1, 5.4.1.
 class GaussianProcess {
  public:
   struct Prediction {
     double mean = 0;
-    double variance = 0;  ///< of that mean, without the noise of one simulation
+    double variance = 0;  ///< of the mean, without the noise of one simulation
   };
 
-  /// Shapes: n >= 1 points of the unit cube, n values, n precisions > 0 (none: all 1). The noise variance of an answer
-  /// is `noise_variance()` over its precision. Points may repeat, which tells the noise from the signal.
+  /// Shapes: n >= 1 points of the unit cube, n values, n precisions > 0 (empty: all 1). The noise variance of an answer
+  /// is `noise_variance()` over its precision. Repeated points separate noise from signal.
   GaussianProcess(std::span<const UnitPoint> points, const Eigen::VectorXd& values,
                   const Eigen::VectorXd& precisions = {});
 
-  /// Conditions on an assumed mean of `answers` answers at a point that has none yet (fantasising); lengths and noise
-  /// ratio stay.
+  /// Conditions on a fantasised mean of `answers` answers at a new point; lengths and noise ratio are kept.
   void fantasise(const UnitPoint& point, double mean, int answers);
 
   Prediction predict(const UnitPoint& point) const;
-  /// Logarithm of the likelihood of the answers, up to a constant that depends on their number only; infinite if all
-  /// are equal.
+  /// Log-likelihood of the answers, up to a constant that depends on their number only; infinite if all are equal.
   double log_likelihood() const;
   const Eigen::VectorXd& lengths() const { return lengths_; }
   double signal_variance() const { return signal_variance_; }
-  /// Of an answer of precision 1.
+  /// Noise variance of an answer of precision 1.
   double noise_variance() const { return signal_variance_ * noise_ratio_; }
 
  private:
-  /// (likelihood times prior)^(-2/n), n answers: positive, and least where the product is largest.
+  /// (likelihood times prior)^(-2/n), n answers; positive, to be minimised.
   double deviance() const;
   void pool(std::span<const UnitPoint> points, const Eigen::VectorXd& values, const Eigen::VectorXd& precisions);
   void set(const Eigen::VectorXd& lengths, double noise_ratio);
 
   std::vector<UnitPoint> points_;  // distinct
   Eigen::VectorXd values_;         // mean answer of each
-  Eigen::VectorXd counts_;         // answers of each, or rather the sum of their precisions
-  double answers_ = 0;             // in all
-  double squares_within_ = 0;      // of the answers about the mean of their point, times their precisions
+  Eigen::VectorXd counts_;         // sum of the precisions of its answers
+  double answers_ = 0;             // number of answers
+  double squares_within_ = 0;  // squared deviations of the answers from the mean of their point, times their precisions
   Eigen::VectorXd lengths_;
   double noise_ratio_ = 0;      // noise variance over signal variance
-  double signal_variance_ = 0;  // 0: all values are the same
+  double signal_variance_ = 0;  // 0: all values are equal
   double mean_ = 0;
   double log_determinant_ = 0;
   Eigen::MatrixXd factor_;   // lower Cholesky factor of the correlation matrix with noise

@@ -11,10 +11,10 @@
 namespace pastefit {
 namespace {
 
-// Priors: log-normal, with a factor of two as one standard deviation. Longer typical lengths, a smaller signal or less
-// noise would make the model too certain between few candidates (tests/twins).
+// Log-normal priors; one standard deviation is a factor of two. Longer typical lengths, a smaller signal or less noise
+// would make the model overconfident between few candidates (tests/twins).
 constexpr double typical_length = 0.5;
-// In units of the variance of all rows, as the variances of the trend.
+// In units of the variance of all rows, as are the variances of the trend.
 constexpr LogRange signal_range{1e-3, 10}, noise_variance_range{1e-6, 2};
 constexpr double typical_signal = 1, typical_noise = 0.02;
 constexpr double most_slope = 2.5;  // of the logarithm of the noise variance, over one standard deviation

@@ -11,41 +11,41 @@
 
 namespace pastefit {
 
-/// One reading as a function of the parameters, learnt from noisy simulations, some of which give only an upper bound
-/// of their reading:
+/// One reading as a function of the parameters, learnt from noisy simulations, some of which give only an upper bound:
 ///     y = b_0 + b.(2x - 1) + f(x) + s(x) e,   log s^2 = g_0 + g_1 u + g_2 (u^2 - 1),
-/// a linear trend with wide normal priors, which the model follows where there are no simulations (generalised least
-/// squares); a Gaussian process f with a Matérn 5/2 covariance and one length for each coordinate; and standard normal
-/// noise e, whose standard deviation s depends on the mean reading: u is that mean in the standardised units of the
-/// rows below, clamped to their range. Heaps that stand or have flowed away scatter less than those between. A bound c
-/// has the likelihood Phi((c - m)/s), m the mean reading; expectation propagation replaces it by a normal observation
-/// that gives m the same first two moments. The lengths, the variance of f and the coefficients g maximise the evidence
-/// times broad priors that favour a smooth f and noise that does not depend on u. Answers at one site are pooled, which
-/// is exact and saves time. Source: Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), sections 2.2,
-/// 2.7, 3.6, 5.4.1. Limit: lengths and variances count as known; the uncertainty of their estimates is left out.
+/// a linear trend with wide normal priors, which the model follows far from simulations (generalised least squares); a
+/// Gaussian process f with Matérn 5/2 covariance and one length for each coordinate; and standard normal noise e, whose
+/// standard deviation s depends on the mean reading: u is that mean in the standardised units of the rows below,
+/// clamped to their range. Heaps that keep the mould's shape, or collapse completely, vary little between packings;
+/// intermediate slumps vary most. A bound c has the likelihood Phi((c - m)/s), m the mean reading; expectation
+/// propagation replaces it by a normal observation that gives m the same first two moments. The lengths, the variance
+/// of f and the coefficients g maximise the evidence times broad priors that favour a smooth f and constant noise.
+/// Answers at one site are pooled, which is exact and faster. Source: Rasmussen & Williams, Gaussian Processes for
+/// Machine Learning (2006), sections 2.2, 2.7, 3.6, 5.4.1. Limit: predictions omit the uncertainty of lengths and
+/// variances.
 class ReadingModel {
  public:
-  /// What one simulation answered.
+  /// Answer of one simulation.
   struct Answer {
     std::size_t site = 0;
     double value = 0;
-    bool is_bound = false;  ///< the reading would have been `value` or less
+    bool is_bound = false;  ///< the true reading is `value` or less
   };
-  /// The mean reading at a point.
+  /// Prediction of the mean reading at a point.
   struct Prediction {
     double mean = 0;
-    double variance = 0;      ///< of that mean, without the noise of one simulation
-    Eigen::VectorXd weights;  ///< of the rows in it
+    double variance = 0;      ///< of the mean, without the noise of one simulation
+    Eigen::VectorXd weights;  ///< of the rows in the mean
   };
-  /// All answers at one site that are not bounds, or a single bound.
+  /// All uncensored answers at one site, or a single bound.
   struct Row {
     std::size_t site = 0;
     bool is_bound = false;
     double noise = 0;  ///< standard deviation of one answer
 
     // Standardised: less the mean of all rows, over their standard deviation.
-    Replicates answers = {};              // or the bound alone
-    double observed = 0, variance = 1e9;  // of the normal observation that stands for them
+    Replicates answers = {};              // or the single bound
+    double observed = 0, variance = 1e9;  // of the equivalent normal observation
     double log_weight = 0;                // its factor, so that it has the evidence of the bound
 
     /// Replaces a bound by a normal observation, given mean and variance of the mean reading without the bound.
@@ -59,19 +59,18 @@ class ReadingModel {
   /// Standard deviation of one simulation about its mean, where that mean is `mean`.
   double noise_at(double mean) const;
   const std::vector<Row>& rows() const { return rows_; }
-  /// By how much each row differs from what the model says of its place without it (settings kept), in the reading's
-  /// unit; 0 for bounds.
+  /// Leave-one-out error of each row (hyper-parameters kept), in the reading's unit; 0 for bounds.
   std::vector<double> leave_one_out() const;
 
  private:
-  /// Hyper-parameters, of standardised readings.
+  /// Hyper-parameters, for standardised readings.
   struct Settings {
     Eigen::VectorXd lengths;
     double signal_variance = 1;
     double noise_level = 0, noise_slope = 0, noise_bend = 0;  // g_0 to g_2
   };
 
-  /// Maximises the evidence from `start`; `with_places`: the noise may depend on the mean reading.
+  /// Maximises the evidence from `start`; `with_places`: noise depends on the mean reading.
   void fit(const UnitPoint& start, bool with_places, int evaluations_each);
   UnitPoint point_of(const Settings& settings, bool with_places) const;
   Settings settings_at(const UnitPoint& point, bool with_places) const;
@@ -92,7 +91,7 @@ class ReadingModel {
   std::vector<Row> rows_;
   double centre_ = 0, scale_ = 0;  // mean and standard deviation of all rows; 0: all are equal
   double lowest_ = 0, highest_ = 0;
-  Eigen::VectorXd levels_;  // mean reading of each row, on which its noise depends
+  Eigen::VectorXd levels_;  // mean reading of each row, for its noise
   Settings settings_;
   double log_evidence_ = 0;
   Eigen::MatrixXd inverse_;  // of the covariance matrix of the rows, noise included

@@ -17,8 +17,8 @@ Sites sites_of(std::span<const UnitPoint> points) {
 
 namespace {
 
-constexpr double near = 0.1;         // width of the kernel: root mean square difference of the coordinates
-constexpr double harmless_ones = 2;  // further simulations with the harmless variance, assumed at every point
+constexpr double near = 0.1;         // kernel width: root mean square difference of the coordinates
+constexpr double harmless_ones = 2;  // assumed simulations with the harmless variance at every point
 
 }  // namespace
 

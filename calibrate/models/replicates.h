@@ -8,10 +8,10 @@
 
 namespace pastefit {
 
-/// Answers at one point, pooled into what a model with independent noise needs of them. Welford's update, which does
-/// not lose digits by cancellation.
+/// Sufficient statistics of the answers at one point for a model with independent noise. Welford's update avoids
+/// cancellation.
 struct Replicates {
-  double weight = 0;   ///< sum of the answers' weights; their number, if each has a weight of 1
+  double weight = 0;   ///< sum of the answers' weights; their number for weights of 1
   double mean = 0;     ///< weighted
   double squares = 0;  ///< weighted sum of the squared differences between the answers and their mean
 
@@ -24,28 +24,27 @@ struct Replicates {
   }
 };
 
-/// Points, of which some are equal.
+/// Points with repetitions.
 struct Sites {
-  std::vector<UnitPoint> points;  ///< the distinct ones, in the order of their first appearance
-  std::vector<std::size_t> of;    ///< for each given point, its place in `points`
+  std::vector<UnitPoint> points;  ///< distinct ones, in the order of their first appearance
+  std::vector<std::size_t> of;    ///< index into `points` for each given point
 };
 Sites sites_of(std::span<const UnitPoint> points);
 
-/// How much the packings of a point disagree. Between materials whose heaps stand and materials whose heaps shear off
-/// there are some whose heaps do either, depending on the packing: their mean reading may equal the laboratory's though
-/// no single heap does. A deviation is the difference between a simulation and the mean expected at its point. Method:
-/// kernel regression of squared deviations over the unit cube; at every point the harmless variance counts as a few
-/// further simulations.
+/// Variance between the packings of a point. At the transition from heaps that keep their shape to heaps that shear
+/// off, single materials do either, depending on the packing: their mean reading may equal the measurement although no
+/// heap does. Method: kernel regression over the unit cube of the squared deviations of simulations from the mean
+/// expected at their point; the harmless variance enters everywhere as a few further simulations.
 class ReplicateVariance {
  public:
-  /// `harmless`: variance of one simulation up to which its scatter does not matter, > 0. Shapes: n points of the unit
+  /// `harmless`: variance of one simulation below which scatter does not matter, > 0. Shapes: n points of the unit
   /// cube, n deviations.
   ReplicateVariance(std::vector<UnitPoint> points, const Eigen::VectorXd& deviations, double harmless);
 
-  /// Variance between the packings of a point in excess of the harmless one, >= 0.
+  /// Variance between the packings of a point above the harmless one, >= 0.
   double excess(const UnitPoint& point) const;
 
-  /// Harmless variance over the variance at a point, <= 1: the precision of a simulation there, for a Gaussian process.
+  /// Harmless variance over the variance at a point, <= 1: precision of a simulation there, for a Gaussian process.
   double precision(const UnitPoint& point) const { return harmless_ / (harmless_ + excess(point)); }
 
  private:
