@@ -14,20 +14,19 @@
 namespace pastefit {
 namespace {
 
-// Probabilities that the share of rejected heaps is no larger than it may be, by their count and by how near they came.
+// Probabilities that the share of rejected heaps is at most the accepted one, by count and by index.
 constexpr double hardly_within = 0.1, likely_within = 0.5, surely_within = 0.8;
 
-constexpr std::size_t least_heaps = 4;  // of which a scatter is worth something
+constexpr std::size_t least_heaps = 4;  // fewest heaps for an estimate of the scatter
 
-/// That the share of heaps beyond the limit is no larger than `allowed`, by how many of them are: with an even prior
-/// the share has a beta distribution.
+/// Probability that the share of rejected heaps is at most `allowed`, by count: beta distribution with a uniform prior.
 double within_by_count(const Evidence& evidence, double allowed) {
   const boost::math::beta_distribution<> share(evidence.rejected + 1, evidence.heaps - evidence.rejected + 1);
   return boost::math::cdf(share, allowed);
 }
 
-/// The same by how near each came to the limit: a normal variable of unknown mean and scatter is beyond it with at most
-/// that share (the one-sided tolerance limit, by a noncentral t distribution). None where it cannot be told.
+/// The same by index: a normal variable of unknown mean and scatter exceeds its limit with at most that share
+/// (one-sided tolerance limit, noncentral t distribution). None if undetermined.
 std::optional<double> within_by_index(const Evidence& evidence, double allowed) {
   std::vector<double> roots;
   for (const double index : evidence.rejection_indices) roots.push_back(Exceedance::root(index));
@@ -88,7 +87,7 @@ double shortfall(const Evidence& evidence, double rejected_share) {
 }
 
 double packings_to_decide(const Evidence& evidence) {
-  constexpr double least = 1e-6;  // where no number of packings would tell
+  constexpr double least = 1e-6;  // at the tolerance itself no number of packings suffices
   const double left = std::abs(1 - evidence.error * evidence.error);
   return evidence.heaps * evidence.noise * evidence.noise / std::max(left, least);
 }

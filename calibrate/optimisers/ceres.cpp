@@ -14,7 +14,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The problem as Ceres sees it; keeps the books and never lets it see a failure.
+/// Adapter of the problem for Ceres; records evaluations and hides failures.
 class Residuals : public ceres::CostFunction {
  public:
   Residuals(const Problem& problem, const CeresOptions& options) : problem_(problem), options_(options) {
@@ -24,7 +24,7 @@ class Residuals : public ceres::CostFunction {
     if (options.loss == Loss::cauchy) loss_ = std::make_unique<ceres::CauchyLoss>(options.loss_scale);
   }
 
-  /// Exceptions of the problem must not cross Ceres, which is not written for them; they are kept and thrown later.
+  /// Exceptions must not cross Ceres, which is not exception-safe; they are kept and rethrown later.
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const UnitPoint point = Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.parameters);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
@@ -47,7 +47,7 @@ class Residuals : public ceres::CostFunction {
     return true;
   }
 
-  /// Residuals of a point: the answered ones, or the same penalty in each if it failed or may no longer be asked.
+  /// Residuals of a point; the same penalty in each if it failed or was refused.
   void answer(const UnitPoint& asked, Eigen::Ref<Eigen::VectorXd> residuals) const {
     if (asked.size() == last_.point.size() && asked == last_.point) {
       residuals = last_.residuals;
@@ -105,8 +105,8 @@ class Residuals : public ceres::CostFunction {
     return 0.5 * residuals.squaredNorm();
   }
 
-  /// Replaces each residual r by sign(r) sqrt(rho(r^2)). Ceres would apply its loss to the norm of all of them, because
-  /// one simulation answers all, and a single bad measurement would then take the good ones with it.
+  /// Replaces each residual r by sign(r) sqrt(rho(r^2)). Ceres would apply its loss to the norm of all residuals of the
+  /// block, so that a single bad measurement would reduce the weight of the good ones.
   void bend(Eigen::Ref<Eigen::VectorXd> residuals) const {
     for (double& r : residuals) {
       double rho[3];
@@ -115,7 +115,7 @@ class Residuals : public ceres::CostFunction {
     }
   }
 
-  /// The Jacobian of the bent residuals: rho'(r^2) r/sqrt(rho(r^2)) times the row.
+  /// Jacobian of the transformed residuals: rho'(r^2) r/sqrt(rho(r^2)) times the row.
   void bend_columns(const Eigen::VectorXd& residuals, Eigen::Ref<RowMajor> jacobian) const {
     for (Eigen::Index k = 0; k < residuals.size(); ++k) {
       double rho[3];
@@ -128,7 +128,7 @@ class Residuals : public ceres::CostFunction {
     jacobian.setZero();
     std::vector<Eigen::Index> open(static_cast<std::size_t>(point.size()));
     for (std::size_t k = 0; k < open.size(); ++k) open[k] = static_cast<Eigen::Index>(k);
-    // First towards the farther border, where the whole step fits; then the ways around a failure.
+    // First towards the farther border, where the whole step fits; then alternatives after a failure.
     for (const double share : {1.0, -1.0, 0.25, -0.25}) {
       std::vector<UnitPoint> probes;
       std::vector<Eigen::Index> columns;
@@ -159,16 +159,16 @@ class Residuals : public ceres::CostFunction {
   const Problem& problem_;
   const CeresOptions& options_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  // Ceres' evaluation is const by its signature; the books are not.
+  // Ceres' Evaluate is const; the record is not.
   mutable Optimum run_;
-  mutable Answer last_;       // Ceres asks an accepted point twice: for the residuals, then for the Jacobian
+  mutable Answer last_;       // Ceres evaluates an accepted point twice: for the residuals, then for the Jacobian
   mutable double worst_ = 0;  // largest feasible value so far
   mutable int blind_columns_ = 0;
   mutable bool ended_ = false;
   mutable std::exception_ptr thrown_;
 };
 
-/// Ends the solve between iterations, where Ceres allows it.
+/// Ends the solve between iterations.
 class Watch : public ceres::IterationCallback {
  public:
   Watch(const Residuals& residuals, const CeresOptions& options) : residuals_(residuals), options_(options) {}
@@ -204,7 +204,7 @@ void solve(Residuals& residuals, UnitPoint& x, const CeresOptions& options) {
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.num_threads = 1;
   solver.max_num_iterations = options.evaluations;
-  // Ceres' line search at the bounds would ask a Jacobian for every trial.
+  // Ceres' line search at the bounds would need a Jacobian for every trial.
   solver.max_num_line_search_step_size_iterations = 0;
   solver.initial_trust_region_radius = 10;
   solver.function_tolerance = 1e-9;

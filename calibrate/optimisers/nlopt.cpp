@@ -10,14 +10,14 @@
 namespace pastefit {
 namespace {
 
-constexpr int most_refused = 100;        // points that are not a number before the run is given up
-constexpr int most_late_calls = 10'000;  // questions after the stop before the algorithm is left by force
+constexpr int most_refused = 100;        // points that are not numbers before the run ends
+constexpr int most_late_calls = 10'000;  // calls after the end before an exception stops the algorithm
 
-/// To add an algorithm: one row.
+/// To add an algorithm, add a row.
 struct AlgorithmRow {
   std::string_view name;
   nlopt::algorithm algorithm;
-  int fewest;  ///< coordinates it can search
+  int fewest;  ///< smallest number of coordinates
 };
 
 constexpr std::array algorithms = {
@@ -31,12 +31,12 @@ const AlgorithmRow* find_algorithm(std::string_view name) {
   return row == algorithms.end() ? nullptr : &*row;
 }
 
-/// Stands between NLopt and the problem: answers every question with a bounded number and keeps the books.
+/// Adapter of the problem for NLopt: returns bounded numbers and records evaluations.
 class Answerer {
  public:
   Answerer(const Problem& problem, const NloptOptions& options) : problem_(problem), options_(options) {}
 
-  /// The bounded number for a point; after the end always the worst one.
+  /// Bounded number for a point; the worst one after the end.
   double answer(const UnitPoint& asked) {
     if (ended_) {
       ++late_calls_;
@@ -62,9 +62,9 @@ class Answerer {
     return bounded(answer);
   }
 
-  /// Checks a claim of convergence: asks both neighbours of the best point along each coordinate, all at once, and
-  /// believes the claim if all answer and none is better. Simplices collapse at bounds and beside failures, and models
-  /// built on a failure shrink where nothing is least, so that an algorithm's own test is no evidence.
+  /// Checks a claim of convergence: evaluates both neighbours of the best point along each coordinate, all at once, and
+  /// accepts the claim if none fails and none is better. The algorithms' own tests do not suffice: simplices collapse
+  /// at bounds and beside failures, and models built on a failure shrink away from the minimum.
   void check_claim() {
     const UnitPoint& best = run_.best.point;
     std::vector<UnitPoint> neighbours;
@@ -93,7 +93,7 @@ class Answerer {
     }
   }
 
-  /// Ends the run; the first reason counts. Returns the number for the question that is open.
+  /// Ends the run; the first reason counts. Returns the value for the pending evaluation.
   double end(SearchStatus status, std::string reason) {
     if (!ended_) {
       ended_ = true;
@@ -134,16 +134,15 @@ class Answerer {
   const Problem& problem_;
   const NloptOptions& options_;
   Optimum run_;
-  double scale_ = 1;           // value of the start: the middle of the bounded range
-  double mark_ = 0;            // value the next improvement is measured against
+  double scale_ = 1;           // value of the start: middle of the bounded range
+  double mark_ = 0;            // value against which the next improvement is measured
   int since_improvement_ = 0;  // points
   int refused_ = 0;
   int late_calls_ = 0;
   bool ended_ = false;
 };
 
-/// What NLopt's callback carries. The problem's exceptions cross NLopt in here, because NLopt would forget their
-/// type.
+/// Data of NLopt's callback. It also carries exceptions of the problem, whose type NLopt would lose.
 struct Question {
   Answerer& answerer;
   nlopt::opt& optimiser;
@@ -172,14 +171,14 @@ void configure(nlopt::opt& optimiser, const AlgorithmRow& row, unsigned dimensio
   optimiser.set_initial_step(options.initial_step);
   optimiser.set_maxeval(options.evaluations + 1);
   if (row.algorithm == nlopt::GN_CRS2_LM) {
-    // NLopt's own choice, ten a coordinate, would spend a small budget on the first generation.
+    // NLopt's default, ten for each coordinate, would spend a small budget on the first generation.
     const unsigned generations = 5;
     const unsigned share = static_cast<unsigned>(options.evaluations) / generations;
     optimiser.set_population(std::clamp(share, dimension + 2, 10 * (dimension + 1)));
   }
 }
 
-/// Translates NLopt's word into ours; the first end that was noted counts.
+/// Translates NLopt's result; an end recorded before takes precedence.
 void translate(nlopt::result result, Answerer& answerer) {
   switch (result) {
     case nlopt::SUCCESS:
@@ -205,7 +204,7 @@ void translate(nlopt::result result, Answerer& answerer) {
 
 void run_algorithm(Answerer& answerer, const UnitPoint& start, const NloptOptions& options) {
   const AlgorithmRow& row = *find_algorithm(options.algorithm);
-  // Some algorithms cannot search a line: they get further coordinates that nothing depends on.
+  // Algorithms that cannot search one coordinate get further ones without effect.
   const int dimension = std::max(static_cast<int>(start.size()), row.fewest);
   nlopt::opt optimiser(row.algorithm, static_cast<unsigned>(dimension));
   configure(optimiser, row, static_cast<unsigned>(dimension), options);

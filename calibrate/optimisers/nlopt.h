@@ -11,37 +11,34 @@
 
 namespace pastefit {
 
-/// How NLopt should search.
+/// Options of a run of NLopt.
 struct NloptOptions {
   std::string algorithm = "bobyqa";  ///< one of `nlopt_algorithm_names()`
-  int evaluations = 100;             ///< most points asked, the start included; > 0
+  int evaluations = 100;             ///< most points evaluated, start included; > 0
   double initial_step = 0.2;         ///< first step of the local algorithms, in the unit cube; 0 < step <= 0.5
-  double step_tolerance = 1e-3;      ///< steps shorter than this, in the unit cube, end the run; > 0
-  double noise = 0;                  ///< improvements of the value up to it do not count; >= 0
-  int patience = 0;                  ///< points without an improvement beyond `noise` that end the run; 0: no end
-  std::uint64_t seed = 1;            ///< of the algorithms that draw random numbers
+  double step_tolerance = 1e-3;      ///< shorter steps, in the unit cube, end the run; > 0
+  double noise = 0;                  ///< smaller improvements of the value do not count; >= 0
+  int patience = 0;                  ///< points without an improvement beyond `noise` that end the run; 0: no limit
+  std::uint64_t seed = 1;            ///< of randomised algorithms
 };
 
-/// Names of the algorithms, in a fixed order: those of NLopt's that a user would choose when a question costs a
-/// simulation, two global ones and four local ones.
+/// Names of the algorithms, in a fixed order: two global and four local ones of NLopt's that suit expensive functions.
 std::vector<std::string_view> nlopt_algorithm_names();
 
-/// Everything wrong with the options; empty: fit to run.
+/// Errors in the options; empty if valid.
 Faults validate(const NloptOptions& options);
 
-/// Minimises a problem over the unit cube, from `start`.
-/// Requirements: `validate(options)` is empty, `start` lies in the unit cube.
-/// NLopt never sees the value f itself but f/(f + f_start), between 0 and 1, and 1 to 2 for a failure: finite,
-/// bounded, in the same order as the value and the same from the first call to the last, so that a failure is worse
-/// than any answer without a cliff that grows with the units. Points outside the cube are moved to its border, points
-/// that are not a number are never asked. The best answer is kept here, never taken from NLopt.
-/// A claim of convergence is checked by asking the neighbours of the best point, a quarter of `initial_step` away.
-/// Limits: an algorithm that loops without asking for a point cannot be ended from within; none was found to do so
-/// as long as it is answered with bounded numbers.
-/// Errors: in the status. Throws what the problem throws, and std::logic_error if a requirement is broken.
+/// Minimises a problem over the unit cube, from `start`. Requirements: `validate(options)` is empty, `start` lies in
+/// the unit cube. NLopt gets f/(f + f_start) instead of the value f, between 0 and 1, and 1 to 2 for a failure. This is
+/// bounded, keeps the order and does not change during the run, so that a failure is worse than any answer without a
+/// cliff that depends on the units. Points outside the cube are moved to its border; points that are not numbers are
+/// not evaluated. The best answer is recorded here, not taken from NLopt. A claim of convergence is checked at the
+/// neighbours of the best point, a quarter of `initial_step` away. Limit: an algorithm that loops without evaluating a
+/// point cannot be stopped; none is known to do so for bounded values. Errors: in the status. Throws what the problem
+/// throws, and std::logic_error if a requirement is broken.
 Optimum minimise(const Problem& problem, const UnitPoint& start, const NloptOptions& options);
 
-/// The least point of a function that answers at once: DIRECT_L over the cube, then BOBYQA from there.
+/// Minimiser of a cheap function: DIRECT_L over the cube, then BOBYQA from there.
 UnitPoint least_point(const std::function<double(const UnitPoint&)>& function, const UnitPoint& start);
 
 }  // namespace pastefit

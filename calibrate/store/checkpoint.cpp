@@ -20,7 +20,7 @@ namespace {
 
 const std::string kFormat = "pastefit-checkpoint-1";
 
-/// SSE2 has other bits than the other instruction sets.
+/// SSE2 gives other bits than the other instruction sets.
 bool rounds_once() {
   return kernels_of_this_processor().instruction_set != sse2::kernels.instruction_set;
 }
@@ -31,7 +31,7 @@ std::string name_of_run(const Test& test, const RunOptions& options) {
       nlohmann::json{identity_of(test), step ? nlohmann::json(*step) : nlohmann::json(), rounds_once()}.dump());
 }
 
-/// Takes a line off the text.
+/// Removes and returns the first line.
 std::string_view next_line(std::string_view& text) {
   const auto end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
@@ -39,7 +39,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-constexpr double kLongest_s = 1e9;  // of a run, thirty years
+constexpr double kLongest_s = 1e9;  // longest run, thirty years
 
 const char* const kAnew = "delete it to start anew, or name another file";
 
@@ -57,7 +57,7 @@ Result<RunState> Checkpoint::read() const {
   if (!std::filesystem::is_regular_file(file_, error)) return fault("is no regular file", "the name of a file");
   std::ifstream in(file_, std::ios::binary);
   if (!in) return fault(std::string("cannot be read: ") + std::strerror(errno), "a file that can be read");
-  // The first line is read by itself, so that no other file is taken into memory.
+  // The first line is read separately, so that no other file is loaded into memory.
   std::string whole(kFormat.size() + 1, '\0');
   if (!in.read(whole.data(), static_cast<std::streamsize>(whole.size())) || whole != kFormat + "\n")
     return fault("is no checkpoint of pastefit", "name another file, which it would replace");

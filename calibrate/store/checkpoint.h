@@ -9,30 +9,30 @@
 
 namespace pastefit {
 
-/// How far a run has come.
+/// State of a run.
 struct RunState {
-  std::string bytes;  ///< of its `RunCheckpoint`; empty: it has not begun
-  double wall_s = 0;  ///< that it has taken so far
+  std::string bytes;  ///< of its `RunCheckpoint`; empty: not started
+  double wall_s = 0;  ///< time taken so far
 };
 
-/// The state of one run in a file, from which the same run can go on in another process. One line each: format,
-/// program, run, time that was taken, hash of the state; then the state.
+/// State of one run in a file, from which another process can continue the run. One line each: format, program, run,
+/// time taken, hash of the state; then the state.
 class Checkpoint {
  public:
   /// `options`: those that change the bits of the run are part of its name.
   Checkpoint(std::filesystem::path file, const Test& test, const RunOptions& options);
 
-  /// What the file holds; an empty state if there is none.
-  /// Errors: it cannot be read, is no checkpoint, is damaged, or was written by another program or for another run.
+  /// Reads the file; an empty state if there is none. Errors: it cannot be read, is no checkpoint, is damaged, or was
+  /// written by another program or for another run.
   Result<RunState> read() const;
 
-  /// Replaces the file, whole or not at all. Errors: it cannot be written.
+  /// Replaces the file atomically. Errors: it cannot be written.
   Faults write(const RunState& state) const;
 
-  /// The fault of a state that the run which went on from it found not to be its own, for this reason (`BadState`).
+  /// Error for a state that the resumed run rejects for this reason (`BadState`).
   Faults no_state_of_this_run(std::string_view why) const;
 
-  /// The run is over.
+  /// Deletes the file after the end of the run.
   void remove() const;
 
  private:

@@ -19,8 +19,7 @@ bool can_be_written(const std::filesystem::path& file) {
   return ::access(file.c_str(), W_OK) == 0 && ::access(folder_of(file).c_str(), W_OK) == 0;
 }
 
-/// As a URI, with every byte that could mean something else in one as %XX. `immutable`: SQLite, which would make files
-/// beside it otherwise, makes none.
+/// URI of a file, with special bytes as %XX. `immutable` keeps SQLite from creating files beside it.
 std::string immutable_uri(const std::filesystem::path& file) {
   constexpr const char* digits = "0123456789ABCDEF";
   std::string uri = "file:";
@@ -49,7 +48,7 @@ Database::Database(const std::filesystem::path& file, DatabaseUse use) {
     throw std::runtime_error(message);
   }
   sqlite3_busy_timeout(handle_, 2000);
-  // The file may be anybody's: what its schema says runs no function, and nothing but rows is written.
+  // The file may come from others: its schema may run no function, and only rows are written.
   sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }
@@ -70,7 +69,7 @@ std::vector<Row> Database::run(const std::string& sql, const Row& parameters) {
   while ((status = sqlite3_step(raw)) == SQLITE_ROW) {
     Row row;
     for (int column = 0; column < sqlite3_column_count(raw); ++column) {
-      const bool is_null = sqlite3_column_type(raw, column) == SQLITE_NULL;  // ask before the text is made
+      const bool is_null = sqlite3_column_type(raw, column) == SQLITE_NULL;  // queried before the text is made
       const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(raw, column));
       if (!text && !is_null) throw std::runtime_error("out of memory");
       row.emplace_back(text ? text : "");
@@ -100,7 +99,7 @@ Transaction::~Transaction() {
   try {
     database_.run("ROLLBACK");
   } catch (const std::exception&) {
-    // SQLite has rolled back by itself (full disk); there is nothing left to undo.
+    // SQLite has rolled back already (full disk).
   }
 }
 

@@ -13,8 +13,8 @@ namespace pastefit {
 
 using Row = std::vector<std::string>;
 
-/// The whole number that a column is, as text. Errors: throws `std::runtime_error` for any other text, and for a number
-/// beyond its type.
+/// Parses a column as a whole number. Errors: throws `std::runtime_error` for other text, and for a number out of
+/// range.
 template <class Number>
 Number whole_number_of(const std::string& text) {
   Number number{};
@@ -24,11 +24,11 @@ Number whole_number_of(const std::string& text) {
   return number;
 }
 
-/// `read`: the file is not changed where it cannot be, as in a folder that is read-only.
+/// `read`: works on files that cannot be written, e.g. in a read-only folder.
 enum class DatabaseUse { read, write };
 
-/// A connection to an SQLite file that closes itself. Errors of SQLite travel as `std::runtime_error`.
-/// A symbolic link is not followed: what it points to, or would make, is somewhere else.
+/// Connection to an SQLite file, closed by the destructor. Errors of SQLite are thrown as `std::runtime_error`.
+/// Symbolic links are rejected, because they may lead outside the folder.
 class Database {
  public:
   explicit Database(const std::filesystem::path& file, DatabaseUse use = DatabaseUse::write);
@@ -36,10 +36,10 @@ class Database {
   Database& operator=(const Database&) = delete;
   ~Database();
 
-  /// Runs one statement with text parameters; answers all rows as text.
+  /// Runs one statement with text parameters; returns all rows as text.
   std::vector<Row> run(const std::string& sql, const Row& parameters = {});
 
-  /// The number that a statement answers. Errors: it answers none.
+  /// Result of a statement as a number. Errors: throws if there is none.
   int number(const std::string& sql);
 
  private:
@@ -47,7 +47,7 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-/// All or nothing: rolls back unless committed.
+/// Transaction; rolls back unless committed.
 class Transaction {
  public:
   explicit Transaction(Database& database);

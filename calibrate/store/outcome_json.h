@@ -10,18 +10,17 @@
 
 namespace pastefit {
 
-/// The JSON form of what a simulation was asked and answers, as the store keeps it and `simulate --json` prints it.
-/// Doubles survive the round trip through text bit for bit; the non-finite ones, for which JSON has no number, are
-/// the strings "nan", "inf" and "-inf".
+/// JSON form of the input and the outcome of a simulation, for the store and `simulate --json`. Doubles survive the
+/// round trip bit for bit; non-finite ones, which JSON lacks, are the strings "nan", "inf" and "-inf".
 nlohmann::ordered_json number_to_json(double value);
 double number_from_json(const nlohmann::json& in);
 
-/// The parameters that do not have their default value, {"friction": 0.15, ...}, and all of them from it. Shape: one
-/// value for each of `parameter_kinds()`.
+/// Parameters that differ from their default, {"friction": 0.15, ...}; and all parameters from it. Shape: one value for
+/// each of `parameter_kinds()`.
 nlohmann::json parameters_to_json(std::span<const double> values);
 std::vector<double> parameters_from_json(const nlohmann::json& in);
 
-/// {"step1.height_mm": 101.5, ...}, in the order in which the readings were taken.
+/// {"step1.height_mm": 101.5, ...}, in the order of the readings.
 nlohmann::ordered_json to_json(const Readings& readings);
 /// {"reason", "phase", "step", "time_s", "grain", "value", "limit", "message"}, or null.
 nlohmann::ordered_json to_json(const std::optional<Failure>& failure);
@@ -32,8 +31,8 @@ nlohmann::ordered_json to_json(const RunSummary& run, double wall_s);
 /// {"heap", "points": [[x, y], ...]}
 nlohmann::ordered_json to_json(const Sketch& sketch);
 
-/// The inverses. Errors: throw nlohmann::json::exception or std::invalid_argument when the text is not what the
-/// functions above write; a caller that reads a file turns them into a fault.
+/// Inverse functions. Errors: throw nlohmann::json::exception or std::invalid_argument for text that the functions
+/// above do not write; callers that read files turn them into faults.
 Readings readings_from_json(const nlohmann::ordered_json& in);
 std::int64_t whole_number_from_json(const nlohmann::json& in);
 std::optional<Failure> failure_from_json(const nlohmann::json& in);

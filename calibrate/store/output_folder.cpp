@@ -22,7 +22,7 @@ std::vector<std::string> with_store(std::vector<std::string> names) {
 
 namespace {
 
-/// Results are replaced, so that none of them may be a link to somewhere else, or a device.
+/// Results are replaced, so that none may be a link or a device.
 Faults special_files(const fs::path& folder, const std::vector<std::string>& results) {
   for (const auto& name : results)
     if (const std::string special = kind_of_special_file(folder / name); !special.empty())

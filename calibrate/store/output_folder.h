@@ -9,23 +9,23 @@
 
 namespace pastefit {
 
-/// Free space that a command asks for: a million exported grains take some 60 MB, a picture of 100,000 some 10 MB.
+/// Free space required by a command: a million exported grains take some 60 MB, a picture of 100,000 some 10 MB.
 inline constexpr std::uintmax_t kSpace = 64u << 20;
 
-/// Where a command keeps its evaluations.
+/// File name of a command's store.
 inline const std::string kStore = "evaluations.sqlite";
-/// `names`, the store's and those of the files that SQLite keeps beside it.
+/// `names` plus the store's file and those that SQLite keeps beside it.
 std::vector<std::string> with_store(std::vector<std::string> names);
 
-/// What to do with the result that a folder already holds.
+/// Treatment of an earlier result in the folder.
 enum class EarlierResult { refuse, resume, replace };
 
-/// A folder that was checked before anything runs: it exists, can be written, has space, and belongs to this process
-/// until the object is gone. Nothing in it is changed by opening.
+/// Output folder, checked before anything runs: it exists, is writable, has space, and is locked for this process
+/// during the object's lifetime. Opening changes nothing in it.
 class OutputFolder {
  public:
-  /// `results`: names of the files whose presence makes an earlier result. `space_bytes`: free space that is needed.
-  /// Errors: cannot be made or written, too little space, holds an earlier result (`refuse`), in use by another run.
+  /// `results`: files that count as an earlier result. `space_bytes`: free space required. Errors: cannot be made or
+  /// written, too little space, holds an earlier result (`refuse`), in use by another run.
   static Result<OutputFolder> open(const std::filesystem::path& folder, const std::vector<std::string>& results,
                                    EarlierResult earlier, std::uintmax_t space_bytes);
 
@@ -36,7 +36,7 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-  /// Removes these files.
+  /// Deletes these files.
   void clear(const std::vector<std::string>& names) const;
 
  private:

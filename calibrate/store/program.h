@@ -9,12 +9,12 @@ namespace pastefit {
 /// "0.1.0"
 std::string program_version();
 
-/// "pastefit 0.1.0 engine 1f2e3d4c5b6a7988": version, and a fingerprint of the engine's sources and its compiler.
-/// Evaluations of programs with the same identity may stand in for each other, bit for bit.
+/// "pastefit 0.1.0 engine 1f2e3d4c5b6a7988": version, and fingerprint of the engine's sources and compiler. Programs of
+/// equal identity give the same evaluations, bit for bit.
 std::string program_identity();
 
-/// Runs with the kernels that the environment variable `PASTEFIT_KERNELS` names, if it is there and not empty. Error:
-/// it names none that this processor runs.
+/// Selects the kernels named by the environment variable `PASTEFIT_KERNELS`, if set and not empty. Error: this
+/// processor does not run them.
 Faults obey_kernels_variable();
 
 }  // namespace pastefit

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSchemaVersion = 4;
 const std::string kCountSetAside = "SELECT count(*) FROM set_aside";
-constexpr int kApplicationId = 0x70666974;  // "pfit": tells a store from any other SQLite file
+constexpr int kApplicationId = 0x70666974;  // "pfit": identifies a store among SQLite files
 
 std::string numbers_text(const std::vector<double>& numbers) {
   auto json = nlohmann::ordered_json::array();
@@ -32,7 +32,7 @@ std::vector<double> numbers_of(const std::string& text) {
   return numbers;
 }
 
-/// Of all that a row holds but its last column, the checksum itself. A row is text, whatever SQLite makes of it.
+/// Checksum of all columns but the last, which is the checksum. A row is text, whatever type SQLite assigns.
 std::string checksum_of(const Row& row) {
   std::string content;
   for (std::size_t i = 0; i + 1 < row.size(); ++i) content += std::to_string(row[i].size()) + ":" + row[i];
@@ -72,7 +72,7 @@ void create(Database& database, const StoreIdentity& identity) {
 
 const std::string kStartAnew = "choose another output folder, or start anew with --force";
 
-/// True if there is nothing but the tables of a store: a view or a trigger in their place is somebody's program.
+/// True if there are only the tables of a store: a view or trigger in their place could run foreign code.
 bool has_own_schema(Database& database) {
   std::vector<std::string> tables;
   for (const Row& row : database.run("SELECT type, name FROM sqlite_master ORDER BY name")) {
@@ -84,7 +84,7 @@ bool has_own_schema(Database& database) {
   return tables == std::vector<std::string>{"evaluations", "identity", "inputs", "set_aside"};
 }
 
-/// What keeps a non-empty database from being a store.
+/// Errors if a non-empty database is not a store.
 Faults defects(Database& database, const std::string& file) {
   if (database.number("PRAGMA application_id") != kApplicationId)
     return {{file, "is a database, but not a store of evaluations", "choose another output folder"}};
@@ -113,7 +113,7 @@ std::string program_of(Database& database) {
   return rows.empty() ? "" : rows[0][0];
 }
 
-/// What keeps a non-empty database from being a store of these inputs.
+/// Errors if a non-empty database is not a store of this program.
 Faults differences(Database& database, const std::string& file, const StoreIdentity& identity) {
   if (auto faults = defects(database, file); !faults.empty()) return faults;
   const std::string theirs = program_of(database);
@@ -123,7 +123,7 @@ Faults differences(Database& database, const std::string& file, const StoreIdent
            "resume with the program that wrote it; or " + kStartAnew}};
 }
 
-/// The place of a change in words: "/study/search/seed" -> "study.search.seed"; places in a list are the list's.
+/// Path of a change: "/study/search/seed" -> "study.search.seed"; changes of list items give the list.
 std::string place_of(const std::string& pointer) {
   std::string out;
   for (std::size_t from = 1; from <= pointer.size();) {
@@ -148,14 +148,14 @@ std::vector<std::string> changes_of(const std::string& before, const std::string
   return places;
 }
 
-/// So many columns has a row; a table of another form answers other ones.
+/// Throws unless a row has `count` columns, e.g. for a table of another schema.
 void demand_columns(const Row& row, std::size_t count) {
   if (row.size() != count)
     throw std::runtime_error("a table has " + std::to_string(row.size()) + " columns where " + std::to_string(count) +
                              " belong");
 }
 
-/// Throws std::invalid_argument for what no simulation can have stored.
+/// Throws std::invalid_argument for values that no simulation can have stored.
 void refuse_what_nothing_stored(const StoredEvaluation& evaluation) {
   const auto outside = [](double value, double bound) { return !std::isnan(value) && std::abs(value) > bound; };
   for (const Reading& one : evaluation.readings.all())
@@ -191,8 +191,8 @@ std::string evaluation_key(std::string_view program, const Test& test) {
   return content_hash(key.dump());
 }
 
-/// Everything is held in memory too: a search asks for known points often, and a damaged row shows when the store is
-/// opened instead of in the middle of a run. A record is about 2 kB.
+/// All evaluations are also held in memory: a search looks up known points often, and damaged rows are found on opening
+/// instead of during a run. A record is about 2 kB.
 struct Store::State {
   State(const std::filesystem::path& path, StoreIdentity who, DatabaseUse use)
       : file(path.string()), identity(std::move(who)), database(path, use) {}
@@ -201,16 +201,16 @@ struct Store::State {
   StoreIdentity identity;
   Database database;
   int epoch = 1;
-  bool begun = true;                 // the epoch has its row
+  bool begun = true;                 // the row of the epoch is written
   long long sequence = 0;            // of the last evaluation
   int written = 0;                   // evaluations since the store was made
-  std::vector<std::string> damaged;  // rows that do not agree with their checksum, by their sequence
+  std::vector<std::string> damaged;  // sequences of rows with a wrong checksum
   std::vector<std::string> changes, remarks;
   mutable std::mutex mutex;
   std::vector<StoredEvaluation> evaluations;
   std::unordered_map<std::string, std::size_t> index;
 
-  /// Takes what the file holds and is as it was written; answers its last inputs.
+  /// Loads all intact rows; returns the last inputs.
   std::string load() {
     for (const auto& row : database.run("SELECT * FROM evaluations ORDER BY sequence")) {
       demand_columns(row, 10);
@@ -222,7 +222,7 @@ struct Store::State {
       try {
         evaluation = evaluation_of(row);
         sequence = whole_number_of<long long>(row[0]);
-      } catch (const std::exception&) {  // whole, but not what a simulation stores
+      } catch (const std::exception&) {  // intact, but not written by a simulation
         damaged.push_back(row.at(0));
         continue;
       }
@@ -247,7 +247,7 @@ struct Store::State {
     return inputs[0].at(1);
   }
 
-  /// Moves what is damaged out of the way of what is simulated in its place.
+  /// Moves damaged rows away, so that their simulations can be repeated.
   void set_damaged_aside() {
     if (damaged.empty()) return;
     Transaction transaction(database);
@@ -274,7 +274,7 @@ Result<Store> Store::open(const std::filesystem::path& file, const StoreIdentity
     if (!fresh) {
       if (auto faults = differences(database, file.string(), identity); !faults.empty()) return faults;
     }
-    // Only now is the file known to be ours; changing the journal mode writes to its header.
+    // Only after the checks: changing the journal mode writes to the file's header.
     database.run("PRAGMA journal_mode = WAL");
     database.run("PRAGMA synchronous = FULL");
     if (fresh) create(database, identity);
@@ -343,7 +343,7 @@ Faults Store::add(const StoredEvaluation& evaluation) {
     state_->database.run("UPDATE identity SET value = ? WHERE name = 'evaluations'",
                          {std::to_string(state_->written + 1)});
     if (!state_->begun) add_inputs(state_->database, state_->epoch, state_->identity.inputs);
-    // SQLite goes on writing to a file that nobody will find again.
+    // SQLite continues to write to a deleted file.
     if (!std::filesystem::exists(state_->file)) throw std::runtime_error("the file is gone");
     transaction.commit();
     state_->begun = true;

@@ -14,62 +14,58 @@
 
 namespace pastefit {
 
-/// What a store is opened for.
+/// Program and inputs of a store.
 struct StoreIdentity {
-  std::string program;  ///< version and engine fingerprint; evaluations of another one answer for nothing
-  std::string inputs;   ///< all that decides the way of the search, as JSON text (`inputs_of` a study)
+  std::string program;  ///< version and engine fingerprint; evaluations of others are not reused
+  std::string inputs;   ///< all that determines the path of the search, as JSON text (`inputs_of` a study)
 };
 
-/// Readings are in mm, Pa, kg or shares, none of which comes near it; beyond it squares of them would not be finite,
-/// and nothing of the kind is kept.
+/// Largest reading that is kept, far beyond any in mm, Pa, kg or shares; squares of larger ones could be infinite.
 inline constexpr double kLargestReading = 1e15;
 
-/// One finished simulation, as it is kept.
+/// One finished simulation, as stored.
 struct StoredEvaluation {
   std::string key;                 ///< from `evaluation_key`
   std::vector<double> point;       ///< coordinates in the unit cube over the free parameters
-  std::vector<double> values;      ///< of every parameter, in the order of `parameter_kinds`
+  std::vector<double> values;      ///< of all parameters, in the order of `parameter_kinds`
   std::uint64_t packing = 0;       ///< packing seed
-  int epoch = 0;                   ///< number of the inputs it was made for; set by the store
-  Readings readings;               ///< all readings, measured in the laboratory or not; empty after a failure
+  int epoch = 0;                   ///< number of its inputs; set by the store
+  Readings readings;               ///< all readings, measured or not; empty after a failure
   std::optional<Failure> failure;  ///< why there are no readings
   RunSummary run;
-  Sketch sketch;      ///< without points if there is none
-  double wall_s = 0;  ///< time the simulation took
-  double core_s = 0;  ///< processor time; 0: not known, as of an older store or a foreign simulator
+  Sketch sketch;      ///< no points: none
+  double wall_s = 0;  ///< wall time of the simulation
+  double core_s = 0;  ///< processor time; 0: unknown (older store, other simulator)
 };
 
-/// Name of an evaluation: 64-bit FNV-1a over the program and the exact bits of all that the test (its packing seed
-/// included) has different from the default one, as 16 hexadecimal digits: what is added to tests and has its default
-/// value here, a parameter or an optional field, leaves the name as it was. Two evaluations with the same key are (up
-/// to a chance of 2^-64 a pair) answered by the engine with the same bits. What the laboratory measured (but for an
-/// outline, with which the heap is compared), the bounds and the budget are not in it: an evaluation outlives a change
-/// of these.
+/// Key of an evaluation: 64-bit FNV-1a over the program and the exact bits of everything in which the test (its packing
+/// seed included) differs from the default test, as 16 hexadecimal digits. A new parameter or optional field of tests
+/// therefore leaves keys unchanged while it has its default value. The engine gives the same bits for equal keys, up to
+/// a chance of 2^-64 for each pair. Measurements (except an outline, which is compared with the heap), bounds and
+/// budget are not part of the key: evaluations remain valid if these change.
 std::string evaluation_key(std::string_view program, const Test& test);
 
-/// The record of every finished evaluation, an SQLite file in write-ahead mode with full synchronisation.
-/// Each evaluation is one transaction: after `add` has returned, it survives the death of the process and of the
-/// machine. Safe to use from several threads; for one process at a time.
+/// Record of all finished evaluations, an SQLite file in write-ahead mode with full synchronisation. Each evaluation is
+/// one transaction: after `add` has returned, it survives a crash of the process or of the machine. Thread-safe; for
+/// one process at a time.
 ///
-/// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, readings,
-/// failure, run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, the
-/// parameters by name, those only that do not have their default value; the checksum is of all before it. Table
-/// `set_aside`: rows that were found not to agree with theirs. Table `identity`: the program, and how many evaluations
-/// were ever written. Table `inputs`: epoch, content, checksum; one row for each change of the study or its laboratory
-/// files.
+/// Table `evaluations`: sequence (order of arrival), key, epoch, point, parameter_values, packing, readings, failure,
+/// run (with the sketch), checksum; point to run as JSON text with doubles that read back bit for bit, parameters by
+/// name and only those without their default value; the checksum covers all before it. Table `set_aside`: rows with a
+/// wrong checksum. Table `identity`: the program, and the number of evaluations ever written. Table `inputs`: epoch,
+/// content, checksum; one row for each change of the study or its laboratory files.
 ///
-/// A search that goes on after such a change knows the evaluations of earlier epochs from the start; those of its own
-/// epoch only answer when it asks for them again, so that a run that was killed takes the same way.
+/// After such a change a search uses the evaluations of earlier epochs from the start; those of its own epoch only when
+/// it requests them again, so that a resumed run takes the same path.
 class Store {
  public:
-  /// Opens the store in `file`, or creates it. Nothing that stands in the file is changed before it has passed.
-  /// Other inputs than the last ones begin a new epoch, which is in the file with the first evaluation that is added.
-  /// Errors: not a database, damaged, not a store, other schema version, belongs to another program, in use, not
-  /// writable.
+  /// Opens the store in `file`, or creates it. Existing content is changed only after it has passed all checks. Inputs
+  /// that differ from the last ones begin a new epoch, written with the first evaluation. Errors: not a database,
+  /// damaged, not a store, other schema version, belongs to another program, in use, not writable.
   static Result<Store> open(const std::filesystem::path& file, const StoreIdentity& identity);
 
-  /// Opens a store to look at what it holds, whichever program and inputs it is of; nothing is to be added.
-  /// Errors: there is no such file, not a database, damaged, not a store, other schema version.
+  /// Opens a store of any program and inputs for reading; nothing may be added. Errors: there is no such file, not a
+  /// database, damaged, not a store, other schema version.
   static Result<Store> read(const std::filesystem::path& file);
 
   Store(Store&&) noexcept;
@@ -77,23 +73,22 @@ class Store {
   ~Store();
 
   const StoreIdentity& identity() const;
-  int epoch() const;  ///< of what is added now
-  /// What has changed in the inputs since the store was last opened, as places in them ("study.parameters.friction");
-  /// empty if nothing has.
+  int epoch() const;  ///< of evaluations added now
+  /// Changes of the inputs since the store was last opened, as paths ("study.parameters.friction"); empty if none.
   const std::vector<std::string>& changes() const;
 
-  /// What the store has lost since it was written: rows that do not agree with their checksum, that are missing, or all
-  /// of them; empty if nothing. What is damaged is set aside, and answers nothing.
+  /// Losses of the store: rows with a wrong checksum or missing rows; empty if none. Damaged rows are set aside and not
+  /// used.
   const std::vector<std::string>& remarks() const;
 
-  /// The evaluation with this key, if it is known.
+  /// Evaluation with this key, if stored.
   std::optional<StoredEvaluation> find(std::string_view key) const;
 
-  /// Keeps the evaluation; one whose key is already known changes nothing. Errors: the disk is full or failed; the
-  /// evaluation is then not kept.
+  /// Stores an evaluation; known keys change nothing. Errors: the disk is full or failed; the evaluation is then not
+  /// stored.
   Faults add(const StoredEvaluation& evaluation);
 
-  /// Everything kept, in the order of arrival.
+  /// All evaluations, in the order of arrival.
   std::vector<StoredEvaluation> all() const;
 
   std::size_t size() const;
