@@ -13,9 +13,9 @@ namespace pastefit {
 
 namespace {
 
-constexpr double kHoldOutAlarm = 0.05;  // probability that a right prediction is called wrong, all readings of a test
+constexpr double kHoldOutAlarm = 0.05;  // probability of rejecting a correct prediction, all readings of a test
 
-/// Mean and standard deviation of a reading over the packings; nothing if some packing did not give it.
+/// Mean and standard deviation of a reading over the packings; empty if some packing lacks it.
 std::optional<CardReading> mean_over(const std::string& name, const std::vector<Readings>& runs) {
   std::vector<double> values;
   for (const auto& run : runs) {
@@ -32,7 +32,7 @@ std::optional<CardReading> mean_over(const std::string& name, const std::vector<
   return out;
 }
 
-/// Every reading of the runs that a laboratory would accept, beside the laboratory's where it has one.
+/// Readings over the accepted runs, with the measurement if there is one.
 std::vector<CardReading> card_readings(const Study& study, std::size_t index, const std::vector<Readings>& all) {
   const StudyTest& test = study.tests[index];
   std::vector<Readings> runs;
@@ -61,7 +61,7 @@ Readings means_of(const std::vector<CardReading>& readings) {
   return means;
 }
 
-/// Holds a prediction against the laboratory: each reading that counts within the noise of both.
+/// Compares a prediction with the measurement: each reading with a weight, within the noise of both.
 void judge(CardTest& test) {
   std::vector<CardReading*> judged;
   for (auto& reading : test.readings)

@@ -9,24 +9,24 @@
 
 namespace pastefit {
 
-/// Simulates the confirmed material in the tests that are held out, on the packings of its confirmation, which the
-/// search had not seen: after it, so that they cannot have been fitted. None if the confirmation was not reached.
+/// Simulates the confirmed material in the held-out tests, on the packings of its confirmation. It runs after the
+/// search, so that these readings cannot have been fitted. Does nothing without a confirmation.
 void predict_hold_outs(const Study& study, const Calibration& calibration, SimulationObjective& objective);
 
-/// What that costs, to be kept back from the search.
+/// Simulations of this prediction, reserved from the search.
 int hold_out_simulations(const Study& study, const SearchOptions& options);
 
-/// What a card reports of a calibration: the confirmation, or the best candidate where there is none.
+/// Response that a card reports: the confirmation, or the best candidate if there is none.
 const Response& shown_of(const Calibration& calibration);
 
-/// What a candidate read in each test of the study, as the store has it; simulates nothing.
+/// Stored readings of a candidate in each test of the study; simulates nothing.
 std::vector<Baseline> baselines_of(const Study& study, const Response& candidate, const Store& store);
 
-/// The card of a finished calibration. `baselines`: what `shown_of` read in each test of the study on each of its
-/// packings (`baselines_of`); one without runs was not simulated. Its material is stated for the
-/// grains of the study's first test. A hold-out is judged by the noise of both sides (Welch, `base/statistics.h`), with
-/// a probability of 0.05 to call a right prediction wrong. `options`: what the search ran with. `study_file`: name for
-/// the provenance. Requirement: the best candidate did not fail.
+/// Card of a finished calibration. `baselines`: readings of `shown_of` in each test on each of its packings
+/// (`baselines_of`); one without runs was not simulated. `options`: of the search. `study_file`: name for the
+/// provenance. Requirement: the best candidate did not fail. The material is stated for the grains of the study's first
+/// test. A held-out test is judged by the noise of both sides (Welch, `base/statistics.h`), with a probability of 0.05
+/// to reject a correct prediction.
 Card card_of(const Study& study, const Calibration& calibration, const SearchOptions& options,
              const std::vector<Baseline>& baselines, const EvaluationCounts& counts, const std::string& study_file);
 

@@ -122,7 +122,7 @@ Result<Card> rescaled(Card card, double radius) {
   const auto carry = [&](GrainSizes& grains, ContactModel& contact) {
     const bool of_that_radius = grains.radius_m == old_radius;
     grains = enlarged(grains, s);
-    if (of_that_radius) grains.radius_m = radius;  // s rounds
+    if (of_that_radius) grains.radius_m = radius;  // avoids the rounding of s
     contact = enlarged(contact, s);
   };
   carry(card.material.grains, card.material.contact);

@@ -17,8 +17,8 @@
 #include "calibrate/laboratory/test.h"
 #include "calibrate/study/parameters.h"
 
-// A card in JSON, described once, for its reader, its writer and its schema (`ObjectReader`, `OrderedObjectWriter`,
-// `ObjectSchema`). To add a field: a member in card.h, and its line here.
+// JSON form of a card, described once for reader, writer and schema (`ObjectReader`, `OrderedObjectWriter`,
+// `ObjectSchema`). To add a field, add a member in card.h and a line here.
 namespace pastefit::card_fields {
 
 inline constexpr Range any;
@@ -28,8 +28,8 @@ inline constexpr Range share{0, 1};
 inline constexpr Range grain_radius{0, 1, true};
 inline constexpr int many = 1'000'000, very_many = 1'000'000'000;
 
-/// What a simulation can read, in the test of a card. Heaps of coarse grains leave the range of a laboratory by some: a
-/// spread begins at nothing, and everything may be half as large again. Any number for readings this program has not.
+/// Range of a simulated reading in the test of a card. Heaps of coarse grains exceed the measured range: a spread
+/// begins at 0, and everything may be half as large again. Unlimited for unknown readings.
 inline Range simulated_range(std::string_view name, const Test* test) {
   if (!test) return any;
   const auto kinds = reading_kinds(*test);
@@ -45,7 +45,7 @@ void describe_reading(Fields& fields, Of& one, const Range& range, std::size_t p
   fields.number({"simulated", "mean over the packings"}, one.simulated, range, required);
   fields.number({"simulated_standard_deviation", "from packing to packing"}, one.simulated_standard_deviation,
                 not_negative, required);
-  if constexpr (Fields::reads) one.packings = 0;  // all of the confirmation's, unless it says so
+  if constexpr (Fields::reads) one.packings = 0;  // default: all of the confirmation's
   fields.integer({"packings",
                   "that these two are of, where a laboratory would reject some of the confirmation's, e.g. heaps that "
                   "sheared off"},
@@ -73,7 +73,7 @@ void describe_provenance(Fields& fields, Lab& lab) {
   fields.flag({"twin", "simulated with known parameters"}, lab.twin, required);
 }
 
-/// The runs of a baseline as their file has them: one column for each reading.
+/// Runs of a baseline in the form of the file: one column for each reading.
 struct BaselineColumns {
   struct Column {
     std::string name;
@@ -115,7 +115,7 @@ void describe_yield_stresses(Fields& fields, const Key& key, Of&& stresses) {
   });
 }
 
-/// The test itself, in SI, without what it has of the material; whether there is one.
+/// The test itself, in SI, without the parts equal to the material's; returns whether there is one.
 bool describe_test(ObjectReader& fields, const Key& key, CardTest& test, const nlohmann::json* material);
 bool describe_test(OrderedObjectWriter& fields, const Key& key, const CardTest& test, const Material& material);
 bool describe_test(ObjectSchema& fields, const Key& key, const CardTest& test, const Material& material);
@@ -169,7 +169,7 @@ void describe_card_test(Fields& fields, Of& test, const Whole& material, std::si
                 [&](auto& baseline) { describe_baseline(baseline, test.baseline, of_ranges); });
 }
 
-/// `card`: whose tests tell which parameters act.
+/// `card`: its tests determine which parameters act.
 template <class Fields, class Of>
 void describe_parameters(Fields& fields, Of& parameters, const Card& card) {
   fields.object({"parameters", "scale-free form of the contact laws; names as in study files"}, required,
@@ -263,7 +263,7 @@ void describe_conditions(Fields& fields, Of& conditions) {
       });
 }
 
-/// The correlations of one parameter.
+/// Correlations of one parameter.
 struct Row {
   std::string first;
   std::vector<CardInference::Correlation> pairs;
@@ -361,7 +361,7 @@ void describe_interpolation(Fields& fields, Of& one) {
   fields.texts({"studies", "names of those whose materials it lies between"}, one.studies, required);
 }
 
-/// All but its format.
+/// All fields except the format.
 template <class Fields, class Of>
 void describe_card(Fields& fields, Of& card) {
   fields.text({"title", "one line for people"}, card.title, required);

@@ -33,7 +33,7 @@ std::vector<Baseline::Run> baseline_runs(const BaselineColumns& columns) {
   std::vector<Baseline::Run> runs;
   for (const std::uint64_t packing : columns.packings) runs.push_back({packing, {}});
   for (const auto& [name, values] : columns.readings)
-    if (values.size() == runs.size())  // else a fault was told
+    if (values.size() == runs.size())  // else a fault was reported
       for (std::size_t i = 0; i < runs.size(); ++i) runs[i].readings.set(name, values[i]);
   return runs;
 }
@@ -62,8 +62,7 @@ std::vector<std::string> failure_names() {
   return names;
 }
 
-/// With the test's own reader, which knows its fields. What it does not say is the material's, and so are the faults of
-/// that.
+/// Uses the reader of the test for its fields. Missing parts are the material's, and so are faults in them.
 bool describe_test(ObjectReader& fields, const Key& key, CardTest& test, const json* material) {
   fields.known(key);
   const json* given = fields.content(key);
@@ -122,7 +121,7 @@ std::string format_of(int version) {
   return std::string(prefix) + std::to_string(version);
 }
 
-/// Every known parameter, as a card has it that does not name it.
+/// All known parameters with the values of a card that does not list them.
 std::vector<Parameter> default_parameters() {
   std::vector<Parameter> parameters;
   for (const ParameterKind& kind : parameter_kinds()) {
@@ -141,7 +140,7 @@ void rename(json& object, const char* before, const char* now) {
   object[now] = std::move(value);
 }
 
-/// Version 6 has other words for some keys of version 5.
+/// Version 6 renamed some keys of version 5.
 void translate_from_5(json& card) {
   const auto for_each = [&](const char* list, auto body) {
     if (card.contains(list) && card[list].is_array())
@@ -154,8 +153,7 @@ void translate_from_5(json& card) {
   rename(card["confirmation"], "rejected_share_allowed", "rejected_share");
 }
 
-/// Why a document is no card that this program reads: it says that it is none, or one of another version. Nothing if it
-/// is one.
+/// Errors if a document is not a card, or a card of another version; empty if it is one.
 Faults format_faults(const json& document) {
   const std::string known = format_of(kCardVersion);
   Faults faults;
@@ -168,7 +166,7 @@ Faults format_faults(const json& document) {
   return faults;
 }
 
-/// Of several tests each has a name of its own.
+/// Several tests need different names.
 void check_names(ObjectReader& card, const std::vector<CardTest>& tests) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < tests.size() && tests.size() > 1; ++i)
@@ -177,9 +175,10 @@ void check_names(ObjectReader& card, const std::vector<CardTest>& tests) {
                  "of several tests each has a name of its own");
 }
 
-/// A card holds its contact laws twice: scale-free (`Material::parameters`) and in SI, for the material's grains and
-/// those of its tests. Adds every number of the SI form that the scale-free one does not give, to nine digits, those of
-/// a and b, which are small differences of larger numbers, of these: a card that was edited by hand in one place.
+/// A card has its contact laws twice: scale-free (`Material::parameters`) and in SI, for the material's grains and
+/// those of its tests. Adds a fault for every number in SI that differs from the scale-free form beyond nine digits,
+/// which shows an edit in one place only. For a and b, small differences of larger numbers, the digits are those of the
+/// larger numbers.
 void compare(const std::string& place, const json& in_si, const json& expected, const Bridge& bridge, Faults& faults) {
   const bool polynomial = bridge.shape == BridgeShape::polynomial;
   const auto scale_of = [&](const std::string& key, double number) {
@@ -188,7 +187,7 @@ void compare(const std::string& place, const json& in_si, const json& expected, 
     return std::abs(number);
   };
   const auto number_in = [](const json& flat, const std::string& key) {
-    return flat.contains(key) && flat[key].is_number() ? flat[key].get<double>() : 0;  // left out where it is 0
+    return flat.contains(key) && flat[key].is_number() ? flat[key].get<double>() : 0;  // omitted if 0
   };
   const json own = in_si.flatten(), other = expected.flatten();
   json keys = own;
@@ -204,7 +203,7 @@ void compare(const std::string& place, const json& in_si, const json& expected, 
   }
 }
 
-/// As `compare` takes it: with the attraction in overlap, which may be that of the bridge.
+/// Input of `compare`: with the attraction in overlap, which may be that of the bridge.
 json contact_in_full(Test test) {
   ContactModel& contact = specimen_of(test).contact;
   contact.cohesion_n = contact.cohesion_n.value_or(contact.bridge.c_n);

@@ -26,7 +26,7 @@ struct Setting {
   json value;
 };
 
-/// Settings of parameters stand apart: they are scale-free, which only a study's own file is.
+/// Settings of parameters are separate: they are scale-free, as only a study file is.
 struct Settings {
   std::vector<std::pair<std::size_t, double>> parameters;  // index in `parameter_kinds`, value
   std::vector<Setting> others;
@@ -68,7 +68,7 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
     }
     Setting setting{text.substr(0, sign), json::parse(text.substr(sign + 1), nullptr, false)};
     if (setting.value.is_discarded()) setting.value = text.substr(sign + 1);
-    // The parameters of a study are known by their name alone.
+    // Parameters may be given by name alone.
     if (std::ranges::find(parameter_kinds(), setting.path, &ParameterKind::name) != parameter_kinds().end())
       setting.path.insert(0, kParameters);
     if (setting.path.starts_with(kParameters))
@@ -79,8 +79,8 @@ Settings read_settings(const std::vector<std::string>& texts, Faults& faults) {
   return settings;
 }
 
-/// A single word that is neither a parameter nor a section of a file is a slip, mostly of a parameter's name. It is
-/// reported and taken out, so that the file is read without it and every other fault is found, too.
+/// A single word that is neither a parameter nor a section of a file is an error, mostly a misspelt parameter. It is
+/// reported and removed, so that all other faults are found, too.
 void take_out_slips(Settings& settings, const json& document, Faults& faults) {
   std::set<std::string, std::less<>> known{"title",    "test",   "provenance",   "apparatus",
                                            "material", "grains", "measurements", "confirmed"};
@@ -98,7 +98,7 @@ void take_out_slips(Settings& settings, const json& document, Faults& faults) {
   });
 }
 
-/// The place that one step of a path leads to, "key" of an object or "key[1]" of a list in it; null if there is none.
+/// Place after one step of a path, "key" of an object or "key[1]" of a list in it; null if there is none.
 json* step_into(json& place, const std::string& step) {
   if (!place.is_object() || step.empty()) return nullptr;
   const auto bracket = step.find('[');
@@ -111,13 +111,13 @@ json* step_into(json& place, const std::string& step) {
   return is_index && list != place.end() && list->is_array() && index < list->size() ? &(*list)[index] : nullptr;
 }
 
-/// Puts the value at its path; a key that the file's reader does not know is that reader's fault to report.
+/// Sets the value at its path; the file's reader reports unknown keys.
 void apply(const Setting& setting, json& document, Faults& faults) {
   json* place = &document;
   std::string_view rest = setting.path;
   while (true) {
     const auto dot = rest.find('.');
-    // Readings carry a dot in their name, "step1.height_mm": a key that is there as a whole wins.
+    // Names of readings contain a dot, "step1.height_mm": an existing whole key takes precedence.
     const bool whole = dot == std::string_view::npos || (place->is_object() && place->contains(rest));
     place = step_into(*place, std::string(whole ? rest : rest.substr(0, dot)));
     if (!place) {
@@ -156,7 +156,7 @@ Test with_parameters(const Test& test, std::vector<double> values, const Setting
   return with_contact_of(test, values);
 }
 
-/// The place of the test with this name, the first one's if that is empty; nothing, and a fault, if there is none.
+/// Index of the test with this name, of the first one if empty; none, and a fault, if there is none.
 template <class Tests>
 std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, Faults& faults) {
   if (name.empty()) return 0;
@@ -166,7 +166,7 @@ std::optional<std::size_t> chosen(const Tests& tests, const std::string& name, F
   return std::nullopt;
 }
 
-/// What a person should know of a laboratory file before its test runs.
+/// Notes on a laboratory file for the user.
 std::vector<std::string> notes_of(const Lab& lab) {
   std::vector<std::string> notes = lab.notes;
   if (!lab.note.empty()) notes.insert(notes.begin(), lab.note);
@@ -174,14 +174,14 @@ std::vector<std::string> notes_of(const Lab& lab) {
   return notes;
 }
 
-/// Whether the path is of the study's own content; all others are of its laboratory file.
+/// True if the path belongs to the study; others belong to its laboratory file.
 bool is_of_study(const Setting& setting) {
   constexpr std::array<std::string_view, 5> own{"contact", "search", "weights", "tolerances", "tests"};
   const std::string_view first = std::string_view(setting.path).substr(0, setting.path.find_first_of(".["));
   return std::ranges::count(own, first) > 0;
 }
 
-/// The name of the first test of a study that is fitted; empty if its only test has none.
+/// Name of the first fitted test of a study; empty if its only test has none.
 std::string first_test_of(const json& study) {
   const auto tests = study.find("tests");
   if (tests == study.end() || !tests->is_array()) return "";

@@ -18,7 +18,7 @@ bool is_fitted(const CardReading& one) {
   return one.measured && one.weight > 0 && one.tolerance > 0;
 }
 
-/// The fitted reading that is farthest off, in tolerances.
+/// Fitted reading with the largest error.
 struct Farthest {
   std::string name;
   double off = 0, tolerance = 1;
@@ -43,7 +43,7 @@ std::string off_in_words(const Farthest& one) {
   return one.name + " is off by " + format("%.3g%s, %.3g%s allowed", one.off, unit, one.tolerance, unit);
 }
 
-/// The fitted test most of whose runs a laboratory would reject.
+/// Fitted test with the most rejected runs.
 struct Rejected {
   const CardTest* test = nullptr;
   std::size_t runs = 0, of = 0;
@@ -114,7 +114,7 @@ Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, 
           share};
 }
 
-/// A fitted value within a hundredth of its range is at the bound: a search rarely ends on it to the last digit.
+/// A fitted value within a hundredth of its range counts as at the bound: searches rarely end exactly on it.
 std::vector<AtBound> parameters_at_bounds(const Card& card) {
   constexpr double near = 0.01;
   std::vector<AtBound> out;

@@ -13,27 +13,25 @@
 
 namespace pastefit {
 
-/// What the runs of some tests that are fitted say of the material: their readings by mean and scatter, and their
-/// heaps. Shape: one heap for each packing of the first of them; the one that is nearest to being rejected of its
-/// tests.
+/// Evidence from the fitted ones of some tests: means and scatter of their readings, and their heaps. Shape: one heap
+/// for each packing, with the largest rejection index of all tests.
 Evidence evidence_of(std::span<const CardTest> tests);
 
-/// What share of the heaps of these tests may be rejected, by the card's confirmation; in cards that did not keep it
-/// the default of studies; 1: a laboratory rejects none of this kind.
+/// Largest accepted share of rejected heaps: of the card's confirmation; the default of studies for cards without it; 1
+/// if no fitted test rejects heaps.
 double rejected_share_of(const Card& card, std::span<const CardTest> tests);
 
-/// Judges a material by its tests, simulated on these packings, which the search had not seen.
+/// Judges a material by its tests, simulated on packings that the search has not used.
 Confirmation confirmation_by(const Card& card, std::span<const CardTest> tests, std::vector<std::uint64_t> packings);
 
-/// Why the card does not count as confirmed, as a part of a sentence, e.g. "6 of 8 heaps sheared off, 1 in 5 allowed";
-/// empty for a confirmed card.
+/// Why the card is not confirmed, as part of a sentence, e.g. "6 of 8 heaps sheared off, 1 in 5 allowed"; empty for a
+/// confirmed card.
 std::string cause_unconfirmed(const Card& card);
 
-/// "NOT CONFIRMED: " and the cause: the first line of everything that shows or hands on an unconfirmed material; empty
-/// for a confirmed card.
+/// "NOT CONFIRMED: " and the cause: first line of all output of an unconfirmed material; empty for a confirmed card.
 std::string unconfirmed_line(const Card& card);
 
-/// A fitted parameter whose value is at a bound of its study.
+/// Fitted parameter at a bound of its study.
 struct AtBound {
   std::string parameter;
   double value = 0;
@@ -41,34 +39,33 @@ struct AtBound {
 };
 std::vector<AtBound> parameters_at_bounds(const Card& card);
 
-/// What to do about a card that is not confirmed, a sentence without a full stop; empty for a confirmed one, and one
-/// that was interpolated.
+/// Advice for an unconfirmed card, a sentence without a full stop; empty for confirmed and interpolated ones.
 std::string what_to_try(const Card& card);
 
-/// Whether every fitted reading is met, but the heaps are ones that a laboratory would reject.
+/// True if every fitted reading is met, but too many heaps are rejected.
 bool only_heaps_refute(const Card& card);
 
-/// What one reading of a test says of its material as a fluid with a yield stress, beside what the laboratory measured.
+/// Yield stress of the material as a fluid, by one reading of a test, compared with the measurement.
 struct ComparedYieldStress {
   std::string reading;
   std::string_view formula;          ///< its authors and year
-  double simulated_pa = 0;           ///< by the simulated reading
-  std::optional<double> reading_pa;  ///< by the laboratory's, if it was taken
-  std::optional<double> ratio;       ///< of the simulated to `CardTest::yield_stress`, if that was measured
-  std::optional<double> deviations;  ///< by which it is above that, in standard deviations of one measurement
+  double simulated_pa = 0;           ///< from the simulated reading
+  std::optional<double> reading_pa;  ///< from the measured reading, if there is one
+  std::optional<double> ratio;       ///< simulated over `CardTest::yield_stress`, if measured
+  std::optional<double> deviations;  ///< simulated less measured, in standard deviations of one measurement
 };
 
-/// Of each simulated reading for which there is a formula (`yield_stresses_of`).
+/// For each simulated reading with a formula (`yield_stresses_of`).
 std::vector<ComparedYieldStress> compared_yield_stresses(const CardTest& test);
 
-/// The same by the names of the readings: {"formula", "simulated", "measured", "ratio", "deviations"}, in Pa.
+/// The same by names of readings: {"formula", "simulated", "measured", "ratio", "deviations"}, in Pa.
 nlohmann::ordered_json yield_stresses_json(const CardTest& test);
 
-/// The card as it is stored, with `yield_stresses_json` of each test, where there are any, as its "yield_stress_pa".
-/// `card_from_json` reads that, too, without what is derived.
+/// The stored form of the card plus `yield_stresses_json` of each test, if any, as "yield_stress_pa". `card_from_json`
+/// accepts it and ignores derived values.
 nlohmann::ordered_json with_yield_stresses(const Card& card);
 
-/// Of the readings of one run: {"formula", "simulated"}.
+/// From the readings of one run: {"formula", "simulated"}.
 nlohmann::ordered_json yield_stresses_json(const Test& test, const Readings& readings);
 
 }  // namespace pastefit

@@ -23,9 +23,9 @@ Outcome simulate_impact(const Impact& test) {
 
 namespace {
 
-/// The attraction of two of the material's grains, of the mean radius, measured in the engine while they are pulled
-/// apart slowly, against the formula of the card's law, at five gaps within the reach of the bridge and one beyond it.
-/// No noise: the band is 1e-6 of the force at touch, what interpolation between two steps of the pull leaves uncertain.
+/// Compares the attraction of two grains of the mean radius, slowly pulled apart in the engine, with the formula of the
+/// card's law, at five gaps within the rupture distance and one beyond it. The band is 1e-6 of the force at touch, the
+/// error of interpolation between two steps of the pull; there is no noise.
 std::vector<CheckedReading> check_law(const Material& material, const CheckEngine& engine) {
   const double radius = material.grains.radius_m;
   const GrainPair pair{radius, radius, radius};
@@ -43,7 +43,7 @@ std::vector<CheckedReading> check_law(const Material& material, const CheckEngin
     grain.radius_m = radius;
     grain.held = true;
   }
-  const double start = -1e-3 * radius;  // in overlap, so that a bridge forms whatever its rule
+  const double start = -1e-3 * radius;  // in overlap, so that a bridge forms by any rule
   pull.duration_s = 1;
   pull.grains[1].centre_m = {2 * radius + start, 0, 0};
   pull.grains[1].velocity_m_s = {1.05 * reach - start, 0, 0};
@@ -66,14 +66,14 @@ std::vector<CheckedReading> check_law(const Material& material, const CheckEngin
 
 constexpr std::size_t kQuickPackings = 2;
 
-/// Whether a reading says something of its own.
+/// True if checks compare the reading (`ReadingKind::checked`).
 bool is_checked(const Test& test, const std::string& name) {
   const auto kinds = reading_kinds(test);
   const ReadingKind* kind = find_kind(kinds, name);
   return kind && kind->checked;
 }
 
-/// What the card promises for a reading: from its single runs, or from mean and deviation if it keeps none.
+/// Expected reading of a card: from its single runs, or from mean and deviation if it has none.
 struct Promise {
   std::string name;
   Sample sample;
@@ -99,7 +99,7 @@ std::vector<std::uint64_t> packings_of(const Card& card, const CardTest& test) {
   return out;
 }
 
-/// Of the test that has most.
+/// Packings of the test with the most.
 std::vector<std::uint64_t> packings_of(const Card& card) {
   std::vector<std::uint64_t> most;
   for (const auto& test : card.tests)
@@ -107,14 +107,14 @@ std::vector<std::uint64_t> packings_of(const Card& card) {
   return most;
 }
 
-/// The program whose readings the card promises.
+/// Program of the card's readings.
 std::string program_of(const Card& card) {
   for (const auto& test : card.tests)
     if (!test.baseline.runs.empty()) return test.baseline.program;
   return card.provenance.program;
 }
 
-/// Those of the packings that are simulated.
+/// The packings that are simulated.
 std::vector<std::uint64_t> asked(std::vector<std::uint64_t> packings, const CheckOptions& options) {
   if (options.quick && packings.size() > kQuickPackings) packings.resize(kQuickPackings);
   return packings;
@@ -130,14 +130,14 @@ SameBits compare_bits(const std::vector<Baseline::Run>& before, const std::vecto
   return SameBits::same;
 }
 
-/// Of all tests together.
+/// Result for all tests together.
 SameBits all_of(const std::vector<SameBits>& bits) {
   for (const auto bad : {SameBits::other, SameBits::not_comparable})
     if (std::ranges::count(bits, bad) > 0) return bad;
   return SameBits::same;
 }
 
-/// The surface of this name in a test of the card; nothing if none has it.
+/// Surface of this name in a test of the card; empty if there is none.
 std::optional<WallContact> surface_of(const Card& card, std::string_view name) {
   for (const CardTest& of_card : card.tests) {
     Test test = of_card.test;

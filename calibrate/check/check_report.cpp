@@ -15,7 +15,7 @@ auto count_of(const std::vector<CheckedFile>& checked, CheckVerdict verdict) {
   return std::ranges::count_if(checked, [&](const auto& one) { return one.check.verdict == verdict; });
 }
 
-/// A line of the table; of a test with a long name the numbers stand on the next.
+/// Row of the table; after a long name the numbers are on the next line.
 std::string table_row(const CheckedReading& reading) {
   const std::string below = reading.name.size() > 34 ? "\n" + std::string(36, ' ') : "";
   const std::string band = reading.band > 0 ? format("%.3g", reading.band) : "none";

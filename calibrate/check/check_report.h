@@ -9,14 +9,14 @@
 
 namespace pastefit {
 
-/// A card file and its answer. A card that could not be read is `not_checked`, with the faults as reason.
+/// Card file and its check. A card that cannot be read is `not_checked`, with the faults as reason.
 struct CheckedFile {
   std::filesystem::path file;
   CardCheck check;
-  double seconds = 0;  ///< of the wall clock
+  double seconds = 0;  ///< wall time
 };
 
-/// The answer for a card as a person reads it: a table of readings, and a sentence.
+/// Check as text: a table of readings, and the verdict with its reason.
 std::string text_of(const CheckedFile& checked);
 
 /// {"agree", "disagree", "not_checked", "cards": [...]}.

@@ -15,8 +15,8 @@ namespace {
 
 using Runs = std::vector<Baseline::Run>;
 
-/// Takes the readings of a stage, "step2.", from a run in which more than a tenth of its grains left the table, as
-/// where a heap slides off a plate. True if there was one.
+/// Removes the readings of a stage, "step2.", from a run in which more than a tenth of the grains left the table, e.g.
+/// when a heap slides off. Returns true if there was one.
 bool take_out_spilled(Baseline::Run& run) {
   constexpr double most = 0.1;
   constexpr std::string_view share = "spilled_share";
@@ -33,7 +33,7 @@ bool take_out_spilled(Baseline::Run& run) {
   return true;
 }
 
-/// `accepted`: the runs of each material that a laboratory would accept.
+/// `accepted`: accepted runs of each material.
 ReadingPrediction reading_of(const std::string& name, const std::vector<Runs>& accepted) {
   ReadingPrediction out;
   out.name = name;
@@ -69,7 +69,7 @@ double ReadingPrediction::width_left() const {
 Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& asked,
                            std::span<const Measurement> measured, int count, int threads, const CheckEngine& engine) {
   std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
-  std::iota(packings.begin(), packings.end(), 80'001);  // which no search has seen
+  std::iota(packings.begin(), packings.end(), 80'001);  // not used by any search
   const Test test = with_material_of(card, asked);
   std::vector<Runs> standing;
   Prediction out;

@@ -10,42 +10,43 @@
 
 namespace pastefit {
 
-/// A reading of a test that no search saw.
+/// Predicted reading of a test that no search used.
 struct ReadingPrediction {
   std::string name;
-  std::vector<double> of_materials;     ///< mean of each material, in their order
+  std::vector<double> of_materials;     ///< mean of each material
   double mean = 0;                      ///< of these means
-  double of_heap = 0;                   ///< standard deviation of one heap about its material's mean
+  double of_heap = 0;                   ///< standard deviation of one heap about the mean of its material
   double lower = 0, upper = 0;          ///< band for one measured heap
-  int heaps = 0;                        ///< of a material, at most
-  double of_test = 0;                   ///< standard deviation of one measured test: published, or of a heap if larger
-  std::optional<Measurement> measured;  ///< by the laboratory, if the file has it
+  int heaps = 0;                        ///< largest number for one material
+  double of_test = 0;                   ///< standard deviation of one measured test: published, or `of_heap` if larger
+  std::optional<Measurement> measured;  ///< if in the laboratory file
 
-  /// How wide the materials' range of this reading is once one test has measured it, over its width now:
+  /// Width of the materials' range of this reading after one measured test, over its present width:
   ///     s/sqrt(s^2 + v^2),   v^2 = max(0, variance of the means - w^2/n),
-  /// s = `of_test`, w = `of_heap`, n heaps a material: the standard deviation of a normal distribution after a
-  /// measurement over that before, the scatter of the means taken off. 1: nothing is learnt.
+  /// s = `of_test`, w = `of_heap`, n heaps for each material: ratio of the standard deviations of a normal distribution
+  /// after and before a measurement, without the scatter of the means. 1: nothing is gained.
   double width_left() const;
   bool is_within() const { return !measured || (lower <= measured->value && measured->value <= upper); }
 };
 
 struct Prediction {
-  std::vector<ReadingPrediction> readings;  ///< that a laboratory would take, or took
+  std::vector<ReadingPrediction> readings;  ///< advised or measured ones
   int heaps = 0;                            ///< simulated
-  int rejected = 0;                         ///< of them such as a laboratory would repeat, which are left out
-  int spilled = 0;  ///< of them such as slid off the table, by a tenth of their grains or more, whose readings then end
+  int rejected = 0;                         ///< of them rejected; these are left out
+  int spilled = 0;  ///< heaps with more than 0.1 of the grains off the table; readings of these stages are left out
 };
 
-/// The probability that a band is meant to have.
+/// Nominal probability of a band.
 inline constexpr double prediction_level = 0.9;
 
-/// What materials that fit the card's readings leave in another test, each in as many packings, one heap of 90 %:
+/// Predicts another test from materials that fit the card's readings, each simulated in `packings` packings. Band of
+/// one heap with a probability of 90 %:
 ///     from min_k x_k - t(0.95; n - m) s to max_k x_k + t(0.95; n - m) s,
-/// x_k the mean of material k, s the standard deviation of one heap, pooled over m materials and n heaps. The materials
-/// are as different as the readings allow, so that their range stands for what is not known of the material; the rest
-/// is the scatter of one heap. Error of the contact law and of the grains' size is not in it. `materials`: values of
-/// every parameter (`values_at`), the recommended ones first. Requirements: at least one, packings >= 2. Errors: the
-/// grains do not fit the test; a simulation fails.
+/// x_k: mean of material k, s: standard deviation of one heap, pooled over m materials and n heaps. `materials`: values
+/// of every parameter (`values_at`), the recommended ones first. Requirements: at least one material, packings >= 2.
+/// The materials should differ as much as the readings allow, so that their range represents the uncertainty of the
+/// material. Limit: the band excludes errors of contact law and grain size. Errors: the grains do not fit the test; a
+/// simulation fails.
 Result<Prediction> predict(const Card& card, std::span<const std::vector<double>> materials, const Test& test,
                            std::span<const Measurement> measured, int packings, int threads,
                            const CheckEngine& engine = CheckEngine::ours());

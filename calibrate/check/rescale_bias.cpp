@@ -11,7 +11,7 @@ namespace pastefit {
 
 namespace {
 
-/// The reading with what was simulated of it now.
+/// The reading with new simulated values.
 CardReading simulated_now(CardReading reading, const Sample& sample) {
   reading.simulated = sample.mean;
   reading.simulated_standard_deviation = sample.standard_deviation;
@@ -23,7 +23,7 @@ CardReading simulated_now(CardReading reading, const Sample& sample) {
 
 Result<Card> with_measured_bias(const Card& before, Card after, int count, const CheckOptions& options,
                                 const CheckEngine& engine) {
-  // Packings that no search has seen: seeds of a search are small or derived from its own seed.
+  // Packings not used by any search, whose seeds are small or derived from its own seed.
   std::vector<std::uint64_t> packings(static_cast<std::size_t>(count));
   std::iota(packings.begin(), packings.end(), 70'001);
   for (std::size_t t = 0; t < after.tests.size(); ++t) {

@@ -23,7 +23,7 @@ Result<std::vector<Baseline::Run>> baseline_runs(const Test& test, const std::st
         options.packing = engine.prepare(one, {});
         outcomes[i] = engine.run(one, options);
       }));
-    for (const auto& one : done) one.get();  // throws what the engine threw
+    for (const auto& one : done) one.get();  // rethrows exceptions of the engine
   }
   std::vector<Baseline::Run> runs;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
