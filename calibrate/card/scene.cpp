@@ -26,7 +26,7 @@ struct Setting {
   json value;
 };
 
-/// Settings of parameters are separate: they are scale-free, as only a study file is.
+/// Settings of parameters are separate, because they are scale-free; of all files only a study is.
 struct Settings {
   std::vector<std::pair<std::size_t, double>> parameters;  // index in `parameter_kinds`, value
   std::vector<Setting> others;

@@ -12,7 +12,6 @@ namespace pastefit {
 
 struct Impact;
 
-/// Simulates an impact.
 Outcome simulate_impact(const Impact& test);
 
 /// Engine of a check, with impacts and its identity.
@@ -42,7 +41,6 @@ enum class SameBits {
 };
 std::string_view name_of(SameBits bits);  ///< "same", "other", "not comparable"
 
-/// Comparison of one reading.
 struct CheckedReading {
   std::string name;              ///< reading, with the name of its test if any, or "law.attraction_n at 0.25 d_c"
   double expected = 0, got = 0;  ///< means

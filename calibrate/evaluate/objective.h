@@ -47,8 +47,9 @@ class Objective : public virtual Scoring {
   /// unit cube are a programming error (checked).
   virtual std::vector<Response> evaluate(std::span<const UnitPoint> points,
                                          std::span<const std::uint64_t> packings) = 0;
-  /// The same for screening candidates: a simulation may end as soon as the candidate is clearly worse, and omits the
-  /// energy balance, which confirmations check on other packings. The readings that it takes equal those of `evaluate`.
+  /// The same for candidates that need no complete result: a simulation may end as soon as the candidate is clearly
+  /// worse, and omits the energy balance, which confirmations check on other packings. The readings that it takes equal
+  /// those of `evaluate`.
   virtual std::vector<Response> try_out(std::span<const UnitPoint> points, std::span<const std::uint64_t> packings) {
     return evaluate(points, packings);
   }

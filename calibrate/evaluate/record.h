@@ -22,7 +22,7 @@ std::string key_of(const Study& study, std::size_t test, std::span<const double>
 /// ended early).
 std::optional<Failure> failure_of(const StudyTest& test, const StoredEvaluation& evaluation);
 
-/// Largest `rejection_index` of these tests; a laboratory rejects a run beyond 1, e.g. a sheared-off heap. `merged`:
+/// Largest `rejection_index` of these tests; beyond 1 a laboratory rejects the run, e.g. a sheared-off heap. `merged`:
 /// result of `merged`. NaN: no test has one.
 double rejection_index(const Study& study, std::span<const std::size_t> tests, const StoredEvaluation& merged);
 

@@ -23,7 +23,7 @@ struct Evaluation {
   std::optional<Failure> failure;
   bool censored = false;  ///< see `Objective::try_out`
   int simulations = 1;    ///< spent on it; 0: known before, or cut off by a stop
-  /// A laboratory rejects the heap beyond 1, e.g. because it sheared off; NaN: not judged.
+  /// Rejection index: beyond 1 a laboratory rejects the heap, e.g. because it sheared off; NaN: not judged.
   double rejection_index = std::numeric_limits<double>::quiet_NaN();
 
   bool is_rejected() const { return pastefit::is_rejected(rejection_index); }

@@ -197,7 +197,7 @@ Eigen::MatrixXd ResponseModel::covariance(const UnitPoint& point) const {
 Eigen::MatrixXd ResponseModel::errors_of_laboratory(const std::vector<ReadingModel::Prediction>& predictions) const {
   const auto count = static_cast<Eigen::Index>(fitted_.size());
   Eigen::MatrixXd out(count, count);
-  std::vector<double> of_heap;  // part of the laboratory's standard deviation that is scatter between heaps
+  std::vector<double> of_heap;  // part of the standard deviation of a measurement due to replicate scatter
   for (std::size_t j = 0; j < fitted_.size(); ++j) {
     const ReadingTrainingData& first = evidence_.readings[fitted_[j]];
     const auto row = static_cast<Eigen::Index>(j);

@@ -34,7 +34,7 @@ std::vector<std::size_t> accepted(const std::vector<bool>& rejected);
 /// Verdict on the mean of a material over packings that were not used to choose it.
 enum class Verdict {
   meets,     ///< within the tolerances
-  refuted,   ///< beyond the tolerances despite the noise, or some packing failed
+  refuted,   ///< beyond the tolerances despite the noise, or some packing failed or ended early
   undecided  ///< the packings scatter too much
 };
 

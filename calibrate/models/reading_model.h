@@ -25,7 +25,6 @@ namespace pastefit {
 /// variances.
 class ReadingModel {
  public:
-  /// Answer of one simulation.
   struct Answer {
     std::size_t site = 0;
     double value = 0;

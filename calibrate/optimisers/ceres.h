@@ -18,7 +18,6 @@ std::optional<TrustRegion> trust_region_of(std::string_view strategy);
 /// Loss of a residual; all but `none` limit the influence of a single bad measurement.
 enum class Loss { none, huber, cauchy };
 
-/// Options of a run of Ceres.
 struct CeresOptions {
   TrustRegion trust_region = TrustRegion::levenberg_marquardt;
   Loss loss = Loss::none;

@@ -11,7 +11,6 @@
 
 namespace pastefit {
 
-/// Options of a run of NLopt.
 struct NloptOptions {
   std::string algorithm = "bobyqa";  ///< one of `nlopt_algorithm_names()`
   int evaluations = 100;             ///< most points evaluated, start included; > 0

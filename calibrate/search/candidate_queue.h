@@ -30,7 +30,6 @@ struct Candidate {
   std::string purpose;         ///< phase of the search: "screening", "search", "refinement", "confirmation"
 };
 
-/// Evaluation of a candidate.
 struct CandidateResult {
   std::size_t candidate = 0;  ///< `Candidate::number`
   Evaluation evaluation;

@@ -17,8 +17,8 @@ inline constexpr double same_point = 0.01;
 /// tolerance, not their sum. A proposal closer than `same_point` to a known point is that point on another packing.
 ///
 /// Pending candidates enter the surrogate with fantasised means (Snoek, Larochelle & Adams 2012, section 3.2, with one
-/// draw). The draw of a candidate is always the same. Replicate scatter is left out, because it would scatter the
-/// proposals.
+/// draw), so that the next proposal is made for a plausible outcome. The draw of a candidate is always the same.
+/// Replicate scatter is left out, because it would scatter the proposals.
 ///
 /// With coarse grains, a proposal is simulated there first and moved until no other point is better within the noise.
 ///

@@ -11,10 +11,11 @@
 
 namespace pastefit {
 
-/// Predicts the residuals of a point and their misfit, in microseconds. The mean of the predicted misfit increases with
-/// the predictive variance, with the probability of a failure times the largest misfit observed, and with the scatter
-/// between packings. Each residual is trained on the simulations with its reading that are not rejected; on all of them
-/// if all are rejected. A residual without any simulation is predicted to be zero.
+/// Predicts the residuals of a point and their misfit, in microseconds. Evaluation cannot fail: nothing is simulated.
+/// The mean of the predicted misfit increases with the predictive variance, with the probability of a failure times the
+/// largest misfit observed, and with the scatter between packings. Each residual is trained on the simulations with its
+/// reading that are not rejected; on all of them if all are rejected. A residual without any simulation is predicted to
+/// be zero.
 class Surrogate {
  public:
   /// `seen`: finished simulations on one packing each, at least one of them feasible. `tolerances`: of each residual,

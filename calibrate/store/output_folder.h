@@ -36,7 +36,6 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-  /// Deletes these files.
   void clear(const std::vector<std::string>& names) const;
 
  private:

@@ -20,7 +20,7 @@ struct StoreIdentity {
   std::string inputs;   ///< all that determines the path of the search, as JSON text (`inputs_of` a study)
 };
 
-/// Largest reading that is kept, far beyond any in mm, Pa, kg or shares; squares of larger ones could be infinite.
+/// Largest reading that is stored, far beyond any in mm, Pa, kg or shares; squares of larger ones could be infinite.
 inline constexpr double kLargestReading = 1e15;
 
 /// One finished simulation, as stored.
